@@ -1,0 +1,22 @@
+/* PETSc's and SLEPc's Fortran headers, and every name that differs between their versions.
+   Debian 12 has 3.18; what changed later is settled here, so that no source asks for a version. */
+#include <slepc/finclude/slepceps.h>
+#if PETSC_VERSION_LT(3,22,0)
+#define GFB_VecGetArray VecGetArrayF90
+#define GFB_VecRestoreArray VecRestoreArrayF90
+#define GFB_VecGetArrayRead VecGetArrayReadF90
+#define GFB_VecRestoreArrayRead VecRestoreArrayReadF90
+#define GFB_GetClosure(dm,p,u,c,n,e) DMPlexGetTransitiveClosure(dm,p,u,c,e)
+#define GFB_RestoreClosure(dm,p,u,c,n,e) DMPlexRestoreTransitiveClosure(dm,p,u,c,e)
+#define GFB_COMM MPI_Comm
+#define GFB_REASON(r) r
+#else
+#define GFB_VecGetArray VecGetArray
+#define GFB_VecRestoreArray VecRestoreArray
+#define GFB_VecGetArrayRead VecGetArrayRead
+#define GFB_VecRestoreArrayRead VecRestoreArrayRead
+#define GFB_GetClosure(dm,p,u,c,n,e) DMPlexGetTransitiveClosure(dm,p,u,n,c,e)
+#define GFB_RestoreClosure(dm,p,u,c,n,e) DMPlexRestoreTransitiveClosure(dm,p,u,n,c,e)
+#define GFB_COMM MPIU_Comm
+#define GFB_REASON(r) r%v
+#endif

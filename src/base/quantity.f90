@@ -1,0 +1,88 @@
+!> One named answer with its unit and meaning.
+module gfb_quantity
+  use gfb_kinds, only: wp
+  use gfb_text, only: exact_text, text
+  implicit none (type, external)
+  private
+  public :: number_quantity, count_quantity, word_quantity, truth_quantity, add_quantity
+
+  integer, parameter, public :: quantity_number = 1, quantity_count = 2, quantity_word = 3, &
+                                quantity_truth = 4
+
+  !> A number, a count, a word or a truth.
+  type, public :: quantity_type
+    character(len=:), allocatable :: name
+    character(len=:), allocatable :: unit    !! SI, or '1'; empty for words
+    character(len=:), allocatable :: meaning !! one line
+    integer :: kind = quantity_number
+    real(wp) :: number = 0.0_wp              !! in `unit`; a count or a truth (1, 0) too
+    character(len=:), allocatable :: word
+  contains
+    procedure :: line => quantity_line
+  end type quantity_type
+
+contains
+
+  !> A real number.
+  pure function number_quantity(name, number, unit, meaning) result(quantity)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: number  !! in `unit`
+    character(len=*), intent(in) :: unit, meaning
+    type(quantity_type) :: quantity
+    quantity = quantity_type(name, unit, meaning, quantity_number, number, '')
+  end function number_quantity
+
+  !> A whole number.
+  pure function count_quantity(name, number, meaning) result(quantity)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: number
+    character(len=*), intent(in) :: meaning
+    type(quantity_type) :: quantity
+    quantity = quantity_type(name, '1', meaning, quantity_count, real(number, wp), '')
+  end function count_quantity
+
+  !> A word.
+  pure function word_quantity(name, word, meaning) result(quantity)
+    character(len=*), intent(in) :: name, word, meaning
+    type(quantity_type) :: quantity
+    quantity = quantity_type(name, '', meaning, quantity_word, 0.0_wp, word)
+  end function word_quantity
+
+  !> Yes or no.
+  pure function truth_quantity(name, truth, meaning) result(quantity)
+    character(len=*), intent(in) :: name
+    logical, intent(in) :: truth
+    character(len=*), intent(in) :: meaning
+    type(quantity_type) :: quantity
+    quantity = quantity_type(name, '1', meaning, quantity_truth, merge(1.0_wp, 0.0_wp, truth), '')
+  end function truth_quantity
+
+  !> Puts a quantity at the end of a list.
+  pure subroutine add_quantity(list, quantity)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    type(quantity_type), intent(in) :: quantity
+
+    if (allocated(list)) then
+      list = [list, quantity]
+    else
+      list = [quantity]
+    end if
+  end subroutine add_quantity
+
+  !> `name = value [unit]`; the number reads back exactly.
+  pure function quantity_line(self) result(line)
+    class(quantity_type), intent(in) :: self
+    character(len=:), allocatable :: line
+
+    select case (self%kind)
+    case (quantity_word)
+      line = self%name//' = '//self%word
+    case (quantity_truth)
+      line = self%name//' = '//trim(merge('true ', 'false', self%number > 0.5_wp))
+    case (quantity_count)
+      line = self%name//' = '//text(nint(self%number))//' [1]'
+    case default
+      line = self%name//' = '//exact_text(self%number)//' ['//self%unit//']'
+    end select
+  end function quantity_line
+end module gfb_quantity

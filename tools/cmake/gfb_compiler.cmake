@@ -1,0 +1,37 @@
+# Compiler options of every target, and the two outside libraries as targets of our own.
+
+add_library(gfb_petsc INTERFACE)
+add_library(gfb::petsc ALIAS gfb_petsc)
+target_link_libraries(gfb_petsc INTERFACE PkgConfig::SLEPC PkgConfig::PETSC MPI::MPI_Fortran MPI::MPI_C
+                                          LAPACK::LAPACK)
+target_include_directories(gfb_petsc INTERFACE ${PROJECT_SOURCE_DIR}/include)
+
+add_library(gfb_hdf5 INTERFACE)
+add_library(gfb::hdf5 ALIAS gfb_hdf5)
+target_link_libraries(gfb_hdf5 INTERFACE ${HDF5_Fortran_LIBRARIES} MPI::MPI_Fortran)
+target_include_directories(gfb_hdf5 INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
+
+# gfortran 12 takes allocatables that an assignment allocates for uninitialised, wrongly; the debug
+# build's checks find the real ones. Reals are compared with zero on purpose. The kind of PetscInt, which
+# the C shim takes, is known to the compiler as a number only.
+set(gfb_warnings -Wall -Wextra -Werror -Wno-unused-dummy-argument -Wno-compare-reals -Wno-uninitialized
+                 -Wno-maybe-uninitialized -Wno-c-binding-type)
+set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-99999999 -finit-derived
+                     -ffpe-trap=invalid,zero,overflow -fbacktrace)
+
+function(gfb_compile_options target)
+  if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL GNU)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE
+    $<$<COMPILE_LANGUAGE:Fortran>:${gfb_warnings} -ffree-line-length-none>
+    $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Werror>
+    $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Debug>>:${gfb_debug_checks}>
+    $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O2 -g1>)
+  # Sources that need no preprocessor are standard Fortran; PETSc's headers are not.
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.f90$")
+  if(sources)
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-std=f2018;-Wimplicit-interface")
+  endif()
+endfunction()
