@@ -1,0 +1,31 @@
+!> Film thickness between a tilted shaft and an undeformed sleeve.
+module gfb_film_gap
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: rigid_gap
+
+contains
+
+  !> Gap at one place without foil deflection.
+  !>
+  !> $$ h_r = C + (e_x + z \phi_y) \cos\theta + (e_y - z \phi_x) \sin\theta $$
+  !>
+  !> Source: [Gu2020] eq. 12. As printed there \( \phi_x \) stands with the cosine; the text of its
+  !> section 4.3 fits only with the two exchanged, as here. Its derivatives with respect to
+  !> \( (e_x, e_y) \) are \( (\cos\theta, \sin\theta) \).
+  elemental function rigid_gap(angle, axial, clearance, eccentricity_x, eccentricity_y, &
+                               tilt_x, tilt_y) result(gap)
+    real(wp), intent(in) :: angle          !! theta [rad]
+    real(wp), intent(in) :: axial          !! z, zero at the midplane [m]
+    real(wp), intent(in) :: clearance      !! C [m]
+    real(wp), intent(in) :: eccentricity_x !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: eccentricity_y !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: tilt_x         !! of the sleeve relative to the shaft about x [rad]
+    real(wp), intent(in) :: tilt_y         !! of the sleeve relative to the shaft about y [rad]
+    real(wp) :: gap                        !! h_r [m]
+
+    gap = clearance + (eccentricity_x + axial*tilt_y)*cos(angle) &
+      + (eccentricity_y - axial*tilt_x)*sin(angle)
+  end function rigid_gap
+end module gfb_film_gap

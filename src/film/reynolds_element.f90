@@ -1,0 +1,211 @@
+!> Four-node element of the steady, isothermal, ideal-gas film.
+!>
+!> Pressure and gap are bilinear, so both are positive inside where they are at the four nodes.
+module gfb_reynolds_element
+  use gfb_kinds, only: wp
+  use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, film_points
+  implicit none (type, external)
+  private
+  public :: reynolds_residual, reynolds_jacobian, upwind_weight, cell_peclet
+
+  !> The gas between the surfaces, and how its equation is weighted.
+  type, public :: film_flow_type
+    real(wp) :: viscosity = 0.0_wp        !! dynamic viscosity of the gas [Pa s]
+    real(wp) :: entraining_speed = 0.0_wp !! U, half the shaft's surface speed [m/s]
+    logical :: upwind = .false.           !! SUPG instead of Galerkin weighting
+  end type film_flow_type
+
+  !> Pressure, gap and their gradients at one Gauss point.
+  type :: film_state_type
+    real(wp) :: p, p_x, p_z !! pressure and its gradient [Pa], [Pa/m]
+    real(wp) :: h, h_x, h_z !! gap and its gradient [m], [1]
+  end type film_state_type
+
+  real(wp), parameter :: small_peclet = 0.02_wp !! below it the series of coth is exact to round-off
+  real(wp), parameter :: large_peclet = 20.0_wp !! above it coth is one to round-off
+
+contains
+
+  !> Residual of the compressible Reynolds equation on one element.
+  !>
+  !> $$ r_a = \int_{\Omega^e} \Bigl[ \nabla N_a \cdot \Bigl( \frac{p h^3}{12 \mu} \nabla p
+  !>      - p h \mathbf{U} \Bigr) - N_a s + \frac{\alpha \ell}{2} \frac{\partial N_a}{\partial x} R
+  !>      \Bigr] d\Omega, \quad
+  !>    R = \nabla \cdot (p h \mathbf{U}) - \nabla \cdot \frac{p h^3}{12 \mu} \nabla p - s $$
+  !>
+  !> Source: [Gu2020] eq. 15, whose edge term is absent because the pressure is given on every edge;
+  !> the last term (SUPG, streamline upwind Petrov-Galerkin, \( \alpha = \coth Pe - 1/Pe \)) only with
+  !> `flow%upwind`. The second derivatives of the pressure in R vanish on parallelograms.
+  pure subroutine reynolds_residual(geometry, flow, pressure, gap, source, residual)
+    type(film_geometry_type), intent(in) :: geometry
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: pressure(film_nodes)  !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(film_nodes)       !! film thickness at the nodes [m]
+    real(wp), intent(in) :: source(film_nodes)    !! s, gas fed in (p h per time) [Pa m/s]
+    real(wp), intent(out) :: residual(film_nodes) !! one a node [Pa m3/s]
+
+    type(film_state_type) :: state
+    real(wp) :: mobility, flux_x, flux_z, fed
+    integer :: point
+
+    residual = 0.0_wp
+    do point = 1, film_points
+      associate (shape => film_shape(:, point), gradient => geometry%gradient(:, :, point))
+        state = film_state(shape, gradient, pressure, gap)
+        fed = dot_product(shape, source)
+        mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
+        flux_x = mobility*state%p_x - state%p*state%h*flow%entraining_speed
+        flux_z = mobility*state%p_z
+        if (flow%upwind) then
+          flux_x = flux_x + 0.5_wp*geometry%stream_length(point)* &
+            upwind_weight(cell_peclet(flow, geometry%stream_length(point), state%p, state%h))* &
+            (strong_residual(flow, state) - fed)
+        end if
+        residual = residual + geometry%area(point)* &
+          (flux_x*gradient(1, :) + flux_z*gradient(2, :) - fed*shape)
+      end associate
+    end do
+  end subroutine reynolds_residual
+
+  !> Exact derivatives of `reynolds_residual` with respect to the nodal pressures and gaps.
+  pure subroutine reynolds_jacobian(geometry, flow, pressure, gap, source, by_pressure, by_gap)
+    type(film_geometry_type), intent(in) :: geometry
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: pressure(film_nodes) !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(film_nodes)      !! film thickness at the nodes [m]
+    real(wp), intent(in) :: source(film_nodes)   !! s, gas fed in (p h per time) [Pa m/s]
+    real(wp), intent(out) :: by_pressure(film_nodes, film_nodes) !! dr_a/dp_b [m3/s]
+    real(wp), intent(out) :: by_gap(film_nodes, film_nodes)      !! dr_a/dh_b [Pa m2/s]
+
+    type(film_state_type) :: state
+    real(wp), dimension(film_nodes) :: x_by_p, z_by_p, x_by_h, z_by_h
+    real(wp) :: mobility, speed
+    integer :: point, b
+
+    by_pressure = 0.0_wp
+    by_gap = 0.0_wp
+    speed = flow%entraining_speed
+    do point = 1, film_points
+      associate (shape => film_shape(:, point), gradient => geometry%gradient(:, :, point), &
+                 area => geometry%area(point))
+        state = film_state(shape, gradient, pressure, gap)
+        mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
+        x_by_p = shape*(mobility/state%p*state%p_x - state%h*speed) + mobility*gradient(1, :)
+        z_by_p = shape*mobility/state%p*state%p_z + mobility*gradient(2, :)
+        x_by_h = shape*(3.0_wp*mobility/state%h*state%p_x - state%p*speed)
+        z_by_h = shape*3.0_wp*mobility/state%h*state%p_z
+        if (flow%upwind) then
+          call add_upwind_derivatives(flow, geometry%stream_length(point), shape, gradient, state, &
+                                      dot_product(shape, source), x_by_p, x_by_h)
+        end if
+        do b = 1, film_nodes
+          by_pressure(:, b) = by_pressure(:, b) &
+            + area*(x_by_p(b)*gradient(1, :) + z_by_p(b)*gradient(2, :))
+          by_gap(:, b) = by_gap(:, b) + area*(x_by_h(b)*gradient(1, :) + z_by_h(b)*gradient(2, :))
+        end do
+      end associate
+    end do
+  end subroutine reynolds_jacobian
+
+  !> Adds the derivatives of the upwind term's flux along x.
+  pure subroutine add_upwind_derivatives(flow, stream_length, shape, gradient, state, fed, &
+                                         x_by_p, x_by_h)
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: stream_length           !! the element's length along x [m]
+    real(wp), intent(in) :: shape(film_nodes)       !! shape functions [1]
+    real(wp), intent(in) :: gradient(2, film_nodes) !! their gradients [1/m]
+    type(film_state_type), intent(in) :: state
+    real(wp), intent(in) :: fed                     !! source at the point [Pa m/s]
+    real(wp), intent(inout) :: x_by_p(film_nodes)   !! flux along x by nodal pressure
+    real(wp), intent(inout) :: x_by_h(film_nodes)   !! flux along x by nodal gap
+
+    real(wp), dimension(film_nodes) :: strong_by_p, strong_by_h, along_p, along_h
+    real(wp) :: peclet, weight, slope, strong, slope_p, cross, twelfth
+
+    peclet = cell_peclet(flow, stream_length, state%p, state%h)
+    weight = 0.5_wp*stream_length*upwind_weight(peclet)
+    slope = 0.5_wp*stream_length*upwind_weight_derivative(peclet)
+    strong = strong_residual(flow, state) - fed
+    slope_p = state%p_x**2 + state%p_z**2
+    cross = state%h_x*state%p_x + state%h_z*state%p_z
+    along_p = state%p_x*gradient(1, :) + state%p_z*gradient(2, :)
+    along_h = state%h_x*gradient(1, :) + state%h_z*gradient(2, :)
+    twelfth = 1.0_wp/(12.0_wp*flow%viscosity)
+    strong_by_p = flow%entraining_speed*(state%h*gradient(1, :) + shape*state%h_x) &
+      - twelfth*(2.0_wp*state%h**3*along_p &
+                 + 3.0_wp*state%h**2*(shape*cross + state%p*along_h))
+    strong_by_h = flow%entraining_speed*(shape*state%p_x + state%p*gradient(1, :)) &
+      - twelfth*(3.0_wp*state%h**2*shape*slope_p + 6.0_wp*state%p*state%h*shape*cross &
+                 + 3.0_wp*state%p*state%h**2*along_p)
+    x_by_p = x_by_p + weight*strong_by_p - slope*strong*peclet/state%p*shape
+    x_by_h = x_by_h + weight*strong_by_h - slope*strong*2.0_wp*peclet/state%h*shape
+  end subroutine add_upwind_derivatives
+
+  !> Divergence form of the equation at a point, without source and second derivatives [Pa m/s].
+  pure function strong_residual(flow, state) result(strong)
+    type(film_flow_type), intent(in) :: flow
+    type(film_state_type), intent(in) :: state
+    real(wp) :: strong
+
+    strong = flow%entraining_speed*(state%h*state%p_x + state%p*state%h_x) &
+      - (state%h**3*(state%p_x**2 + state%p_z**2) + 3.0_wp*state%p*state%h**2* &
+         (state%h_x*state%p_x + state%h_z*state%p_z))/(12.0_wp*flow%viscosity)
+  end function strong_residual
+
+  !> Cell Peclet number, entrained over diffused flow.
+  !>
+  !> $$ Pe = \frac{U h \ell}{2 k}, \quad k = \frac{p h^3}{12 \mu} $$
+  pure function cell_peclet(flow, stream_length, pressure, gap) result(peclet)
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: stream_length !! l, the element's length along x [m]
+    real(wp), intent(in) :: pressure      !! p [Pa]
+    real(wp), intent(in) :: gap           !! h [m]
+    real(wp) :: peclet                    !! [1]
+
+    peclet = 6.0_wp*flow%viscosity*flow%entraining_speed*stream_length/(pressure*gap**2)
+  end function cell_peclet
+
+  !> The weight \( \coth Pe - 1/Pe \), which makes linear elements exact at the nodes in one dimension.
+  elemental function upwind_weight(peclet) result(weight)
+    real(wp), intent(in) :: peclet !! [1]
+    real(wp) :: weight             !! [1]
+
+    if (abs(peclet) < small_peclet) then
+      weight = peclet/3.0_wp - peclet**3/45.0_wp + 2.0_wp*peclet**5/945.0_wp
+    else if (abs(peclet) > large_peclet) then
+      weight = sign(1.0_wp, peclet) - 1.0_wp/peclet
+    else
+      weight = 1.0_wp/tanh(peclet) - 1.0_wp/peclet
+    end if
+  end function upwind_weight
+
+  !> Derivative of `upwind_weight`.
+  elemental function upwind_weight_derivative(peclet) result(slope)
+    real(wp), intent(in) :: peclet !! [1]
+    real(wp) :: slope              !! [1]
+
+    if (abs(peclet) < small_peclet) then
+      slope = 1.0_wp/3.0_wp - peclet**2/15.0_wp + 2.0_wp*peclet**4/189.0_wp
+    else if (abs(peclet) > large_peclet) then
+      slope = 1.0_wp/peclet**2
+    else
+      slope = 1.0_wp/peclet**2 - 1.0_wp/sinh(peclet)**2
+    end if
+  end function upwind_weight_derivative
+
+  !> Pressure, gap and their gradients at a Gauss point.
+  pure function film_state(shape, gradient, pressure, gap) result(state)
+    real(wp), intent(in) :: shape(film_nodes)       !! shape functions [1]
+    real(wp), intent(in) :: gradient(2, film_nodes) !! their gradients [1/m]
+    real(wp), intent(in) :: pressure(film_nodes)    !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(film_nodes)         !! at the nodes [m]
+    type(film_state_type) :: state
+
+    state%p = dot_product(shape, pressure)
+    state%h = dot_product(shape, gap)
+    state%p_x = dot_product(gradient(1, :), pressure)
+    state%p_z = dot_product(gradient(2, :), pressure)
+    state%h_x = dot_product(gradient(1, :), gap)
+    state%h_z = dot_product(gradient(2, :), gap)
+  end function film_state
+end module gfb_reynolds_element
