@@ -1,0 +1,132 @@
+#include "gfb_petsc.h"
+!> What an engineer reads off the bearing's state, over all ranks.
+module gfb_bearing_answer
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_film_load, only: film_forces
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: bearing_answer, film_block, full_rows
+
+  real(wp), parameter :: rough_step = 0.1_wp !! change of the gap along a cell that counts as rough [1]
+
+  !> Numbers of one state.
+  type, public :: bearing_answer_type
+    real(wp) :: eccentricity(2) = 0.0_wp           !! [m]
+    real(wp) :: force(film_forces) = 0.0_wp        !! F_x, F_y on the sleeve, M_x, M_y on the shaft
+    real(wp) :: force_without_suction(film_forces) = 0.0_wp !! the same, p > p_a only
+    real(wp) :: friction_torque = 0.0_wp           !! that brakes the shaft [N m]
+    real(wp) :: power_loss = 0.0_wp                !! [W]
+    real(wp) :: minimum_gap = 0.0_wp               !! at the nodes [m]
+    real(wp) :: minimum_gap_midplane = 0.0_wp      !! at z = 0 [m]
+    real(wp) :: minimum_gap_edge = 0.0_wp          !! at both edges [m]
+    real(wp) :: maximum_pressure = 0.0_wp          !! [Pa]
+    real(wp) :: minimum_pressure = 0.0_wp          !! [Pa]
+    real(wp) :: maximum_peclet = 0.0_wp            !! of the film's cells [1]
+    real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
+  end type bearing_answer_type
+
+contains
+
+  !> Reads the answer off the present state.
+  function bearing_answer(bearing) result(answer)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_answer_type) :: answer
+
+    real(wp) :: unknown(bearing%local_size()), largest(7)
+    real(wp) :: gap(size(bearing%mesh%mesh_node)), pressure(size(bearing%mesh%mesh_node))
+    real(wp) :: total(2*film_forces + 1)
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    pressure = unknown(:size(gap))
+    associate (film => bearing%film, whole => bearing%whole)
+      total = sum_over_ranks([film%force(pressure), film%force_without_suction(pressure), &
+                              film%drag(pressure, gap)])
+      largest(1) = -minval(gap)
+      largest(2) = -film%midplane_gap(gap)
+      largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
+      largest(4) = maxval(pressure)
+      largest(5) = -minval(pressure)
+      largest(6) = film%peclet(pressure, gap, 0.0_wp)
+      largest(7) = film%peclet(pressure, gap, rough_step)
+      largest = largest_over_ranks(largest)
+    end associate
+    answer%eccentricity = bearing%eccentricity()
+    answer%force = total(1:film_forces)
+    answer%force_without_suction = total(film_forces + 1:2*film_forces)
+    answer%friction_torque = total(size(total))*bearing%film%radius
+    answer%power_loss = answer%friction_torque*bearing%point%speed
+    answer%minimum_gap = -largest(1)
+    answer%minimum_gap_midplane = -largest(2)
+    answer%minimum_gap_edge = -largest(3)
+    answer%maximum_pressure = largest(4)
+    answer%minimum_pressure = -largest(5)
+    answer%maximum_peclet = largest(6)
+    answer%rough_peclet = largest(7)
+  end function bearing_answer
+
+  !> Rows of the whole width, also where half of it is solved.
+  pure function full_rows(bearing) result(position)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), allocatable :: position(:) !! z [m]
+
+    associate (z => bearing%whole%row_axial)
+      if (bearing%whole%half) then
+        position = [-z(size(z):2:-1), z]
+      else
+        position = z
+      end if
+    end associate
+  end function full_rows
+
+  !> This rank's consecutive part of a film field on the whole pad: station by station, rows of the
+  !> whole width, a ring closed by its first station.
+  subroutine film_block(bearing, value, first, last, block)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: value(:)   !! at the local nodes
+    integer, intent(in) :: first, last !! nodes of the pad this rank takes, from 1
+    real(wp), allocatable, intent(out) :: block(:)
+
+    Vec :: ordered, part
+    IS :: from
+    VecScatter :: fetch
+    PetscScalar, pointer :: values(:)
+    PetscInt, allocatable :: number(:)
+    PetscErrorCode :: ierr
+    integer :: i, rows, row, station, node
+
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, int(bearing%whole%nodes(), pint), ordered, ierr))
+    number = int(pack(bearing%mesh%mesh_node, bearing%mesh%owned) - 1, pint)
+    PetscCallA(VecSetValues(ordered, int(size(number), pint), number, pack(value, bearing%mesh%owned), INSERT_VALUES, ierr))
+    PetscCallA(VecAssemblyBegin(ordered, ierr))
+    PetscCallA(VecAssemblyEnd(ordered, ierr))
+
+    rows = bearing%whole%rows()
+    if (bearing%whole%half) rows = 2*rows - 1
+    deallocate (number)
+    allocate (number(last - first + 1))
+    do i = first, last
+      station = modulo((i - 1)/rows, bearing%whole%stations())
+      row = modulo(i - 1, rows) + 1
+      if (bearing%whole%half) row = abs(row - bearing%whole%rows()) + 1
+      node = station*bearing%whole%rows() + row
+      number(i - first + 1) = node - 1
+    end do
+    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(size(number), pint), part, ierr))
+    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(number), pint), number, PETSC_COPY_VALUES, from, ierr))
+    PetscCallA(VecScatterCreate(ordered, from, part, PETSC_NULL_IS, fetch, ierr))
+    PetscCallA(VecScatterBegin(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(VecScatterEnd(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(GFB_VecGetArrayRead(part, values, ierr))
+    block = values
+    PetscCallA(GFB_VecRestoreArrayRead(part, values, ierr))
+    PetscCallA(VecScatterDestroy(fetch, ierr))
+    PetscCallA(ISDestroy(from, ierr))
+    PetscCallA(VecDestroy(part, ierr))
+    PetscCallA(VecDestroy(ordered, ierr))
+  end subroutine film_block
+end module gfb_bearing_answer

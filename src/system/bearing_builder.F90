@@ -1,0 +1,117 @@
+#include "gfb_petsc.h"
+!> From a scene to its equations on a mesh.
+module gfb_bearing_builder
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_scene, only: scene_type
+  use gfb_bearing_case, only: pad_angle, leading_edge_periodic
+  use gfb_operation_case, only: operation_case_type, angular_speed
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, &
+                            foundation_pressure_axial_mean
+  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh
+  use gfb_foil_model, only: foil_model_type
+  use gfb_rigid_foil, only: rigid_foil_type, create_rigid_foil
+  use gfb_foundation_foil, only: foundation_foil_type, create_local_foundation, &
+                                 create_mean_foundation
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
+  implicit none (type)
+  private
+  public :: build_bearing, operating_point, foundation_stiffness
+
+  !> What the program decided about a scene, and the mesh it asks for.
+  type, public :: bearing_plan_type
+    integer :: circumferential = 0 !! film elements along the motion
+    integer :: axial = 0           !! film elements along the whole width
+    logical :: half = .false.      !! half the width is solved
+    logical :: upwind = .false.    !! SUPG instead of Galerkin
+    logical :: floats = .false.    !! the shaft's position is unknown
+  end type bearing_plan_type
+
+contains
+
+  !> The equations of a scene on a mesh of given size.
+  !>
+  !> Fails when the mesh cannot be cut into parts.
+  subroutine build_bearing(scene, plan, bearing, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(bearing_system_type), intent(inout) :: bearing
+    type(error_type), allocatable, intent(out) :: error
+
+    class(foil_model_type), allocatable :: foil
+
+    call create_film_part(uniform_film_mesh(scene%bearing%radius, scene%bearing%length, &
+                                            scene%bearing%leading_edge_angle, pad_angle(scene%bearing), &
+                                            plan%circumferential, plan%axial, &
+                                            scene%bearing%leading_edge_condition == leading_edge_periodic, &
+                                            plan%half), &
+                          scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, &
+                          plan%upwind, bearing, error)
+    if (allocated(error)) return
+    bearing%point = operating_point(scene%operation)
+    call create_foil(scene, bearing, foil)
+    call create_bearing_system(bearing, foil, plan%floats)
+  end subroutine build_bearing
+
+  !> The foil model the scene asks for.
+  subroutine create_foil(scene, bearing, foil)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing !! with its film
+    class(foil_model_type), allocatable, intent(out) :: foil
+
+    type(rigid_foil_type), allocatable :: rigid
+    type(foundation_foil_type), allocatable :: foundation
+    integer :: rank, ranks
+    PetscErrorCode :: ierr
+
+    select case (scene%model%foil)
+    case (foil_rigid)
+      allocate (rigid)
+      call create_rigid_foil(size(bearing%mesh%mesh_node), rigid)
+      call move_alloc(rigid, foil)
+    case (foil_elastic_foundation)
+      allocate (foundation)
+      if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
+        call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+        call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
+        call create_mean_foundation(bearing%whole, bearing%mesh, rank, ranks, &
+                                    foundation_stiffness(scene%model, scene%bump_foil), &
+                                    scene%gas%ambient_pressure, scene%bearing%clearance, foundation)
+      else
+        call create_local_foundation(size(bearing%mesh%mesh_node), &
+                                     foundation_stiffness(scene%model, scene%bump_foil), &
+                                     scene%gas%ambient_pressure, foundation)
+      end if
+      call move_alloc(foundation, foil)
+    case default
+      error stop 'a foil model without equations'
+    end select
+  end subroutine create_foil
+
+  !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
+  pure function foundation_stiffness(model, bump_foil) result(stiffness)
+    type(model_case_type), intent(in) :: model
+    type(bump_foil_case_type), intent(in) :: bump_foil
+    real(wp) :: stiffness
+
+    stiffness = model%foundation_stiffness
+    if (stiffness > 0.0_wp) return
+    stiffness = walowit_anno_stiffness(bump_foil%youngs_modulus, bump_foil%poissons_ratio, &
+                                       bump_foil%thickness, bump_foil%half_length, bump_foil%pitch)
+  end function foundation_stiffness
+
+  !> Where the scene puts the shaft, in SI.
+  pure function operating_point(operation) result(point)
+    type(operation_case_type), intent(in) :: operation
+    type(operating_point_type) :: point
+
+    point%speed = angular_speed(operation%speed_rpm)
+    point%load = operation%load
+    point%eccentricity = operation%eccentricity
+    point%tilt = operation%tilt
+  end function operating_point
+end module gfb_bearing_builder

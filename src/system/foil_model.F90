@@ -1,0 +1,91 @@
+#include "gfb_petsc.h"
+!> What the film needs to know of the foil under it, whatever the foil is.
+!>
+!> A foil has unknowns of its own, or none. Its deflection at each film node follows from one
+!> unknown of the bearing: \( h_f = r (x - x_0) \). It adds its equations to those of the film.
+module gfb_foil_model
+  use petscmat
+  use gfb_kinds, only: wp
+  implicit none (type)
+  private
+
+  !> A foil model: deflection at the film nodes, equations, their derivatives.
+  type, abstract, public :: foil_model_type
+    integer :: owned = 0      !! unknowns of the foil this rank owns
+    integer :: first = 0      !! local unknowns of the bearing before the foil's first
+    integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
+    integer :: row_entries = 0 !! entries a row of the foil needs, at most
+    integer, allocatable :: global_unknown(:)  !! foil's own number of each local unknown, by owners
+    real(wp), allocatable :: unknown_scale(:)  !! size of each local unknown, in its unit
+    real(wp), allocatable :: equation_scale(:) !! size of each local equation, in its unit
+    !> Local unknown of the bearing that moves a film node, 0 where none does; until the foil's
+    !> unknowns are placed, those of its own stand as negative numbers.
+    integer, allocatable :: source(:)
+    real(wp), allocatable :: rate(:)           !! r, deflection over that unknown
+    real(wp), allocatable :: origin(:)         !! x_0, the unknown's value without deflection
+  contains
+    procedure(add_residual), deferred :: add_residual
+    procedure(add_jacobian), deferred :: add_jacobian
+    procedure(estimate), deferred :: estimate
+    procedure :: place
+    procedure :: local_unknowns
+    procedure :: deflection
+  end type foil_model_type
+
+  abstract interface
+    !> Adds the foil's equations to the local residual of the bearing.
+    subroutine add_residual(self, unknown, residual)
+      import :: foil_model_type, wp
+      class(foil_model_type), intent(in) :: self
+      real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
+      real(wp), intent(inout) :: residual(:) !! one a local unknown
+    end subroutine add_residual
+
+    !> Adds the derivatives of the foil's equations to the bearing's matrix, by local numbers.
+    subroutine add_jacobian(self, unknown, jacobian)
+      import :: foil_model_type, wp, tMat
+      class(foil_model_type), intent(in) :: self
+      real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+      Mat, intent(in) :: jacobian
+    end subroutine add_jacobian
+
+    !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
+    subroutine estimate(self, unknown)
+      import :: foil_model_type, wp
+      class(foil_model_type), intent(in) :: self
+      real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
+    end subroutine estimate
+  end interface
+
+contains
+
+  !> Tells the foil where its unknowns stand among those of the bearing.
+  pure subroutine place(self, first)
+    class(foil_model_type), intent(inout) :: self
+    integer, intent(in) :: first !! local unknowns before the foil's first
+
+    self%first = first
+    where (self%source < 0) self%source = first - self%source
+  end subroutine place
+
+  !> Unknowns of the foil that this rank's nodes and equations need.
+  pure function local_unknowns(self) result(unknowns)
+    class(foil_model_type), intent(in) :: self
+    integer :: unknowns
+    unknowns = size(self%global_unknown)
+  end function local_unknowns
+
+  !> Deflection at the local film nodes, positive away from the shaft [m].
+  pure function deflection(self, unknown) result(moved)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp) :: moved(size(self%source))
+    integer :: node
+
+    moved = 0.0_wp
+    do node = 1, size(moved)
+      if (self%source(node) == 0) cycle
+      moved(node) = self%rate(node)*(unknown(self%source(node)) - self%origin(node))
+    end do
+  end function deflection
+end module gfb_foil_model

@@ -1,0 +1,160 @@
+#include "gfb_petsc.h"
+!> An elastic foundation: the bumps as a bed of linear springs, [Heshmat1983].
+!>
+!> With local pressure each film node sinks by \( (p - p_a)/K \): no unknowns of its own. With the
+!> axial mean every station sinks as a whole, by an unknown of its own:
+!> \( K q = \frac{1}{L} \int (p - p_a) \, dz \).
+module gfb_foundation_foil
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_foil_model, only: foil_model_type
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_mesh_dm, only: local_mesh_type
+  implicit none (type)
+  private
+  public :: create_local_foundation, create_mean_foundation
+
+  !> Springs under the film.
+  type, extends(foil_model_type), public :: foundation_foil_type
+    real(wp) :: stiffness = 0.0_wp           !! K, pressure over deflection [N/m3]
+    real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
+    integer, allocatable :: owned_station(:) !! foil unknowns whose equation this rank begins
+    integer :: stations = 0                  !! of the whole film
+    integer, allocatable :: averaged(:)      !! film nodes this rank averages
+    real(wp), allocatable :: share(:)        !! of each of them in its station's mean [1]
+  contains
+    procedure :: add_residual => foundation_residual
+    procedure :: add_jacobian => foundation_jacobian
+    procedure :: estimate => foundation_estimate
+  end type foundation_foil_type
+
+contains
+
+  !> Springs that feel the pressure above them.
+  subroutine create_local_foundation(nodes, stiffness, ambient_pressure, foil)
+    integer, intent(in) :: nodes                !! film nodes of this rank
+    real(wp), intent(in) :: stiffness           !! K [N/m3]
+    real(wp), intent(in) :: ambient_pressure    !! p_a [Pa]
+    type(foundation_foil_type), intent(out) :: foil
+    integer :: i
+
+    foil%stiffness = stiffness
+    foil%ambient_pressure = ambient_pressure
+    allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
+    allocate (foil%owned_station(0), foil%averaged(0), foil%share(0))
+    foil%source = [(i, i=1, nodes)]
+    allocate (foil%rate(nodes), source=1.0_wp/stiffness)
+    allocate (foil%origin(nodes), source=ambient_pressure)
+  end subroutine create_local_foundation
+
+  !> Springs that feel the mean pressure along the axis.
+  subroutine create_mean_foundation(film, mesh, rank, ranks, stiffness, ambient_pressure, &
+                                    clearance, foil)
+    type(film_mesh_type), intent(in) :: film
+    type(local_mesh_type), intent(in) :: mesh   !! this rank's part of it
+    integer, intent(in) :: rank, ranks          !! this one, from 0, and their number
+    real(wp), intent(in) :: stiffness           !! K [N/m3]
+    real(wp), intent(in) :: ambient_pressure    !! p_a [Pa]
+    real(wp), intent(in) :: clearance           !! C, the size of a deflection [m]
+    type(foundation_foil_type), intent(out) :: foil
+
+    integer, allocatable :: local_of(:)
+    integer :: first, last, i, station, row
+
+    foil%stiffness = stiffness
+    foil%ambient_pressure = ambient_pressure
+    foil%couplings = 3 ! its own station and the two beside it
+    foil%row_entries = film%rows() + 1
+    foil%stations = film%stations()
+    first = rank*film%stations()/ranks + 1
+    last = (rank + 1)*film%stations()/ranks
+    foil%owned = last - first + 1
+
+    allocate (local_of(film%stations()), source=0)
+    local_of(first:last) = 1
+    do i = 1, size(mesh%mesh_node)
+      local_of((mesh%mesh_node(i) - 1)/film%rows() + 1) = 1
+    end do
+    foil%global_unknown = pack([(i, i=1, film%stations())], local_of == 1)
+    do i = 1, size(foil%global_unknown)
+      local_of(foil%global_unknown(i)) = i
+    end do
+    allocate (foil%unknown_scale(size(foil%global_unknown)), source=clearance)
+    allocate (foil%equation_scale(size(foil%global_unknown)), source=stiffness*clearance)
+    foil%owned_station = local_of(first:last)
+
+    foil%source = [(-local_of((mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))]
+    allocate (foil%rate(size(foil%source)), source=1.0_wp)
+    allocate (foil%origin(size(foil%source)), source=0.0_wp)
+    foil%averaged = pack([(i, i=1, size(mesh%owned))], mesh%owned)
+    allocate (foil%share(size(foil%averaged)))
+    associate (z => film%row_axial)
+      do i = 1, size(foil%averaged)
+        station = mesh%mesh_node(foil%averaged(i))
+        row = modulo(station - 1, film%rows()) + 1
+        foil%share(i) = 0.5_wp*(z(min(row + 1, size(z))) - z(max(row - 1, 1)))/(z(size(z)) - z(1))
+      end do
+    end associate
+  end subroutine create_mean_foundation
+
+  !> Equations of the stations: spring pressure less mean overpressure [Pa].
+  subroutine foundation_residual(self, unknown, residual)
+    class(foundation_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    real(wp), intent(inout) :: residual(:)
+    integer :: i, node, equation
+
+    do i = 1, size(self%owned_station)
+      equation = self%first + self%owned_station(i)
+      residual(equation) = residual(equation) + self%stiffness*unknown(equation)
+    end do
+    do i = 1, size(self%averaged)
+      node = self%averaged(i)
+      equation = self%source(node)
+      residual(equation) = residual(equation) &
+        - self%share(i)*(unknown(node) - self%ambient_pressure)
+    end do
+  end subroutine foundation_residual
+
+  !> Derivatives of the stations' equations.
+  subroutine foundation_jacobian(self, unknown, jacobian)
+    class(foundation_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    Mat, intent(in) :: jacobian
+    PetscErrorCode :: ierr
+    PetscInt :: row(1), column(1)
+    integer :: i
+
+    do i = 1, size(self%owned_station)
+      row = int(self%first + self%owned_station(i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, 1_pint, row, [self%stiffness], ADD_VALUES, ierr))
+    end do
+    do i = 1, size(self%averaged)
+      row = int(self%source(self%averaged(i)) - 1, pint)
+      column = int(self%averaged(i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, 1_pint, column, [-self%share(i)], ADD_VALUES, ierr))
+    end do
+  end subroutine foundation_jacobian
+
+  !> Deflection of the stations under the pressures as they are.
+  subroutine foundation_estimate(self, unknown)
+    class(foundation_foil_type), intent(in) :: self
+    real(wp), intent(inout) :: unknown(:)
+    real(wp) :: mean(self%stations), total(self%stations)
+    integer :: i, node, station
+    PetscErrorCode :: ierr
+
+    if (size(self%global_unknown) == 0) return
+    mean = 0.0_wp
+    do i = 1, size(self%averaged)
+      node = self%averaged(i)
+      station = self%global_unknown(self%source(node) - self%first)
+      mean(station) = mean(station) + self%share(i)*(unknown(node) - self%ambient_pressure)
+    end do
+    call MPI_Allreduce(mean, total, self%stations, MPI_DOUBLE_PRECISION, MPI_SUM, PETSC_COMM_WORLD, ierr)
+    do i = 1, size(self%global_unknown)
+      unknown(self%first + i) = total(self%global_unknown(i))/self%stiffness
+    end do
+  end subroutine foundation_estimate
+end module gfb_foundation_foil

@@ -1,0 +1,240 @@
+!> One rank's part of the gas film: gather, kernel, scatter over its elements.
+module gfb_gas_film
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_nodes, film_points, &
+                               film_shape
+  use gfb_film_gap, only: rigid_gap
+  use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
+  use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_operating_point, only: operating_point_type
+  implicit none (type, external)
+  private
+  public :: create_gas_film
+
+  !> Film elements and nodes of this rank.
+  type, public :: gas_film_type
+    type(film_flow_type) :: flow
+    real(wp) :: radius = 0.0_wp           !! of the bearing [m]
+    real(wp) :: clearance = 0.0_wp        !! C [m]
+    real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
+    real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
+    integer, allocatable :: element_nodes(:, :)   !! (4, elements), local nodes
+    real(wp), allocatable :: angle(:)             !! theta of the nodes [rad]
+    real(wp), allocatable :: axial(:)             !! z of the nodes [m]
+    logical, allocatable :: fixed(:)              !! nodes at ambient pressure
+    real(wp), allocatable :: corner_angle(:, :)   !! theta of the elements' nodes, unwound [rad]
+    type(film_geometry_type), allocatable :: geometry(:) !! of the elements
+    real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
+  contains
+    procedure :: gap => film_node_gap
+    procedure :: add_residual => film_residual
+    procedure :: element_jacobian => film_element_jacobian
+    procedure :: force => film_node_force
+    procedure :: force_without_suction
+    procedure :: drag => film_drag
+    procedure :: peclet => film_peclet
+    procedure :: midplane_gap
+  end type gas_film_type
+
+contains
+
+  !> The film over a part of its mesh.
+  !>
+  !> Fails when an element is folded over.
+  subroutine create_gas_film(whole, mesh_node, element_nodes, clearance, ambient_pressure, &
+                             viscosity, upwind, film, error)
+    type(film_mesh_type), intent(in) :: whole
+    integer, intent(in) :: mesh_node(:)        !! number in the whole mesh of each local node
+    integer, intent(in) :: element_nodes(:, :) !! (4, elements), local nodes
+    real(wp), intent(in) :: clearance          !! C [m]
+    real(wp), intent(in) :: ambient_pressure   !! p_a [Pa]
+    real(wp), intent(in) :: viscosity          !! of the gas [Pa s]
+    logical, intent(in) :: upwind              !! SUPG instead of Galerkin
+    type(gas_film_type), intent(out) :: film
+    type(error_type), allocatable, intent(out) :: error
+    integer :: i, station, row
+
+    film%radius = whole%radius
+    film%clearance = clearance
+    film%ambient_pressure = ambient_pressure
+    film%flow%viscosity = viscosity
+    film%flow%upwind = upwind
+    film%copies = merge(2.0_wp, 1.0_wp, whole%half)
+    film%element_nodes = element_nodes
+    allocate (film%angle(size(mesh_node)), film%axial(size(mesh_node)))
+    allocate (film%fixed(size(mesh_node)))
+    do i = 1, size(mesh_node)
+      station = (mesh_node(i) - 1)/whole%rows() + 1
+      row = mesh_node(i) - (station - 1)*whole%rows()
+      film%angle(i) = whole%station_angle(station)
+      film%axial(i) = whole%row_axial(row)
+      film%fixed(i) = whole%is_edge(station, row)
+    end do
+    call measure_elements(film, error)
+  end subroutine create_gas_film
+
+  !> Geometry of the elements and the weights of their nodes' pressures in the forces.
+  subroutine measure_elements(film, error)
+    type(gas_film_type), intent(inout) :: film
+    type(error_type), allocatable, intent(out) :: error
+
+    real(wp), parameter :: pi = acos(-1.0_wp)
+    real(wp) :: position(2, film_nodes), weight(film_forces, film_nodes)
+    integer :: element
+
+    allocate (film%corner_angle(film_nodes, size(film%element_nodes, 2)))
+    allocate (film%geometry(size(film%element_nodes, 2)))
+    allocate (film%force_weight(film_forces, size(film%angle)), source=0.0_wp)
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element), angle => film%corner_angle(:, element))
+        angle = film%angle(nodes)
+        ! The element that closes a ring reaches beyond the last station.
+        where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
+        position(1, :) = film%radius*angle
+        position(2, :) = film%axial(nodes)
+        call film_geometry(position, film%geometry(element), error)
+        if (allocated(error)) return
+        call film_force_weights(film%geometry(element), angle, film%axial(nodes), weight)
+        film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
+      end associate
+    end do
+    if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
+  end subroutine measure_elements
+
+  !> Gap at the nodes: tilted shaft and deflected foil [m].
+  pure function film_node_gap(self, point, deflection) result(gap)
+    class(gas_film_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
+    real(wp) :: gap(size(deflection))
+
+    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance, point%eccentricity(1), &
+                                 point%eccentricity(2), point%tilt(1), point%tilt(2))
+  end function film_node_gap
+
+  !> Adds the film's equations of this rank's elements; none at nodes of given pressure.
+  pure subroutine film_residual(self, pressure, gap, residual)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:)    !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)         !! at the nodes [m]
+    real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
+    real(wp), parameter :: no_source(film_nodes) = 0.0_wp
+    real(wp) :: element_residual(film_nodes)
+    integer :: element
+
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element))
+        call reynolds_residual(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
+                               no_source, element_residual)
+        residual(nodes) = residual(nodes) + element_residual
+      end associate
+    end do
+    where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
+  end subroutine film_residual
+
+  !> Derivatives of one element's equations by pressure and gap.
+  pure subroutine film_element_jacobian(self, element, pressure, gap, by_pressure, by_gap)
+    class(gas_film_type), intent(in) :: self
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
+    real(wp), intent(out) :: by_pressure(film_nodes, film_nodes) !! [m3/s]
+    real(wp), intent(out) :: by_gap(film_nodes, film_nodes)      !! [Pa m2/s]
+    real(wp), parameter :: no_source(film_nodes) = 0.0_wp
+
+    associate (nodes => self%element_nodes(:, element))
+      call reynolds_jacobian(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
+                             no_source, by_pressure, by_gap)
+    end associate
+  end subroutine film_element_jacobian
+
+  !> This rank's share of force and torque of the whole bearing [N], [N m].
+  pure function film_node_force(self, pressure) result(force)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp) :: force(film_forces)
+
+    force = matmul(self%force_weight, pressure - self%ambient_pressure)
+  end function film_node_force
+
+  !> The same where the pressure is above ambient only.
+  pure function force_without_suction(self, pressure) result(force)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp) :: force(film_forces)
+    integer :: element
+
+    force = 0.0_wp
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element))
+        force = force + self%copies*film_force(self%geometry(element), self%corner_angle(:, element), &
+                                               self%axial(nodes), pressure(nodes) - self%ambient_pressure)
+      end associate
+    end do
+    if (self%copies > 1.0_wp) force(3:4) = 0.0_wp
+  end function force_without_suction
+
+  !> This rank's share of the drag on the shaft [N].
+  pure function film_drag(self, pressure, gap) result(drag)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    real(wp) :: drag
+    integer :: element
+
+    drag = 0.0_wp
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element))
+        drag = drag + self%copies* &
+          film_friction(self%geometry(element), self%flow, pressure(nodes), gap(nodes))
+      end associate
+    end do
+  end function film_drag
+
+  !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
+  pure function film_peclet(self, pressure, gap, change) result(peclet)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
+    real(wp) :: peclet
+    integer :: element, point
+
+    peclet = 0.0_wp
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
+        if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
+        do point = 1, film_points
+          peclet = max(peclet, abs(cell_peclet(self%flow, geometry%stream_length(point), &
+                                               dot_product(film_shape(:, point), pressure(nodes)), &
+                                               dot_product(film_shape(:, point), gap(nodes)))))
+        end do
+      end associate
+    end do
+  end function film_peclet
+
+  !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
+  pure function midplane_gap(self, gap) result(smallest)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: gap(:) !! at the nodes [m]
+    real(wp) :: smallest
+    real(wp) :: share
+    integer :: element, a, b
+
+    smallest = huge(1.0_wp)
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element))
+        do a = 1, film_nodes
+          b = modulo(a, film_nodes) + 1
+          associate (z_a => self%axial(nodes(a)), z_b => self%axial(nodes(b)))
+            if (z_a*z_b > 0.0_wp .or. abs(z_b - z_a) <= 0.0_wp) cycle
+            share = z_a/(z_a - z_b)
+            smallest = min(smallest, (1.0_wp - share)*gap(nodes(a)) + share*gap(nodes(b)))
+          end associate
+        end do
+      end associate
+    end do
+  end function midplane_gap
+end module gfb_gas_film

@@ -1,0 +1,34 @@
+#include "gfb_petsc.h"
+!> What Newton's method needs of a set of equations.
+module gfb_nonlinear_system
+  use petscmat
+  implicit none (type)
+  private
+
+  !> Equations \( f(x) = 0 \) in scaled unknowns, with their exact derivative.
+  type, abstract, public :: nonlinear_system_type
+    Vec :: state    !! x, scaled; owned by the system
+    Mat :: jacobian !! df/dx, scaled; owned by the system
+  contains
+    procedure(evaluate), deferred :: evaluate
+    procedure(linearise), deferred :: linearise
+  end type nonlinear_system_type
+
+  abstract interface
+    !> Residual at a state; `valid` is false on a rank that cannot evaluate it there.
+    subroutine evaluate(self, state, residual, valid)
+      import :: nonlinear_system_type, tVec
+      class(nonlinear_system_type), intent(inout) :: self
+      Vec, intent(in) :: state    !! scaled
+      Vec, intent(in) :: residual !! scaled
+      logical, intent(out) :: valid
+    end subroutine evaluate
+
+    !> Fills the system's matrix with the derivative at a state.
+    subroutine linearise(self, state)
+      import :: nonlinear_system_type, tVec
+      class(nonlinear_system_type), intent(inout) :: self
+      Vec, intent(in) :: state !! scaled
+    end subroutine linearise
+  end interface
+end module gfb_nonlinear_system

@@ -1,0 +1,33 @@
+!> Speed, load and position of the shaft.
+module gfb_operating_point
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: point_between
+
+  !> What the bearing is asked to bear; every value may change along a path.
+  type, public :: operating_point_type
+    real(wp) :: speed = 0.0_wp           !! of the shaft, in +theta [rad/s]
+    real(wp) :: load(2) = 0.0_wp         !! external force on the shaft, where it floats [N]
+    real(wp) :: eccentricity(2) = 0.0_wp !! of the sleeve relative to the shaft, where held [m]
+    real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
+  end type operating_point_type
+
+contains
+
+  !> The point at a fraction of the straight way from one to another.
+  elemental function point_between(first, last, fraction) result(point)
+    type(operating_point_type), intent(in) :: first, last
+    real(wp), intent(in) :: fraction !! 0 at the first, 1 at the last [1]
+    type(operating_point_type) :: point
+
+    if (fraction >= 1.0_wp) then ! exactly the last one, not to round-off
+      point = last
+      return
+    end if
+    point%speed = first%speed + fraction*(last%speed - first%speed)
+    point%load = first%load + fraction*(last%load - first%load)
+    point%eccentricity = first%eccentricity + fraction*(last%eccentricity - first%eccentricity)
+    point%tilt = first%tilt + fraction*(last%tilt - first%tilt)
+  end function point_between
+end module gfb_operating_point

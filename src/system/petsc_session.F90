@@ -1,0 +1,88 @@
+#include "gfb_petsc.h"
+!> Start and end of PETSc, SLEPc and MPI, and what they say of themselves.
+module gfb_petsc_session
+  use slepcsys
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_petsc_kinds, only: preal
+  implicit none (type)
+  private
+  public :: start_petsc, stop_petsc, this_rank, rank_count, petsc_version_text, wall_time, &
+            sum_over_ranks, largest_over_ranks, any_rank
+
+contains
+
+  !> Starts MPI, PETSc and SLEPc.
+  subroutine start_petsc()
+    PetscErrorCode :: ierr
+
+    call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
+    if (ierr /= 0) error stop 'PETSc could not be started'
+    if (storage_size(0.0_wp) /= storage_size(0.0_preal)) then
+      error stop 'this PETSc was not built for double precision'
+    end if
+  end subroutine start_petsc
+
+  !> Ends SLEPc, PETSc and MPI.
+  subroutine stop_petsc()
+    PetscErrorCode :: ierr
+
+    call SlepcFinalize(ierr)
+  end subroutine stop_petsc
+
+  !> This process' rank, from 0.
+  function this_rank() result(rank)
+    integer :: rank
+    PetscErrorCode :: ierr
+    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+  end function this_rank
+
+  !> Ranks of the job.
+  function rank_count() result(ranks)
+    integer :: ranks
+    PetscErrorCode :: ierr
+    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
+  end function rank_count
+
+  !> Versions of PETSc and SLEPc.
+  function petsc_version_text() result(words)
+    character(len=:), allocatable :: words
+    PetscInt :: major, minor, subminor, release
+    PetscErrorCode :: ierr
+
+    call PetscGetVersionNumber(major, minor, subminor, release, ierr)
+    words = 'PETSc '//text(int(major))//'.'//text(int(minor))//'.'//text(int(subminor))
+    call SlepcGetVersionNumber(major, minor, subminor, release, ierr)
+    words = words//', SLEPc '//text(int(major))//'.'//text(int(minor))//'.'//text(int(subminor))
+  end function petsc_version_text
+
+  !> Wall-clock time since an arbitrary moment [s].
+  function wall_time() result(seconds)
+    real(wp) :: seconds
+    seconds = MPI_Wtime()
+  end function wall_time
+
+  !> Sum of each number over all ranks.
+  function sum_over_ranks(numbers) result(total)
+    real(wp), intent(in) :: numbers(:)
+    real(wp) :: total(size(numbers))
+    PetscErrorCode :: ierr
+    call MPI_Allreduce(numbers, total, size(numbers), MPI_DOUBLE_PRECISION, MPI_SUM, PETSC_COMM_WORLD, ierr)
+  end function sum_over_ranks
+
+  !> Largest of each number over all ranks.
+  function largest_over_ranks(numbers) result(largest)
+    real(wp), intent(in) :: numbers(:)
+    real(wp) :: largest(size(numbers))
+    PetscErrorCode :: ierr
+    call MPI_Allreduce(numbers, largest, size(numbers), MPI_DOUBLE_PRECISION, MPI_MAX, PETSC_COMM_WORLD, ierr)
+  end function largest_over_ranks
+
+  !> Whether something is true on any rank.
+  function any_rank(truth) result(any_true)
+    logical, intent(in) :: truth
+    logical :: any_true
+    PetscErrorCode :: ierr
+    call MPI_Allreduce(truth, any_true, 1, MPI_LOGICAL, MPI_LOR, PETSC_COMM_WORLD, ierr)
+  end function any_rank
+end module gfb_petsc_session
