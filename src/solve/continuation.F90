@@ -1,0 +1,130 @@
+#include "gfb_petsc.h"
+!> From one operating point to another in as few steps as Newton's method can take.
+module gfb_continuation
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_petsc_session, only: any_rank
+  use gfb_operating_point, only: operating_point_type, point_between
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  implicit none (type)
+  private
+  public :: follow_path
+
+  integer, parameter :: easy_iterations = 6 !! a step that took no more of them is doubled
+
+  !> Limits of a path.
+  type, public :: path_settings_type
+    integer :: maximum_steps = 200
+    real(wp) :: smallest_step = 1.0e-4_wp !! share of the way [1]
+    real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
+  end type path_settings_type
+
+  !> How far a path led.
+  type, public :: path_report_type
+    logical :: converged = .false.
+    logical :: touched = .false.              !! the shaft came too near
+    character(len=:), allocatable :: reason   !! in words
+    type(operating_point_type) :: reached     !! the last point with an answer
+    real(wp) :: fraction = 0.0_wp             !! of the way that was gone [1]
+    integer :: steps = 0
+    integer :: cuts = 0                       !! steps that had to be shortened
+  end type path_report_type
+
+contains
+
+  !> Leads the bearing from a point where its state is the answer to another point.
+  !>
+  !> Each step starts from a straight line through the last two answers. A step that does not
+  !> converge is halved and never accepted. On return the state is the last answer.
+  subroutine follow_path(bearing, newton, target, first_step, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: first_step !! share of the way to try first [1]
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+
+    type(operating_point_type) :: start
+    type(newton_report_type) :: solved
+    Vec :: here, before
+    real(wp) :: step, at_before, trial
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(bearing%state, here, ierr))
+    PetscCallA(VecDuplicate(bearing%state, before, ierr))
+    PetscCallA(VecCopy(bearing%state, here, ierr))
+    start = bearing%point
+    report%reached = start
+    step = min(1.0_wp, max(first_step, settings%smallest_step))
+    at_before = -1.0_wp
+    do while (report%fraction < 1.0_wp)
+      if (report%steps + report%cuts >= settings%maximum_steps) then
+        report%reason = 'more than '//text(settings%maximum_steps)//' load steps'
+        exit
+      end if
+      trial = min(1.0_wp, report%fraction + step)
+      bearing%point = point_between(start, target, trial)
+      call bearing%apply_point()
+      call predict(bearing, here, before, report%fraction, at_before, trial)
+      call solve_newton(newton, solved)
+      if (.not. solved%converged) then
+        report%cuts = report%cuts + 1
+        report%reason = solved%reason
+        call newton%log%detail('cut: '//solved%reason)
+        PetscCallA(VecCopy(here, bearing%state, ierr))
+        step = 0.5_wp*step
+        if (step < settings%smallest_step) exit
+        cycle
+      end if
+      PetscCallA(VecCopy(here, before, ierr))
+      PetscCallA(VecCopy(bearing%state, here, ierr))
+      at_before = report%fraction
+      report%fraction = trial
+      report%reached = bearing%point
+      report%steps = report%steps + 1
+      if (solved%iterations <= easy_iterations) step = 2.0_wp*step
+      if (bearing%smallest_gap() < settings%touch_down_gap) then
+        report%touched = .true.
+        report%reason = 'the shaft touches down: the film is thinner than '// &
+          text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
+        exit
+      end if
+    end do
+    report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
+    if (report%converged) report%reason = 'converged'
+    bearing%point = report%reached
+    call bearing%apply_point()
+    PetscCallA(VecDestroy(here, ierr))
+    PetscCallA(VecDestroy(before, ierr))
+  end subroutine follow_path
+
+  !> Start value of a step: the line through the last two answers, as far along it as can be evaluated.
+  subroutine predict(bearing, here, before, at_here, at_before, trial)
+    type(bearing_system_type), intent(inout) :: bearing
+    Vec, intent(in) :: here, before         !! last two answers
+    real(wp), intent(in) :: at_here, at_before !! where on the path; the latter negative if none
+    real(wp), intent(in) :: trial           !! where the step ends
+
+    integer, parameter :: attempts = 3
+    Vec :: residual
+    real(wp) :: stretch
+    PetscErrorCode :: ierr
+    integer :: attempt
+    logical :: valid
+
+    if (at_before < 0.0_wp) return
+    PetscCallA(VecDuplicate(here, residual, ierr))
+    stretch = (trial - at_here)/(at_here - at_before)
+    do attempt = 1, attempts
+      PetscCallA(VecCopy(here, bearing%state, ierr))
+      PetscCallA(VecAXPBYPCZ(bearing%state, -stretch, stretch, 1.0_wp, before, here, ierr))
+      call bearing%evaluate(bearing%state, residual, valid)
+      if (.not. any_rank(.not. valid)) exit
+      stretch = 0.5_wp*stretch
+      PetscCallA(VecCopy(here, bearing%state, ierr))
+    end do
+    PetscCallA(VecDestroy(residual, ierr))
+  end subroutine predict
+end module gfb_continuation

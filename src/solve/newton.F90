@@ -1,0 +1,317 @@
+#include "gfb_petsc.h"
+!> Newton's method on a set of equations, by SNES.
+!>
+!> Steps are judged by their size: the method has come home when the last full step was small. The
+!> factors of an earlier matrix serve again while that makes the steps shrink fast. The line search is
+!> non-monotone: a residual may grow for a while, but not beyond the largest of the last few.
+module gfb_newton
+  use petscsnes
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_petsc_kinds, only: pint
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  implicit none (type)
+  private
+  public :: create_newton, solve_newton, destroy_newton
+
+  integer, parameter :: memory = 5                 !! residuals that the line search remembers
+  integer, parameter :: halvings = 24              !! shortest trial is 2^-24 of a step
+  real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's
+  real(wp), parameter :: chord_step = 0.02_wp      !! smaller steps leave the factors as they are
+  real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
+  real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
+
+  !> When to stop.
+  type, public :: newton_settings_type
+    real(wp) :: residual_tolerance = 1.0e-8_wp !! of the scaled residual's root mean square [1]
+    real(wp) :: step_tolerance = 1.0e-10_wp    !! of the largest relative step [1]
+    integer :: maximum_iterations = 40         !! of one solve
+  end type newton_settings_type
+
+  !> How a solve ended.
+  type, public :: newton_report_type
+    logical :: converged = .false.
+    character(len=:), allocatable :: reason !! in words
+    integer :: iterations = 0
+    real(wp) :: residual = 0.0_wp !! root mean square of the scaled residual [1]
+  end type newton_report_type
+
+  !> The solver and its memory. It is handed to SNES by address: keep it where it is.
+  type, public :: newton_type
+    type(newton_settings_type) :: settings
+    type(run_log_type) :: log
+    integer :: iterations = 0     !! since its creation
+    integer :: factorizations = 0 !! since its creation
+    SNES, private :: snes
+    Vec, private :: residual
+    logical, private :: created = .false.
+    class(nonlinear_system_type), pointer, private :: system => null()
+    logical, private :: keep = .false.       !! use the present factors again
+    logical, private :: fresh = .false.      !! the factors belong to the present state
+    logical, private :: impossible = .false. !! no trial along the step could be evaluated
+    real(wp), private :: unknowns = 1.0_wp   !! their number
+    real(wp), private :: step = 0.0_wp       !! last relative step, before it was shortened
+    real(wp), private :: step_before = 0.0_wp
+    real(wp), private :: length = 1.0_wp     !! share of the step that was gone
+    real(wp), private :: past(memory) = 0.0_wp !! last residual norms
+  end type newton_type
+
+contains
+
+  !> Sets up SNES for a system; both must stay where they are.
+  subroutine create_newton(newton, system, prefix, settings, log)
+    type(newton_type), target, intent(inout) :: newton
+    class(nonlinear_system_type), target, intent(in) :: system
+    character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
+    type(newton_settings_type), intent(in) :: settings
+    type(run_log_type), intent(in) :: log
+
+    SNESLineSearch :: search
+    KSP :: linear
+    PC :: factors
+    PetscInt :: unknowns
+    PetscErrorCode :: ierr
+
+    newton%system => system
+    newton%settings = settings
+    newton%log = log
+    newton%keep = .false.
+    PetscCallA(VecDuplicate(system%state, newton%residual, ierr))
+    PetscCallA(VecGetSize(system%state, unknowns, ierr))
+    newton%unknowns = real(max(unknowns, 1_pint), wp)
+    PetscCallA(SNESCreate(PETSC_COMM_WORLD, newton%snes, ierr))
+    PetscCallA(SNESSetOptionsPrefix(newton%snes, prefix, ierr))
+    PetscCallA(SNESSetFunction(newton%snes, newton%residual, form_residual, newton, ierr))
+    PetscCallA(SNESSetJacobian(newton%snes, system%jacobian, system%jacobian, form_jacobian, newton, ierr))
+    PetscCallA(SNESSetConvergenceTest(newton%snes, test_convergence, newton, PETSC_NULL_FUNCTION, ierr))
+    PetscCallA(SNESGetLineSearch(newton%snes, search, ierr))
+    PetscCallA(SNESLineSearchSetType(search, SNESLINESEARCHSHELL, ierr))
+    PetscCallA(SNESLineSearchShellSetUserFunc(search, search_line, newton, ierr))
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(linear, factors, ierr))
+    PetscCallA(PCSetType(factors, PCLU, ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
+    PetscCallA(SNESSetFromOptions(newton%snes, ierr))
+    newton%created = .true.
+  end subroutine create_newton
+
+  !> Sets an option of PETSc's unless the user has.
+  subroutine set_option_default(name, value)
+    character(len=*), intent(in) :: name, value
+    PetscBool :: given
+    PetscErrorCode :: ierr
+
+    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, name, given, ierr))
+    if (.not. given) then
+      PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, name, value, ierr))
+    end if
+  end subroutine set_option_default
+
+  !> Solves from the system's present state; on failure the state is where it stopped.
+  subroutine solve_newton(newton, report)
+    type(newton_type), target, intent(inout) :: newton
+    type(newton_report_type), intent(out) :: report
+
+    SNESConvergedReason :: reason
+    PetscInt :: iterations
+    PetscReal :: norm
+    PetscErrorCode :: ierr
+
+    newton%keep = .false.
+    newton%impossible = .false.
+    newton%step = huge(1.0_wp)
+    newton%step_before = huge(1.0_wp)
+    newton%length = 1.0_wp
+    newton%past = 0.0_wp
+    PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
+    PetscCallA(SNESSolve(newton%snes, PETSC_NULL_VEC, newton%system%state, ierr))
+    PetscCallA(SNESGetConvergedReason(newton%snes, reason, ierr))
+    PetscCallA(SNESGetIterationNumber(newton%snes, iterations, ierr))
+    PetscCallA(SNESGetFunctionNorm(newton%snes, norm, ierr))
+    report%converged = GFB_REASON(reason) > 0
+    report%iterations = int(iterations)
+    report%residual = norm/sqrt(newton%unknowns)
+    report%reason = reason_in_words(newton, int(GFB_REASON(reason)))
+    newton%iterations = newton%iterations + report%iterations
+  end subroutine solve_newton
+
+  !> SNES' reason as a sentence.
+  function reason_in_words(newton, reason) result(words)
+    type(newton_type), intent(in) :: newton
+    integer, intent(in) :: reason
+    character(len=:), allocatable :: words
+
+    if (reason > 0) then
+      words = 'converged'
+    else if (newton%impossible) then
+      words = 'every trial along the step closed the gap or emptied the film'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_FUNCTION_DOMAIN))) then
+      words = 'the gap or the pressure was not positive at the start'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_LINEAR_SOLVE))) then
+      words = 'the matrix is singular'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_MAX_IT))) then
+      words = 'no convergence in '//text(newton%settings%maximum_iterations)//' iterations'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_LINE_SEARCH)) .or. &
+             reason == int(GFB_REASON(SNES_DIVERGED_LOCAL_MIN))) then
+      words = 'no step made the residual smaller'
+    else
+      words = 'SNES stopped with reason '//text(reason)
+    end if
+  end function reason_in_words
+
+  !> SNES callback. A state that cannot be evaluated is a domain error, so that the line search
+  !> shortens the step; it is not a PETSc error.
+  subroutine form_residual(snes, x, f, newton, ierr)
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x !! scaled state
+    Vec, intent(in) :: f !! scaled residual
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode, intent(out) :: ierr
+    logical :: valid
+
+    call newton%system%evaluate(x, f, valid)
+    ierr = 0
+    if (.not. valid) then
+      PetscCall(SNESSetFunctionDomainError(snes, ierr))
+    end if
+  end subroutine form_residual
+
+  !> SNES callback. A matrix that is not touched keeps its factors.
+  subroutine form_jacobian(snes, x, jacobian, preconditioner, newton, ierr)
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x !! scaled state
+    Mat, intent(in) :: jacobian, preconditioner
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode, intent(out) :: ierr
+
+    ierr = 0
+    newton%fresh = .not. newton%keep
+    if (newton%keep) return
+    call newton%system%linearise(x)
+    newton%factorizations = newton%factorizations + 1
+  end subroutine form_jacobian
+
+  !> SNES callback. Halves the step until it can be evaluated and the residual is not larger than the
+  !> largest of the last few. Where old factors gave the step, it is dropped and new ones follow.
+  subroutine search_line(search, newton, ierr)
+    SNESLineSearch, intent(in) :: search
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode, intent(out) :: ierr
+
+    SNES :: snes
+    Vec :: x, f, y, trial, trial_residual
+    PetscReal :: before, after, size_x, size_y
+    integer :: halving
+    logical :: found
+
+    PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
+    PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
+    PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_SUCCEEDED, ierr))
+    PetscCall(VecNorm(f, NORM_2, before, ierr))
+    PetscCall(VecNorm(x, NORM_INFINITY, size_x, ierr))
+    PetscCall(VecNorm(y, NORM_INFINITY, size_y, ierr))
+    newton%step_before = newton%step
+    newton%step = size_y/max(1.0_wp, size_x)
+    newton%past = [before, newton%past(:memory - 1)]
+    newton%length = 1.0_wp
+    found = .false.
+    newton%impossible = .true.
+    do halving = 0, merge(halvings, 0, newton%fresh)
+      PetscCall(VecWAXPY(trial, -newton%length, y, x, ierr))
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
+      if (after <= huge(1.0_wp)) then ! neither infinite nor NaN
+        newton%impossible = .false.
+        ! Near the end round-off makes residuals jump: a small full step is taken as it is.
+        found = after <= (1.0_wp - sufficient*newton%length)*maxval(newton%past) .or. &
+          (newton%step <= stagnation .and. halving == 0)
+      end if
+      if (found) exit
+      newton%length = 0.5_wp*newton%length
+    end do
+    if (found) then
+      PetscCall(VecCopy(trial, x, ierr))
+      PetscCall(VecCopy(trial_residual, f, ierr))
+    else
+      newton%length = 0.0_wp
+      if (newton%fresh) then
+        PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
+      end if
+      newton%impossible = newton%impossible .and. newton%fresh
+    end if
+    call choose_factors(newton)
+    PetscCall(SNESLineSearchComputeNorms(search, ierr))
+  end subroutine search_line
+
+  !> Whether the present factors serve the next step too.
+  pure subroutine choose_factors(newton)
+    type(newton_type), intent(inout) :: newton
+
+    if (newton%length < 1.0_wp) then
+      newton%keep = .false.
+    else if (newton%fresh) then
+      newton%keep = newton%step < chord_step
+    else
+      newton%keep = newton%step < chord_contraction*newton%step_before
+    end if
+  end subroutine choose_factors
+
+  !> SNES callback. Converged when the last full step was small, or when small steps shrink no more.
+  subroutine test_convergence(snes, iteration, size_x, size_y, norm, reason, newton, ierr)
+    SNES, intent(in) :: snes
+    PetscInt, intent(in) :: iteration
+    PetscReal, intent(in) :: size_x, size_y, norm
+    SNESConvergedReason, intent(out) :: reason
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode, intent(out) :: ierr
+
+    real(wp) :: residual
+    logical :: small
+
+    ierr = 0
+    reason = SNES_CONVERGED_ITERATING
+    residual = norm/sqrt(newton%unknowns)
+    call show_iteration(newton, int(iteration), residual)
+    if (iteration == 0) then
+      if (residual <= 10.0_wp*epsilon(1.0_wp)) reason = SNES_CONVERGED_FNORM_ABS
+      return
+    end if
+    if (newton%length < 1.0_wp) return
+    small = newton%step <= newton%settings%step_tolerance
+    if (newton%fresh .and. newton%step <= stagnation) then
+      small = small .or. newton%step > 0.5_wp*newton%step_before
+    end if
+    if (small .and. residual <= newton%settings%residual_tolerance) reason = SNES_CONVERGED_SNORM_RELATIVE
+  end subroutine test_convergence
+
+  !> A line of the table of iterations.
+  subroutine show_iteration(newton, iteration, residual)
+    type(newton_type), intent(in) :: newton
+    integer, intent(in) :: iteration
+    real(wp), intent(in) :: residual
+    character(len=80) :: line
+
+    if (iteration == 0) then
+      call newton%log%detail('iteration    residual        step      length  factors')
+      write (line, '(i9, es12.3)') iteration, residual
+    else
+      write (line, '(i9, 2es12.3, f12.6, a9)') iteration, residual, newton%step, newton%length, &
+        merge('new', 'old', newton%fresh)
+    end if
+    call newton%log%detail(trim(line))
+  end subroutine show_iteration
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy_newton(newton)
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode :: ierr
+
+    if (.not. newton%created) return
+    PetscCallA(SNESDestroy(newton%snes, ierr))
+    PetscCallA(VecDestroy(newton%residual, ierr))
+    newton%created = .false.
+  end subroutine destroy_newton
+end module gfb_newton
