@@ -1,0 +1,43 @@
+!> gfb: bump-type gas foil bearings.
+program gfb
+  use gfb_errors, only: error_type
+  use gfb_c_library, only: exit_with_status
+  use gfb_run_log, only: run_log_type
+  use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
+  use gfb_scene, only: key_table
+  use gfb_command_line, only: command_line_type, read_command_line, help_text
+  use gfb_provenance, only: version_text
+  use gfb_run_case, only: run_case
+  implicit none (type, external)
+
+  integer, parameter :: status_unconverged = 2
+  type(command_line_type) :: line
+  type(run_log_type) :: log
+  type(error_type), allocatable :: error
+  integer :: status
+  logical :: converged
+
+  call start_petsc()
+  log%active = this_rank() == 0
+  status = 0
+  call read_command_line(line, error)
+  if (.not. allocated(error)) then
+    log%verbose = .not. line%quiet
+    if (line%help) then
+      call log%line(help_text())
+    else if (line%version) then
+      call log%line(version_text())
+    else if (line%keys) then
+      call log%line(key_table())
+    else
+      call run_case(line, log, converged, error)
+      if (.not. converged) status = status_unconverged
+    end if
+  end if
+  if (allocated(error)) then
+    call log%complaint(error%message)
+    status = error%status
+  end if
+  call stop_petsc()
+  call exit_with_status(status)
+end program gfb

@@ -1,0 +1,129 @@
+!> `<case>.h5`: the scene, where it was computed, its summary and its history.
+module gfb_case_file
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_quantity, only: quantity_type, quantity_word
+  use gfb_result_file, only: result_file_type, open_result_file, close_result_file
+  implicit none (type, external)
+  private
+  public :: write_case_file, summary_text
+
+  !> One row of the history: the quantities of a sweep point or load step.
+  type, public :: history_row_type
+    type(quantity_type), allocatable :: quantity(:)
+  end type history_row_type
+
+contains
+
+  !> Writes the file under its temporary name.
+  !>
+  !> Fails when it cannot be written.
+  subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, provenance, &
+                             summary, history, file, error)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: communicator, information !! MPI's
+    logical, intent(in) :: first_rank
+    character(len=*), intent(in) :: verbatim         !! text of the case file
+    character(len=*), intent(in) :: echo             !! every key with the value used
+    type(quantity_type), intent(in) :: provenance(:)
+    type(quantity_type), intent(in) :: summary(:)
+    type(history_row_type), intent(in) :: history(:)
+    type(result_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+
+    call open_result_file(path, communicator, information, first_rank, file, error)
+    if (allocated(error)) return
+    call file%group('/scene')
+    call file%put_text('/scene/case_file', verbatim, 'the case file as it was read')
+    call file%put_text('/scene/used', echo, 'every key with the value used; it can be run again')
+    call write_quantities(file, '/provenance', provenance)
+    call write_quantities(file, '/summary', summary)
+    call write_history(file, history)
+    call close_result_file(file, error)
+  end subroutine write_case_file
+
+  !> One dataset a quantity.
+  subroutine write_quantities(file, group, quantity)
+    type(result_file_type), intent(inout) :: file
+    character(len=*), intent(in) :: group
+    type(quantity_type), intent(in) :: quantity(:)
+    integer :: i
+
+    call file%group(group)
+    do i = 1, size(quantity)
+      associate (one => quantity(i))
+        if (one%kind == quantity_word) then
+          call file%put_text(group//'/'//one%name, one%word, one%meaning)
+        else
+          call file%put_scalar(group//'/'//one%name, one%number, one%unit, one%meaning)
+        end if
+      end associate
+    end do
+  end subroutine write_quantities
+
+  !> One dataset a name, one entry a row; a row without the name has NaN there.
+  subroutine write_history(file, history)
+    type(result_file_type), intent(inout) :: file
+    type(history_row_type), intent(in) :: history(:)
+    type(quantity_type), allocatable :: column(:)
+    real(wp), allocatable :: values(:)
+    integer :: i, row
+
+    call file%group('/history')
+    call collect_columns(history, column)
+    do i = 1, size(column)
+      allocate (values(size(history)))
+      do row = 1, size(history)
+        values(row) = value_of(history(row), column(i)%name)
+      end do
+      call file%put_numbers('/history/'//column(i)%name, values, column(i)%unit, column(i)%meaning)
+      deallocate (values)
+    end do
+  end subroutine write_history
+
+  !> Every numeric name that any row has.
+  subroutine collect_columns(history, column)
+    type(history_row_type), intent(in) :: history(:)
+    type(quantity_type), allocatable, intent(out) :: column(:)
+    integer :: row, i, j
+    logical :: known
+
+    allocate (column(0))
+    do row = 1, size(history)
+      do i = 1, size(history(row)%quantity)
+        if (history(row)%quantity(i)%kind == quantity_word) cycle
+        known = .false.
+        do j = 1, size(column)
+          known = known .or. column(j)%name == history(row)%quantity(i)%name
+        end do
+        if (.not. known) column = [column, history(row)%quantity(i)]
+      end do
+    end do
+  end subroutine collect_columns
+
+  !> A row's number of a name, NaN where it has none.
+  function value_of(row, name) result(value)
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+    type(history_row_type), intent(in) :: row
+    character(len=*), intent(in) :: name
+    real(wp) :: value
+    integer :: i
+
+    value = ieee_value(value, ieee_quiet_nan)
+    do i = 1, size(row%quantity)
+      if (row%quantity(i)%name == name) value = row%quantity(i)%number
+    end do
+  end function value_of
+
+  !> `name = value [unit]`, one a line.
+  function summary_text(summary) result(words)
+    type(quantity_type), intent(in) :: summary(:)
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = ''
+    do i = 1, size(summary)
+      words = words//summary(i)%line()//new_line('a')
+    end do
+  end function summary_text
+end module gfb_case_file

@@ -1,0 +1,323 @@
+!> An HDF5 file that all ranks write together.
+!>
+!> It is written under a temporary name and takes its own when it is whole. Every dataset has a unit
+!> and a meaning.
+module gfb_result_file
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_int8_t, c_char
+  use hdf5
+  use gfb_kinds, only: wp, long
+  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_c_library, only: rename_file, remove_file
+  implicit none (type, external)
+  private
+  public :: open_result_file, close_result_file, drop_result_file, keep_result_file
+
+  character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
+
+  !> An open file.
+  type, public :: result_file_type
+    character(len=:), allocatable :: path
+    logical :: first_rank = .false. !! this rank writes what all ranks know
+    logical :: failed = .false.     !! something could not be written
+    integer(hid_t), private :: file = -1
+    integer(hid_t), private :: collective = -1
+  contains
+    procedure :: group => add_group
+    procedure :: put_text
+    procedure :: put_numbers
+    procedure :: put_scalar
+    procedure :: put_block
+    procedure :: put_long_block
+    procedure :: put_byte_block
+    procedure :: mark_text
+    procedure :: mark_longs
+    procedure, private :: write_part
+    procedure, private :: describe
+  end type result_file_type
+
+contains
+
+  !> Begins a file, under a temporary name.
+  !>
+  !> Fails when it cannot be made.
+  subroutine open_result_file(path, communicator, information, first_rank, file, error)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: communicator !! MPI's, of the ranks that write
+    integer, intent(in) :: information  !! MPI's null information
+    logical, intent(in) :: first_rank
+    type(result_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+    integer(hid_t) :: access
+    integer :: status
+
+    file%path = path
+    file%first_rank = first_rank
+    call h5open_f(status)
+    call h5eset_auto_f(0, status)
+    call h5pcreate_f(H5P_FILE_ACCESS_F, access, status)
+    call h5pset_fapl_mpio_f(access, communicator, information, status)
+    call h5fcreate_f(path//unfinished, H5F_ACC_TRUNC_F, file%file, status, access_prp=access)
+    if (status /= 0) call fail(error, path//': the file cannot be written', status_machine)
+    call h5pclose_f(access, status)
+    call h5pcreate_f(H5P_DATASET_XFER_F, file%collective, status)
+    call h5pset_dxpl_mpio_f(file%collective, H5FD_MPIO_COLLECTIVE_F, status)
+  end subroutine open_result_file
+
+  !> Ends a file, which keeps its temporary name until `keep_result_file`.
+  !>
+  !> Fails when anything in it could not be written.
+  subroutine close_result_file(file, error)
+    type(result_file_type), intent(inout) :: file
+    type(error_type), allocatable, intent(out) :: error
+    integer :: status
+
+    call h5pclose_f(file%collective, status)
+    call h5fclose_f(file%file, status)
+    if (status /= 0) file%failed = .true.
+    if (file%failed) then
+      call fail(error, file%path//': writing failed (is the disk full?)', status_machine)
+    end if
+  end subroutine close_result_file
+
+  !> Gives a closed file its own name; what stood there is replaced in one step.
+  !>
+  !> Fails when the system refuses.
+  subroutine keep_result_file(file, error)
+    type(result_file_type), intent(in) :: file
+    type(error_type), allocatable, intent(out) :: error
+
+    if (.not. file%first_rank) return
+    if (.not. rename_file(file%path//unfinished, file%path)) then
+      call fail(error, file%path//': the file cannot be put in its place', status_machine)
+    end if
+  end subroutine keep_result_file
+
+  !> Removes a file that was not kept.
+  subroutine drop_result_file(file)
+    type(result_file_type), intent(in) :: file
+
+    if (file%first_rank .and. allocated(file%path)) call remove_file(file%path//unfinished)
+  end subroutine drop_result_file
+
+  !> Adds a group.
+  subroutine add_group(self, path)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer(hid_t) :: group
+    integer :: status
+
+    call h5gcreate_f(self%file, path, group, status)
+    if (status /= 0) self%failed = .true.
+    call h5gclose_f(group, status)
+  end subroutine add_group
+
+  !> Adds a text.
+  subroutine put_text(self, path, words, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path, words, meaning
+    character(kind=c_char, len=:), allocatable, target :: buffer
+    integer(hid_t) :: kind, space, dataset
+    integer :: status
+
+    buffer = words
+    if (len(buffer) == 0) buffer = ' '
+    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
+    call h5tset_size_f(kind, int(len(buffer), size_t), status)
+    call h5screate_f(H5S_SCALAR_F, space, status)
+    call h5dcreate_f(self%file, path, kind, space, dataset, status)
+    if (status /= 0) self%failed = .true.
+    call self%describe(dataset, '', meaning)
+    if (.not. self%first_rank) call h5sselect_none_f(space, status)
+    call h5dwrite_f(dataset, kind, c_loc(buffer(1:1)), status, space, space, self%collective)
+    if (status /= 0) self%failed = .true.
+    call h5dclose_f(dataset, status)
+    call h5sclose_f(space, status)
+    call h5tclose_f(kind, status)
+  end subroutine put_text
+
+  !> Adds numbers that all ranks know.
+  subroutine put_numbers(self, path, numbers, unit, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp), intent(in) :: numbers(:) !! in `unit`
+    character(len=*), intent(in) :: unit, meaning
+    integer :: mine
+
+    mine = merge(size(numbers), 0, self%first_rank)
+    call self%put_block(path, reshape(numbers(:mine), [1, mine]), 0, size(numbers), unit, meaning)
+  end subroutine put_numbers
+
+  !> Adds one number that all ranks know, as a dataset without dimensions.
+  subroutine put_scalar(self, path, number, unit, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp), intent(in) :: number !! in `unit`
+    character(len=*), intent(in) :: unit, meaning
+    real(wp), target :: value
+    integer(hid_t) :: space, dataset
+    integer :: status
+
+    value = number
+    call h5screate_f(H5S_SCALAR_F, space, status)
+    call h5dcreate_f(self%file, path, H5T_NATIVE_DOUBLE, space, dataset, status)
+    if (status /= 0) self%failed = .true.
+    call self%describe(dataset, unit, meaning)
+    if (.not. self%first_rank) call h5sselect_none_f(space, status)
+    call h5dwrite_f(dataset, H5T_NATIVE_DOUBLE, c_loc(value), status, space, space, self%collective)
+    if (status /= 0) self%failed = .true.
+    call h5dclose_f(dataset, status)
+    call h5sclose_f(space, status)
+  end subroutine put_scalar
+
+  !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
+  subroutine put_block(self, path, block, offset, total, unit, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank)
+    integer, intent(in) :: offset       !! entries before this rank's
+    integer, intent(in) :: total        !! entries of all ranks
+    character(len=*), intent(in) :: unit, meaning
+    real(wp), target :: buffer(max(1, size(block)))
+
+    buffer(:size(block)) = reshape(block, [size(block)])
+    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), size(block, 1), &
+                         size(block, 2), offset, total, unit, meaning)
+  end subroutine put_block
+
+  !> Adds 64-bit integers of which each rank has consecutive entries.
+  subroutine put_long_block(self, path, block, offset, total, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer(long), intent(in) :: block(:) !! entries of this rank
+    integer, intent(in) :: offset         !! entries before this rank's
+    integer, intent(in) :: total          !! entries of all ranks
+    character(len=*), intent(in) :: meaning
+    integer(long), target :: buffer(max(1, size(block)))
+    integer(hid_t) :: kind
+
+    buffer(:size(block)) = block
+    kind = h5kind_to_type(long, H5_INTEGER_KIND)
+    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, total, '1', meaning)
+  end subroutine put_long_block
+
+  !> Adds unsigned bytes of which each rank has consecutive entries.
+  subroutine put_byte_block(self, path, block, offset, total, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer(c_int8_t), intent(in) :: block(:) !! entries of this rank
+    integer, intent(in) :: offset             !! entries before this rank's
+    integer, intent(in) :: total              !! entries of all ranks
+    character(len=*), intent(in) :: meaning
+    integer(c_int8_t), target :: buffer(max(1, size(block)))
+
+    buffer(:size(block)) = block
+    call self%write_part(path, H5T_STD_U8LE, H5T_STD_U8LE, c_loc(buffer), 1, size(block), offset, &
+                         total, '1', meaning)
+  end subroutine put_byte_block
+
+  !> Creates a dataset and writes each rank's part of it.
+  subroutine write_part(self, path, stored, held, buffer, components, entries, offset, total, unit, &
+                        meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer(hid_t), intent(in) :: stored, held !! types in the file and in memory
+    type(c_ptr), intent(in) :: buffer
+    integer, intent(in) :: components, entries, offset, total
+    character(len=*), intent(in) :: unit, meaning
+
+    integer(hsize_t) :: extent(2), part(2), start(2)
+    integer(hid_t) :: space, memory, dataset
+    integer :: status, rank
+
+    rank = merge(1, 2, components == 1)
+    extent = [components, total]
+    part = [components, entries]
+    start = [0, offset]
+    if (rank == 1) then
+      extent(1) = total
+      part(1) = entries
+      start(1) = offset
+    end if
+    call h5screate_simple_f(rank, extent(:rank), space, status)
+    call h5dcreate_f(self%file, path, stored, space, dataset, status)
+    if (status /= 0) self%failed = .true.
+    call self%describe(dataset, unit, meaning)
+    call h5screate_simple_f(rank, max(part(:rank), 1_hsize_t), memory, status)
+    if (entries > 0) then
+      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start(:rank), part(:rank), status)
+    else
+      call h5sselect_none_f(space, status)
+      call h5sselect_none_f(memory, status)
+    end if
+    call h5dwrite_f(dataset, held, buffer, status, memory, space, self%collective)
+    if (status /= 0) self%failed = .true.
+    call h5sclose_f(memory, status)
+    call h5dclose_f(dataset, status)
+    call h5sclose_f(space, status)
+  end subroutine write_part
+
+  !> Unit and meaning of a dataset.
+  subroutine describe(self, dataset, unit, meaning)
+    class(result_file_type), intent(inout) :: self
+    integer(hid_t), intent(in) :: dataset
+    character(len=*), intent(in) :: unit, meaning
+
+    call write_text_attribute(dataset, 'unit', unit, self%failed)
+    call write_text_attribute(dataset, 'meaning', meaning, self%failed)
+  end subroutine describe
+
+  !> Adds a text attribute to a group.
+  subroutine mark_text(self, group, name, words)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: group, name, words
+    integer(hid_t) :: place
+    integer :: status
+
+    call h5gopen_f(self%file, group, place, status)
+    call write_text_attribute(place, name, words, self%failed)
+    call h5gclose_f(place, status)
+  end subroutine mark_text
+
+  !> Adds an attribute of integers to a group.
+  subroutine mark_longs(self, group, name, numbers)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: group, name
+    integer(long), intent(in) :: numbers(:)
+    integer(long), target :: buffer(size(numbers))
+    integer(hid_t) :: place, kind, space, attribute
+    integer :: status
+
+    buffer = numbers
+    kind = h5kind_to_type(long, H5_INTEGER_KIND)
+    call h5gopen_f(self%file, group, place, status)
+    call h5screate_simple_f(1, [int(size(numbers), hsize_t)], space, status)
+    call h5acreate_f(place, name, kind, space, attribute, status)
+    call h5awrite_f(attribute, kind, c_loc(buffer), status)
+    if (status /= 0) self%failed = .true.
+    call h5aclose_f(attribute, status)
+    call h5sclose_f(space, status)
+    call h5gclose_f(place, status)
+  end subroutine mark_longs
+
+  !> Writes a fixed-length text attribute.
+  subroutine write_text_attribute(place, name, words, failed)
+    integer(hid_t), intent(in) :: place
+    character(len=*), intent(in) :: name, words
+    logical, intent(inout) :: failed
+    character(kind=c_char, len=:), allocatable, target :: buffer
+    integer(hid_t) :: kind, space, attribute
+    integer :: status
+
+    buffer = words
+    if (len(buffer) == 0) buffer = ' '
+    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
+    call h5tset_size_f(kind, int(len(buffer), size_t), status)
+    call h5screate_f(H5S_SCALAR_F, space, status)
+    call h5acreate_f(place, name, kind, space, attribute, status)
+    call h5awrite_f(attribute, kind, c_loc(buffer(1:1)), status)
+    if (status /= 0) failed = .true.
+    call h5aclose_f(attribute, status)
+    call h5sclose_f(space, status)
+    call h5tclose_f(kind, status)
+  end subroutine write_text_attribute
+end module gfb_result_file

@@ -1,0 +1,47 @@
+!> Small text files, written under a temporary name by one rank.
+module gfb_text_file
+  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_c_library, only: rename_file
+  implicit none (type, external)
+  private
+  public :: write_text_file, folder_is_writable
+
+  character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
+  character(len=*), parameter :: trial = '.gfb-trial' !! a file that is written to see whether one can
+
+contains
+
+  !> Writes a text as a file, whole or not at all.
+  !>
+  !> Fails when the system refuses.
+  subroutine write_text_file(path, words, error)
+    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: words !! with its line ends
+    type(error_type), allocatable, intent(out) :: error
+    integer :: unit, status, closed
+
+    open (newunit=unit, file=path//unfinished, access='stream', form='unformatted', &
+          status='replace', action='write', iostat=status)
+    if (status == 0) then
+      write (unit, iostat=status) words
+      close (unit, iostat=closed)
+      status = max(abs(status), abs(closed))
+    end if
+    if (status /= 0) then
+      call fail(error, path//': the file cannot be written', status_machine)
+    else if (.not. rename_file(path//unfinished, path)) then
+      call fail(error, path//': the file cannot be put in its place', status_machine)
+    end if
+  end subroutine write_text_file
+
+  !> Whether a file can be made in a folder.
+  function folder_is_writable(folder) result(writable)
+    character(len=*), intent(in) :: folder
+    logical :: writable
+    integer :: unit, status
+
+    open (newunit=unit, file=folder//'/'//trial, status='replace', action='write', iostat=status)
+    writable = status == 0
+    if (writable) close (unit, status='delete', iostat=status)
+  end function folder_is_writable
+end module gfb_text_file

@@ -1,0 +1,256 @@
+#include "gfb_petsc.h"
+!> A bearing with a given load or a given position, at one point or along a sweep.
+module gfb_bearing_analysis
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text, exact_text
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, number_quantity
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_operation_case, only: operation_case_type
+  use gfb_sweep_case, only: operation_at, sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, &
+                            sweep_tilt_y, sweep_eccentricity_x
+  use gfb_c_library, only: peak_memory
+  use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: bearing_plan_type, operating_point
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_cold_start, only: start_bearing
+  use gfb_case_file, only: history_row_type
+  use gfb_bearing_plan, only: plan_bearing
+  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block
+  use gfb_bearing_files, only: write_bearing_files
+  use gfb_provenance, only: provenance, blas_in_use
+  implicit none (type)
+  private
+  public :: run_bearing
+
+  real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
+
+contains
+
+  !> Computes a bearing and writes its results.
+  !>
+  !> `converged` is false where an answer could not be found. Fails when a file cannot be written.
+  subroutine run_bearing(scene, folder, command, start_time, log, converged, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder   !! where the results go
+    character(len=*), intent(in) :: command  !! the whole command line
+    real(wp), intent(in) :: start_time       !! of the run [s]
+    type(run_log_type), intent(in) :: log
+    logical, intent(out) :: converged
+    type(error_type), allocatable, intent(out) :: error
+
+    type(bearing_plan_type) :: plan
+    type(bearing_system_type), target :: bearing
+    type(newton_type), target :: newton
+    type(bearing_answer_type) :: answer
+    type(history_row_type), allocatable :: history(:)
+    type(quantity_type), allocatable :: summary(:)
+    type(cost_type) :: cost
+
+    converged = .false.
+    call plan_bearing(scene, log, plan)
+    call log%heading('solution')
+    call solve_scene(scene, plan, log, bearing, newton, history, converged, error)
+    if (allocated(error)) return
+    answer = bearing_answer(bearing)
+    cost = cost_of(bearing, newton, start_time)
+    summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
+                                 bearing%force_scale), cost_quantities(cost)]
+    call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
+    if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
+      call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
+                       'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg''')
+    end if
+    call write_bearing_files(scene, bearing, folder, converged, provenance(command), summary, history, log, &
+                             error)
+    call destroy_newton(newton)
+    call bearing%destroy()
+  end subroutine run_bearing
+
+  !> The first answer, and those of the sweep, each from its neighbour.
+  subroutine solve_scene(scene, plan, log, bearing, newton, history, converged, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(history_row_type), allocatable, intent(out) :: history(:)
+    logical, intent(out) :: converged
+    type(error_type), allocatable, intent(out) :: error
+
+    type(path_report_type) :: report
+    type(path_settings_type) :: path
+    type(operation_case_type) :: operation
+    real(wp) :: begun
+    integer :: point, first
+
+    allocate (history(0))
+    path = path_settings_type(scene%solver%maximum_load_steps, scene%solver%smallest_load_step, &
+                              scene%solver%touch_down_gap)
+    operation = scene%operation
+    first = 1
+    if (scene%sweep%present .and. .not. scene%sweep%hold_position) then
+      operation = operation_at(scene%operation, scene%sweep, 1)
+      first = 2
+    end if
+    begun = wall_time()
+    call start_bearing(scene, plan, operating_point(operation), &
+                       newton_settings_type(scene%solver%residual_tolerance, scene%solver%step_tolerance, &
+                                            scene%solver%maximum_iterations), &
+                       path, log, bearing, newton, report, error)
+    if (allocated(error)) return
+    converged = report%converged
+    if (.not. converged) call explain(log, scene, report)
+    if (.not. scene%sweep%present) then
+      call add_row(scene, bearing, 0, converged, history)
+      return
+    end if
+    if (converged .and. scene%sweep%hold_position) then
+      call hold_shaft(bearing, log)
+      path%touch_down_gap = 0.0_wp
+    else if (converged) then
+      call add_row(scene, bearing, 1, converged, history)
+      call show_progress(log, scene%sweep, 1, begun)
+    end if
+    do point = first, size(scene%sweep%values)
+      if (.not. converged) exit
+      call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
+      converged = report%converged
+      if (.not. converged) call explain(log, scene, report)
+      if (converged) call add_row(scene, bearing, point, converged, history)
+      call show_progress(log, scene%sweep, point, begun)
+    end do
+  end subroutine solve_scene
+
+  !> Where a sweep point puts the shaft; a held shaft stays where it is.
+  function sweep_target(scene, bearing, point) result(target)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: point
+    type(operating_point_type) :: target
+
+    target = operating_point(operation_at(scene%operation, scene%sweep, point))
+    if (bearing%held) target%eccentricity = bearing%point%eccentricity
+  end function sweep_target
+
+  !> Keeps the shaft at its equilibrium from now on.
+  subroutine hold_shaft(bearing, log)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(run_log_type), intent(in) :: log
+
+    bearing%point%eccentricity = bearing%eccentricity()
+    bearing%held = .true.
+    call bearing%apply_point()
+    call log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
+                  text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
+  end subroutine hold_shaft
+
+  !> Says why there is no answer, and how far the way led.
+  subroutine explain(log, scene, report)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    type(path_report_type), intent(in) :: report
+
+    associate (point => report%reached)
+      if (scene%general%analysis == analysis_equilibrium) then
+        call log%line('no equilibrium found: '//report%reason)
+        call log%line('last state reached: load ('//text(point%load(1), 5)//', '//text(point%load(2), 5)// &
+                      ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
+                      text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
+      else
+        call log%line('no answer found: '//report%reason)
+        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the way, speed '// &
+                      text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm')
+      end if
+    end associate
+  end subroutine explain
+
+  !> Adds the present state to the history.
+  subroutine add_row(scene, bearing, point, converged, history)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: point !! of the sweep; 0 without one
+    logical, intent(in) :: converged
+    type(history_row_type), allocatable, intent(inout) :: history(:)
+    type(history_row_type) :: row
+
+    row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
+                                     bearing%film%clearance, bearing%force_scale)
+    if (point > 0) then
+      if (scene%sweep%parameter < sweep_eccentricity_x) then ! the answer has the eccentricities anyway
+        row%quantity = [number_quantity(sweep_name(scene%sweep), scene%sweep%values(point), &
+                                        sweep_unit(scene%sweep), 'what the sweep changes'), row%quantity]
+      end if
+    end if
+    history = [history, row]
+  end subroutine add_row
+
+  !> A line a point, with the time that is left.
+  subroutine show_progress(log, sweep, point, begun)
+    type(run_log_type), intent(in) :: log
+    type(sweep_case_type), intent(in) :: sweep
+    integer, intent(in) :: point
+    real(wp), intent(in) :: begun !! when the sweep began [s]
+    real(wp) :: gone
+
+    gone = wall_time() - begun
+    call log%line('point '//text(point)//' of '//text(size(sweep%values))//': '//sweep_name(sweep)//' = '// &
+                  text(sweep%values(point))//' '//sweep_unit(sweep)//', '//text(gone, 3)//' s gone, about '// &
+                  text(gone/real(point, wp)*real(size(sweep%values) - point, wp), 2)//' s left')
+  end subroutine show_progress
+
+  !> What a scene cost so far.
+  function cost_of(bearing, newton, start_time) result(cost)
+    type(bearing_system_type), intent(in) :: bearing
+    type(newton_type), intent(in) :: newton
+    real(wp), intent(in) :: start_time !! [s]
+    type(cost_type) :: cost
+    real(wp) :: memory(1)
+
+    memory = sum_over_ranks([peak_memory()])
+    cost = cost_type(bearing%unknowns, newton%iterations, newton%factorizations, &
+                     wall_time() - start_time, memory(1))
+  end function cost_of
+
+  !> The word for the scene's analysis.
+  pure function analysis_name(scene) result(name)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: name
+
+    name = 'fixed_position'
+    if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
+  end function analysis_name
+
+  !> The word for what a sweep changes.
+  pure function sweep_name(sweep) result(name)
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=:), allocatable :: name
+    character(len=14), parameter :: names(6) = [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', &
+                                                'tilt_y', 'eccentricity_x', 'eccentricity_y']
+    name = trim(names(sweep%parameter))
+  end function sweep_name
+
+  !> Its unit.
+  pure function sweep_unit(sweep) result(unit)
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=:), allocatable :: unit
+
+    select case (sweep%parameter)
+    case (sweep_load)
+      unit = 'N'
+    case (sweep_speed)
+      unit = 'rpm'
+    case (sweep_tilt_x, sweep_tilt_y)
+      unit = 'rad'
+    case default
+      unit = 'm'
+    end select
+  end function sweep_unit
+end module gfb_bearing_analysis

@@ -1,0 +1,103 @@
+!> What a scene needs, and no more; each choice with its reason.
+module gfb_bearing_plan
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_scene_rules, only: is_symmetric
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, half_width_auto, half_width_yes, &
+                            film_scheme_supg, film_scheme_auto, foundation_pressure_axial_mean
+  use gfb_bearing_builder, only: bearing_plan_type, foundation_stiffness
+  implicit none (type, external)
+  private
+  public :: plan_bearing
+
+  real(wp), parameter :: bytes_a_film_node = 4.0e3_wp !! measured with MUMPS on film meshes [B]
+
+contains
+
+  !> Chooses width, weighting and unknowns, and tells the log why.
+  subroutine plan_bearing(scene, log, plan)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_plan_type), intent(out) :: plan
+    integer :: nodes
+
+    plan%circumferential = scene%mesh%circumferential_elements
+    plan%axial = scene%mesh%axial_elements
+    plan%floats = scene%general%analysis == analysis_equilibrium
+    call log%heading('what the scene needs')
+    call describe_foil(scene, log)
+    call choose_width(scene, log, plan)
+    call choose_scheme(scene, log, plan)
+    if (plan%floats) then
+      call log%line('shaft: (e_x, e_y) are unknowns, balanced with the load')
+    else
+      call log%line('shaft: position given, no shaft unknowns')
+    end if
+    nodes = (plan%circumferential + 1)*(merge(plan%axial/2, plan%axial, plan%half) + 1)
+    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
+                  ' elements over the whole pad, '//text(nodes)//' nodes solved, about '// &
+                  text(real(nodes, wp)*bytes_a_film_node*1.0e-6_wp, 3)//' MB')
+    if (scene%sweep%present) call log%line('sweep: '//text(size(scene%sweep%values))//' points')
+  end subroutine plan_bearing
+
+  !> The foil model and what it is made of.
+  subroutine describe_foil(scene, log)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    character(len=:), allocatable :: source, pressure
+
+    if (scene%model%foil == foil_rigid) then
+      call log%line('foil: rigid, no structure')
+      if (scene%bump_foil%present) call log%line('  &bump_foil is not used by a rigid foil')
+    else if (scene%model%foil == foil_elastic_foundation) then
+      source = 'by Walowit-Anno from &bump_foil'
+      if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
+      pressure = 'local pressure'
+      if (scene%model%foundation_pressure == foundation_pressure_axial_mean) pressure = 'axial mean pressure'
+      call log%line('foil: elastic foundation, '// &
+                    text(foundation_stiffness(scene%model, scene%bump_foil)*1.0e-9_wp, 5)// &
+                    ' N/mm^3 '//source//', '//pressure)
+      if (scene%bump_foil%present .and. scene%model%foundation_stiffness > 0.0_wp) then
+        call log%line('  &bump_foil is not used: foundation_stiffness is given')
+      end if
+    end if
+  end subroutine describe_foil
+
+  !> Half or whole width.
+  subroutine choose_width(scene, log, plan)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_plan_type), intent(inout) :: plan
+
+    if (scene%model%half_width == half_width_auto) then
+      plan%half = is_symmetric(scene%operation, scene%sweep) .and. modulo(plan%axial, 2) == 0
+      if (plan%half) then
+        call log%line('width: half, with symmetry at z = 0, because nothing tilts')
+      else if (is_symmetric(scene%operation, scene%sweep)) then
+        call log%line('width: whole, because axial_elements is odd')
+      else
+        call log%line('width: whole, because the shaft tilts')
+      end if
+    else
+      plan%half = scene%model%half_width == half_width_yes
+      call log%line('width: '//trim(merge('half ', 'whole', plan%half))//', as half_width asks')
+    end if
+  end subroutine choose_width
+
+  !> Galerkin or SUPG weighting of the film.
+  subroutine choose_scheme(scene, log, plan)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_plan_type), intent(inout) :: plan
+
+    plan%upwind = scene%model%film_scheme == film_scheme_supg
+    if (scene%model%film_scheme == film_scheme_auto) then
+      call log%line('film: Galerkin, because side leakage damps it on smooth films')
+    else
+      call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))//', as film_scheme asks')
+    end if
+  end subroutine choose_scheme
+end module gfb_bearing_plan

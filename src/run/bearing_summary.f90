@@ -1,0 +1,137 @@
+!> The names under which a bearing's answer is written.
+module gfb_bearing_summary
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
+                          truth_quantity, add_quantity
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text, engineering_text
+  use gfb_bearing_answer, only: bearing_answer_type
+  implicit none (type, external)
+  private
+  public :: answer_quantities, cost_quantities, attitude_angle, show_closing_block
+
+  real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
+  real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
+
+  !> What an answer cost.
+  type, public :: cost_type
+    integer :: unknowns = 0
+    integer :: newton_iterations = 0
+    integer :: factorizations = 0
+    real(wp) :: wall_time = 0.0_wp   !! [s]
+    real(wp) :: peak_memory = 0.0_wp !! of all ranks [B]
+  end type cost_type
+
+contains
+
+  !> Quantities of one answer.
+  function answer_quantities(analysis, converged, answer, clearance, force_scale) result(list)
+    character(len=*), intent(in) :: analysis !! as the user types it
+    logical, intent(in) :: converged
+    type(bearing_answer_type), intent(in) :: answer
+    real(wp), intent(in) :: clearance        !! C [m]
+    real(wp), intent(in) :: force_scale      !! size of a force [N]
+    type(quantity_type), allocatable :: list(:)
+
+    list = [word_quantity('analysis', analysis, 'kind of analysis'), &
+            truth_quantity('converged', converged, 'whether the answer was found'), &
+            number_quantity('eccentricity_x', answer%eccentricity(1), 'm', &
+                            'e_x, of the sleeve relative to the shaft'), &
+            number_quantity('eccentricity_y', answer%eccentricity(2), 'm', &
+                            'e_y, of the sleeve relative to the shaft')]
+    if (norm2(answer%eccentricity) > no_direction*clearance .and. &
+        norm2(answer%force(1:2)) > no_direction*force_scale) then
+      call add_quantity(list, number_quantity('attitude_angle', attitude_angle(answer)*degrees, 'deg', &
+                                              'from the load to the thinnest film, positive in +theta'))
+    end if
+    list = [list, &
+            number_quantity('force_x', answer%force(1), 'N', 'film force on the sleeve, x'), &
+            number_quantity('force_y', answer%force(2), 'N', 'film force on the sleeve, y'), &
+            number_quantity('torque_x', answer%force(3), 'N m', 'film torque on the shaft about x'), &
+            number_quantity('torque_y', answer%force(4), 'N m', 'film torque on the shaft about y'), &
+            number_quantity('torque_x_without_suction', answer%force_without_suction(3), 'N m', &
+                            'torque_x of the pressure above ambient'), &
+            number_quantity('torque_y_without_suction', answer%force_without_suction(4), 'N m', &
+                            'torque_y of the pressure above ambient'), &
+            number_quantity('friction_torque', answer%friction_torque, 'N m', &
+                            'torque with which the film brakes the shaft'), &
+            number_quantity('power_loss', answer%power_loss, 'W', 'friction torque times speed')]
+    list = [list, &
+            number_quantity('minimum_gap', answer%minimum_gap, 'm', 'smallest film thickness'), &
+            number_quantity('minimum_gap_midplane', answer%minimum_gap_midplane, 'm', &
+                            'smallest film thickness at z = 0'), &
+            number_quantity('minimum_gap_edge', answer%minimum_gap_edge, 'm', &
+                            'smallest film thickness at the bearing edges'), &
+            number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', 'largest absolute pressure'), &
+            number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', 'smallest absolute pressure'), &
+            number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
+                            'largest cell Peclet number of the film')]
+  end function answer_quantities
+
+  !> Quantities of what it cost.
+  function cost_quantities(cost) result(list)
+    type(cost_type), intent(in) :: cost
+    type(quantity_type), allocatable :: list(:)
+
+    list = [count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'), &
+            count_quantity('newton_iterations', cost%newton_iterations, 'iterations of all solves'), &
+            count_quantity('factorizations', cost%factorizations, 'matrix factorizations of all solves'), &
+            number_quantity('wall_time', cost%wall_time, 's', 'from start to answer'), &
+            number_quantity('peak_memory', cost%peak_memory, 'B', 'sum over ranks of the largest held')]
+  end function cost_quantities
+
+  !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
+  pure function attitude_angle(answer) result(angle)
+    type(bearing_answer_type), intent(in) :: answer
+    real(wp) :: angle
+
+    associate (e => answer%eccentricity, f => answer%force)
+      angle = atan2(-f(1)*e(2) + f(2)*e(1), -f(1)*e(1) - f(2)*e(2))
+    end associate
+  end function attitude_angle
+
+  !> The answer in the units an engineer reads.
+  subroutine show_closing_block(log, converged, answer, clearance, cost, ranks, blas)
+    type(run_log_type), intent(in) :: log
+    logical, intent(in) :: converged
+    type(bearing_answer_type), intent(in) :: answer
+    real(wp), intent(in) :: clearance     !! C [m]
+    type(cost_type), intent(in) :: cost
+    integer, intent(in) :: ranks
+    character(len=*), intent(in) :: blas  !! library in use
+
+    if (converged) then
+      call log%heading('answer')
+    else
+      call log%heading('last state reached, not the answer')
+    end if
+    call log%line('eccentricity     '//pair(answer%eccentricity, 'um', 1.0e6_wp)// &
+                  '   over C '//text(answer%eccentricity(1)/clearance, 5)//', '// &
+                  text(answer%eccentricity(2)/clearance, 5))
+    call log%line('attitude angle   '//engineering_text(attitude_angle(answer), 'deg', degrees))
+    call log%line('film force       '//pair(answer%force(1:2), 'N', 1.0_wp))
+    call log%line('film torque      '//pair(answer%force(3:4), 'N m', 1.0_wp)//'   without suction '// &
+                  pair(answer%force_without_suction(3:4), 'N m', 1.0_wp))
+    call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
+                  '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
+                  ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
+    call log%line('pressure         '//engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
+                  engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
+    call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
+                  '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
+    call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
+    call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
+                  text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
+                  ' factorizations, '//text(cost%wall_time, 3)//' s, '// &
+                  text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '//text(ranks)//' rank(s), BLAS '//blas)
+  end subroutine show_closing_block
+
+  !> Two numbers with their unit.
+  pure function pair(numbers, unit, scale) result(words)
+    real(wp), intent(in) :: numbers(2)      !! in SI
+    character(len=*), intent(in) :: unit    !! of the text
+    real(wp), intent(in) :: scale           !! text's number over SI number
+    character(len=:), allocatable :: words
+    words = '('//text(numbers(1)*scale, 4)//', '//text(numbers(2)*scale, 4)//') '//unit
+  end function pair
+end module gfb_bearing_summary

@@ -1,0 +1,128 @@
+!> What the user typed after the program's name.
+module gfb_command_line
+  use gfb_errors, only: error_type, fail
+  use gfb_text, only: nearest_word
+  implicit none (type, external)
+  private
+  public :: read_command_line, help_text
+
+  !> The command line.
+  type, public :: command_line_type
+    character(len=:), allocatable :: case_file
+    character(len=:), allocatable :: folder !! where results go
+    logical :: check = .false.   !! read, validate, print what the scene needs, stop
+    logical :: help = .false.
+    logical :: version = .false.
+    logical :: keys = .false.    !! print the table of all keys
+    logical :: quiet = .false.   !! no line per iteration
+    character(len=:), allocatable :: words !! the whole line
+  end type command_line_type
+
+  character(len=9), parameter :: options(7) = [character(len=9) :: '--check', '--output', '--help', &
+                                               '--version', '--keys', '--quiet', '--petsc']
+
+contains
+
+  !> Reads the command line.
+  !>
+  !> Fails on an unknown option, a missing or a second case file.
+  subroutine read_command_line(line, error)
+    type(command_line_type), intent(out) :: line
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: word
+    integer :: i
+
+    line%folder = '.'
+    line%words = argument(0)
+    do i = 1, command_argument_count()
+      line%words = line%words//' '//argument(i)
+    end do
+    i = 0
+    do while (i < command_argument_count() .and. .not. allocated(error))
+      i = i + 1
+      word = argument(i)
+      select case (word)
+      case ('--check')
+        line%check = .true.
+      case ('--help', '-h')
+        line%help = .true.
+      case ('--version')
+        line%version = .true.
+      case ('--keys')
+        line%keys = .true.
+      case ('--quiet')
+        line%quiet = .true.
+      case ('--petsc') ! the rest is for PETSc
+        exit
+      case ('--output')
+        i = i + 1
+        line%folder = argument(i)
+        if (line%folder == '') call fail(error, 'gfb: --output needs a folder')
+      case default
+        call take_other(word, line, error)
+      end select
+    end do
+    if (allocated(error) .or. line%help .or. line%version .or. line%keys) return
+    if (.not. allocated(line%case_file)) then
+      call fail(error, 'gfb: no case file given; gfb --help shows how')
+    end if
+  end subroutine read_command_line
+
+  !> A word that is no known option: the case file, or a mistake.
+  subroutine take_other(word, line, error)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: near
+
+    if (index(word, '--output=') == 1 .and. len(word) > 9) then
+      line%folder = word(10:)
+    else if (index(word, '-') == 1) then
+      near = nearest_word(word, options)
+      if (near /= '') near = ', did you mean '//near//'?'
+      call fail(error, 'gfb: unknown option '//word//near//' (gfb --help shows all)')
+    else if (word == '') then
+      call fail(error, 'gfb: the name of the case file is empty')
+    else if (allocated(line%case_file)) then
+      call fail(error, 'gfb: one case file at a time, not '//line%case_file//' and '//word)
+    else
+      line%case_file = word
+    end if
+  end subroutine take_other
+
+  !> One word of the command line, empty where there is none.
+  function argument(number) result(word)
+    integer, intent(in) :: number
+    character(len=:), allocatable :: word
+    integer :: length
+
+    word = ''
+    if (number > command_argument_count()) return
+    call get_command_argument(number, length=length)
+    deallocate (word)
+    allocate (character(len=length) :: word)
+    call get_command_argument(number, word)
+  end function argument
+
+  !> What `--help` prints.
+  pure function help_text() result(words)
+    character(len=:), allocatable :: words
+    character(len=1), parameter :: next = new_line('a')
+
+    words = 'usage: gfb [options] CASE.nml          (or: mpiexec -n RANKS gfb [options] CASE.nml)'//next// &
+      next// &
+      'Computes a bump-type gas foil bearing: shaft position, film, foil deflection, torque.'//next// &
+      next// &
+      '  --check         read and check the case, print what it needs, stop'//next// &
+      '  --output DIR    where the results go; made if it is not there; default: here'//next// &
+      '  --quiet         no line per iteration'//next// &
+      '  --keys          table of all keys of a case file'//next// &
+      '  --version       version of the program and its libraries'//next// &
+      '  --help          this text'//next// &
+      '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
+      next// &
+      'results: CASE.summary, CASE.h5, CASE.film.vtkhdf, CASE.used.nml; CASE.unconverged.* where no'//next// &
+      'answer was found'//next// &
+      'exit status: 0 done, 1 the input is wrong, 2 did not converge, 3 a file or the machine failed'
+  end function help_text
+end module gfb_command_line

@@ -1,0 +1,74 @@
+#include "gfb_version.h"
+!> Which program computed this, where and with what.
+module gfb_provenance
+  use gfb_quantity, only: quantity_type, word_quantity, count_quantity
+  use gfb_c_library, only: host_name
+  use gfb_petsc_session, only: petsc_version_text, rank_count
+  implicit none (type, external)
+  private
+  public :: version_text, provenance, blas_in_use
+
+contains
+
+  !> Version of the program and its libraries.
+  function version_text() result(words)
+    character(len=:), allocatable :: words
+    words = 'gfb '//GFB_VERSION//' ('//GFB_COMMIT//'), '//GFB_BUILD//' build by '//GFB_COMPILER//', '// &
+      petsc_version_text()//', BLAS '//blas_in_use()
+  end function version_text
+
+  !> What the result file says of its origin.
+  function provenance(command) result(list)
+    character(len=*), intent(in) :: command !! the whole command line
+    type(quantity_type), allocatable :: list(:)
+
+    list = [word_quantity('program_version', GFB_VERSION, 'version of gfb'), &
+            word_quantity('commit', GFB_COMMIT, 'commit of its sources'), &
+            word_quantity('compiler', GFB_COMPILER, 'compiler that built it'), &
+            word_quantity('build', GFB_BUILD, 'kind of build'), &
+            word_quantity('libraries', petsc_version_text(), 'versions of the solver libraries'), &
+            word_quantity('blas', blas_in_use(), 'library of the dense kernels'), &
+            word_quantity('command', command, 'command line'), &
+            word_quantity('host', host_name(), 'machine of the first rank'), &
+            word_quantity('date', date_text(), 'when it was written'), &
+            count_quantity('ranks', rank_count(), 'processes of the job')]
+  end function provenance
+
+  !> Date and time with their distance from UTC.
+  function date_text() result(words)
+    character(len=:), allocatable :: words
+    character(len=8) :: date
+    character(len=10) :: time
+    character(len=5) :: zone
+
+    call date_and_time(date, time, zone)
+    words = date(1:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(1:2)//':'//time(3:4)//':'//time(5:6)// &
+      ' '//zone
+  end function date_text
+
+  !> Name of the BLAS this process has loaded, as the system tells it.
+  function blas_in_use() result(name)
+    character(len=:), allocatable :: name
+    character(len=1024) :: line
+    integer :: unit, status
+
+    name = 'unknown'
+    open (newunit=unit, file='/proc/self/maps', status='old', action='read', iostat=status)
+    do while (status == 0)
+      read (unit, '(a)', iostat=status) line
+      if (status /= 0 .or. index(line, 'libblas') + index(line, 'openblas') + index(line, 'libmkl') == 0) cycle
+      name = trim(line(index(line, '/'):))
+      if (index(line, 'openblas') > 0) exit
+    end do
+    if (status == 0) close (unit)
+    if (index(name, 'openblas-serial') > 0) then
+      name = 'OpenBLAS (serial)'
+    else if (index(name, 'openblas') > 0) then
+      name = 'OpenBLAS'
+    else if (index(name, '/blas/') > 0) then
+      name = 'reference (slow: install libopenblas0-serial)'
+    else
+      name = name(index(name, '/', back=.true.) + 1:)
+    end if
+  end function blas_in_use
+end module gfb_provenance

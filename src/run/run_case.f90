@@ -1,0 +1,66 @@
+!> One case file from reading to results.
+module gfb_run_case
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail
+  use gfb_c_library, only: make_folder
+  use gfb_run_log, only: run_log_type
+  use gfb_petsc_session, only: this_rank, rank_count, wall_time, any_rank
+  use gfb_scene, only: scene_type, read_scene
+  use gfb_text_file, only: folder_is_writable
+  use gfb_text, only: text
+  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_bearing_plan, only: plan_bearing
+  use gfb_bearing_analysis, only: run_bearing
+  use gfb_command_line, only: command_line_type
+  use gfb_provenance, only: version_text
+  implicit none (type, external)
+  private
+  public :: run_case
+
+contains
+
+  !> Reads, checks, computes, writes.
+  !>
+  !> Fails on wrong input and on files that cannot be read or written.
+  subroutine run_case(line, log, converged, error)
+    type(command_line_type), intent(in) :: line
+    type(run_log_type), intent(in) :: log
+    logical, intent(out) :: converged
+    type(error_type), allocatable, intent(out) :: error
+    type(scene_type) :: scene
+    type(bearing_plan_type) :: plan
+    real(wp) :: start_time
+
+    converged = .true.
+    start_time = wall_time()
+    call read_scene(line%case_file, scene, error)
+    if (.not. allocated(error) .and. .not. line%check) call prepare_folder(line%folder, error)
+    if (allocated(error)) return
+    call log%line(version_text())
+    call log%line(scene%file//': '//scene%general%title)
+    if (line%check) then
+      call plan_bearing(scene, log, plan)
+      call log%line('')
+      call log%line(scene%file//' is in order')
+    else
+      call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
+      call run_bearing(scene, line%folder, line%words, start_time, log, converged, error)
+    end if
+  end subroutine run_case
+
+  !> Makes the folder of the results if it is not there.
+  !>
+  !> Fails when nothing can be written there.
+  subroutine prepare_folder(folder, error)
+    character(len=*), intent(in) :: folder
+    type(error_type), allocatable, intent(out) :: error
+    logical :: refused
+
+    refused = .false.
+    if (this_rank() == 0) then
+      call make_folder(folder)
+      refused = .not. folder_is_writable(folder)
+    end if
+    if (any_rank(refused)) call fail(error, folder//': results cannot be written to this folder')
+  end subroutine prepare_folder
+end module gfb_run_case
