@@ -6,8 +6,6 @@
 #define GFB_VecRestoreArray VecRestoreArrayF90
 #define GFB_VecGetArrayRead VecGetArrayReadF90
 #define GFB_VecRestoreArrayRead VecRestoreArrayReadF90
-#define GFB_GetClosure(dm,p,u,c,n,e) DMPlexGetTransitiveClosure(dm,p,u,c,e)
-#define GFB_RestoreClosure(dm,p,u,c,n,e) DMPlexRestoreTransitiveClosure(dm,p,u,c,e)
 #define GFB_COMM MPI_Comm
 #define GFB_REASON(r) r
 #else
@@ -15,8 +13,6 @@
 #define GFB_VecRestoreArray VecRestoreArray
 #define GFB_VecGetArrayRead VecGetArrayRead
 #define GFB_VecRestoreArrayRead VecRestoreArrayRead
-#define GFB_GetClosure(dm,p,u,c,n,e) DMPlexGetTransitiveClosure(dm,p,u,n,c,e)
-#define GFB_RestoreClosure(dm,p,u,c,n,e) DMPlexRestoreTransitiveClosure(dm,p,u,n,c,e)
 #define GFB_COMM MPIU_Comm
 #define GFB_REASON(r) r%v
 #endif

@@ -4,13 +4,15 @@
 !> A coarse mesh finds the way: at rest the film is at ambient pressure whatever the shaft's position;
 !> from there the shaft is brought to speed at a held position, and then the load vector is moved from
 !> the film's reaction to the load asked for. A finer mesh starts from the coarser one's answer, and
-!> goes the same way itself only if that fails.
+!> goes the same way itself only if that fails. Coarse meshes use SUPG, which comes home from far away
+!> at cell Peclet numbers where Galerkin's pressure becomes negative.
 module gfb_cold_start
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_petsc_session, only: largest_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: film_forces
@@ -29,6 +31,7 @@ module gfb_cold_start
 
   real(wp), parameter :: start_eccentricity = 0.5_wp !! of the free clearance, where none is given [1]
   real(wp), parameter :: start_attitude = 0.5_wp     !! of that position [rad]
+  real(wp), parameter :: room_at_rest = 0.75_wp      !! way to begin with, over the clearance [1]
 
 contains
 
@@ -50,52 +53,84 @@ contains
 
     type(bearing_system_type), target :: coarse
     type(newton_type), target :: coarse_newton
-    logical :: started
+    logical :: helped
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    started = .false.
-    if (can_coarsen(plan)) then
+    helped = can_coarsen(plan)
+    if (helped) then
       call start_bearing(scene, coarser(plan), target, newton_settings, path_settings, log, coarse, &
                          coarse_newton, report, error)
       if (allocated(error)) return
       newton%iterations = coarse_newton%iterations
       newton%factorizations = coarse_newton%factorizations
-      call log%detail('film '//text(plan%circumferential)//' x '//text(plan%axial)//', from the coarser mesh')
-      call refine(coarse, bearing)
+      helped = report%converged
       call destroy_newton(coarse_newton)
-      if (report%converged) call try_target(bearing, newton, target, path_settings, started, report)
-      if (.not. started) call refine_position(coarse, bearing)
-      call coarse%destroy()
-    else
-      call guess_position(bearing, scene, target)
     end if
-    if (.not. started) call find_way(bearing, newton, target, path_settings, report)
+    call log%detail('film '//text(plan%circumferential)//' x '//text(plan%axial))
+    call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, report)
+    if (.not. report%converged .and. plan%may_upwind .and. .not. plan%upwind) then
+      bearing%film%flow%upwind = .true.
+      call log%line('film: Galerkin finds no answer, SUPG is tried')
+      call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, report)
+    end if
+    call coarse%destroy()
   end subroutine start_bearing
 
-  !> Newton's method straight at the target.
-  subroutine try_target(bearing, newton, target, settings, found, report)
+  !> Tries the starts there are, the cheapest first: at the target from the coarser mesh's answer; held
+  !> at the coarser mesh's position, then let go; from nothing.
+  subroutine find_answer(scene, target, settings, helped, coarse, bearing, newton, report)
+    type(scene_type), intent(in) :: scene
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    logical, intent(in) :: helped !! the coarser mesh has an answer
+    type(bearing_system_type), intent(in) :: coarse
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(path_report_type), intent(out) :: report
+    type(operating_point_type) :: held
+
+    if (helped) then
+      call refine(coarse, bearing)
+      call solve_at(bearing, newton, target, .false., settings, report)
+      if (report%converged) return
+      if (bearing%floats) then
+        call refine(coarse, bearing)
+        held = target
+        held%eccentricity = bearing%eccentricity()
+        call solve_at(bearing, newton, held, .true., settings, report)
+        if (report%converged) call let_go(bearing, newton, target, settings, report)
+        if (report%converged) return
+      end if
+    end if
+    call guess_position(bearing, scene, target)
+    call find_way(bearing, newton, target, settings, report)
+  end subroutine find_answer
+
+  !> Newton's method at a point, as a path of one step.
+  subroutine solve_at(bearing, newton, target, held, settings, report)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: target
+    logical, intent(in) :: held !! the shaft is kept at the point's position
     type(path_settings_type), intent(in) :: settings
-    logical, intent(out) :: found
     type(path_report_type), intent(out) :: report
     type(newton_report_type) :: solved
 
     bearing%point = target
-    bearing%held = .false.
+    bearing%held = held
     call bearing%apply_point()
     call solve_newton(newton, solved)
-    found = solved%converged
-    if (found) found = bearing%smallest_gap() >= settings%touch_down_gap .or. .not. bearing%floats
-    report%converged = found
+    report%converged = solved%converged
+    if (solved%converged .and. bearing%floats .and. .not. held) then
+      report%converged = bearing%smallest_gap() >= settings%touch_down_gap
+    end if
     report%reason = solved%reason
     report%reached = target
     report%fraction = 1.0_wp
     report%steps = 1
-  end subroutine try_target
+  end subroutine solve_at
 
   !> Held position at rest, brought to speed; then the load vector moved to its target.
   subroutine find_way(bearing, newton, target, settings, report)
@@ -105,18 +140,33 @@ contains
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
 
-    type(path_settings_type) :: to_speed
-    type(operating_point_type) :: held
-    real(wp) :: force(film_forces), way
+    type(path_settings_type) :: to_position
+    type(operating_point_type) :: wanted, free
 
-    held = target
-    held%eccentricity = bearing%eccentricity()
-    call put_at_rest(bearing, held)
+    to_position = settings
+    to_position%touch_down_gap = 0.0_wp
+    wanted = target
+    wanted%eccentricity = bearing%eccentricity()
+    free = free_position(bearing, wanted)
+    call put_at_rest(bearing, free)
     call newton%log%detail('held position, from rest to speed')
-    to_speed = settings
-    to_speed%touch_down_gap = 0.0_wp
-    call follow_path(bearing, newton, held, 1.0_wp, to_speed, report)
-    if (.not. report%converged .or. .not. bearing%floats) return
+    call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
+    if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
+        norm2(free%tilt - wanted%tilt) > 0.0_wp) then
+      call newton%log%detail('to the position asked for')
+      call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)
+    end if
+    if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, settings, report)
+  end subroutine find_way
+
+  !> Lets the shaft go where it is held, and moves the load from the film's reaction to its target.
+  subroutine let_go(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+    real(wp) :: force(film_forces), way
 
     force = bearing%reaction()
     bearing%held = .false.
@@ -125,7 +175,25 @@ contains
     call newton%log%detail('shaft let go, load from the reaction to its target')
     way = norm2(target%load - force(1:2))
     call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
-  end subroutine find_way
+  end subroutine let_go
+
+  !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one on
+  !> the way to it.
+  function free_position(bearing, wanted) result(free)
+    type(bearing_system_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: wanted
+    type(operating_point_type) :: free
+    real(wp) :: undeflected(size(bearing%film%angle)), approach(1)
+
+    free = wanted
+    undeflected = 0.0_wp
+    associate (clearance => bearing%film%clearance)
+      approach = largest_over_ranks([clearance - minval(bearing%film%gap(wanted, undeflected))])
+      if (approach(1) < clearance) return
+      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach(1)
+      free%tilt = wanted%tilt*room_at_rest*clearance/approach(1)
+    end associate
+  end function free_position
 
   !> Puts the bearing at rest at a held position: ambient pressure everywhere, exactly.
   subroutine put_at_rest(bearing, held)
@@ -183,19 +251,6 @@ contains
     call fine%set_unknowns(unknown)
   end subroutine refine
 
-  !> Takes the position alone over from a coarser mesh.
-  subroutine refine_position(coarse, fine)
-    type(bearing_system_type), intent(in) :: coarse
-    type(bearing_system_type), intent(inout) :: fine
-    real(wp) :: unknown(fine%local_size())
-
-    fine%point%eccentricity = coarse%eccentricity()
-    if (.not. fine%floats) return
-    unknown = 0.0_wp
-    unknown(fine%first_shaft + 1:) = fine%point%eccentricity
-    call fine%set_unknowns(unknown)
-  end subroutine refine_position
-
   !> Whether half the elements each way still make a mesh.
   pure function can_coarsen(plan) result(can)
     type(bearing_plan_type), intent(in) :: plan
@@ -215,5 +270,6 @@ contains
     coarse = plan
     coarse%circumferential = plan%circumferential/2
     coarse%axial = plan%axial/2
+    coarse%upwind = .true.
   end function coarser
 end module gfb_cold_start

@@ -94,6 +94,9 @@ contains
     PetscCallA(PCSetType(factors, PCLU, ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
+    ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
+    ! or minimum degree that sets dense rows aside.
+    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('6', '2', system%dense_rows))
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
     newton%created = .true.
   end subroutine create_newton

@@ -28,6 +28,7 @@ module gfb_bearing_builder
     integer :: axial = 0           !! film elements along the whole width
     logical :: half = .false.      !! half the width is solved
     logical :: upwind = .false.    !! SUPG instead of Galerkin
+    logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
   end type bearing_plan_type
 

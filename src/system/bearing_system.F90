@@ -103,6 +103,7 @@ contains
     call move_alloc(foil, bearing%foil)
     call bearing%foil%place(size(bearing%mesh%mesh_node))
     bearing%floats = floats
+    bearing%dense_rows = floats
     bearing%first_shaft = size(bearing%mesh%mesh_node) + bearing%foil%local_unknowns()
     call number_unknowns(bearing, global)
     call create_vectors(bearing, global)

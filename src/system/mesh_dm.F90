@@ -69,7 +69,7 @@ contains
     PetscCallA(DMDestroy(whole, ierr))
   end subroutine distribute_mesh
 
-  !> A DMPlex that holds the whole mesh on rank 0.
+  !> A DMPlex that holds the whole mesh on rank 0: cells and vertices, no edges, as none has unknowns.
   subroutine create_whole(communicator, nodes, element_nodes, position, whole)
     integer, intent(in) :: communicator
     integer, intent(in) :: nodes
@@ -95,7 +95,7 @@ contains
       cell_count = 0
       vertex_count = 0
     end if
-    PetscCallA(DMPlexCreateFromCellListPetsc(communicator, 2_pint, cell_count, vertex_count, 4_pint, PETSC_TRUE, cells, 2_pint, coordinates, whole, ierr))
+    PetscCallA(DMPlexCreateFromCellListPetsc(communicator, 2_pint, cell_count, vertex_count, 4_pint, PETSC_FALSE, cells, 2_pint, coordinates, whole, ierr))
     if (rank_count_of(communicator) == 1) call add_node_section(whole)
   end subroutine create_whole
 
@@ -185,10 +185,10 @@ contains
     type(local_mesh_type), intent(out) :: mesh
 
     PetscSection :: section
-    PetscInt :: first_cell, end_cell, first_vertex, end_vertex, vertex, cell, offset, entries
-    PetscInt, pointer :: closure(:)
+    PetscInt :: first_cell, end_cell, first_vertex, end_vertex, vertex, cell, offset
+    PetscInt, pointer :: corners(:)
     PetscErrorCode :: ierr
-    integer :: corner, k, nodes
+    integer :: k, nodes
 
     PetscCallA(DMPlexGetHeightStratum(part, 0_pint, first_cell, end_cell, ierr))
     PetscCallA(DMPlexGetDepthStratum(part, 0_pint, first_vertex, end_vertex, ierr))
@@ -204,17 +204,11 @@ contains
     mesh%owned_nodes = count(mesh%owned)
 
     allocate (mesh%element_nodes(4, end_cell - first_cell))
-    nullify (closure)
-    entries = 0 ! newer PETSc wants a place for it
+    nullify (corners)
     do cell = first_cell, end_cell - 1
-      PetscCallA(GFB_GetClosure(part, cell, PETSC_TRUE, closure, entries, ierr))
-      corner = 0
-      do k = 1, size(closure), 2
-        if (closure(k) < first_vertex .or. closure(k) >= end_vertex) cycle
-        corner = corner + 1
-        mesh%element_nodes(corner, cell - first_cell + 1) = int(closure(k) - first_vertex) + 1
-      end do
-      PetscCallA(GFB_RestoreClosure(part, cell, PETSC_TRUE, closure, entries, ierr))
+      PetscCallA(DMPlexGetCone(part, cell, corners, ierr))
+      mesh%element_nodes(:, cell - first_cell + 1) = int(corners - first_vertex) + 1
+      PetscCallA(DMPlexRestoreCone(part, cell, corners, ierr))
     end do
     call number_nodes(part, distributed, mesh)
   end subroutine read_local_mesh

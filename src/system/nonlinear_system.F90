@@ -9,6 +9,7 @@ module gfb_nonlinear_system
   type, abstract, public :: nonlinear_system_type
     Vec :: state    !! x, scaled; owned by the system
     Mat :: jacobian !! df/dx, scaled; owned by the system
+    logical :: dense_rows = .false. !! a few equations hold almost all unknowns
   contains
     procedure(evaluate), deferred :: evaluate
     procedure(linearise), deferred :: linearise

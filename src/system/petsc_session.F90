@@ -27,6 +27,7 @@ contains
   subroutine stop_petsc()
     PetscErrorCode :: ierr
 
+    ierr = 0 ! SLEPc 3.18 reads it before it sets it
     call SlepcFinalize(ierr)
   end subroutine stop_petsc
 

@@ -1,0 +1,62 @@
+!> `&bearing`: the pad.
+module gfb_bearing_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_value_rules, only: positive, from_below
+  implicit none (type, external)
+  private
+  public :: bearing_case_type, read_bearing_case, pad_angle, pad_length
+
+  integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
+  integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
+
+  character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
+  real(wp), parameter :: full_turn = 2.0_wp*acos(-1.0_wp) !! [rad]
+
+  !> The pad.
+  type :: bearing_case_type
+    real(wp) :: radius = 0.0_wp              !! of the shaft [m]
+    real(wp) :: length = 0.0_wp              !! along the axis [m]
+    real(wp) :: clearance = 0.0_wp           !! radial [m]
+    real(wp) :: leading_edge_angle = 0.0_wp  !! where the pad begins; it ends at 2 pi [rad]
+    integer :: leading_edge_condition = leading_edge_slit
+  end type bearing_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_bearing_case(keys, bearing)
+    type(case_keys_type), intent(inout) :: keys
+    type(bearing_case_type), intent(out) :: bearing
+
+    call keys%start_group('bearing', required=.true.)
+    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, .true.)
+    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, .true.)
+    call keys%real_key('clearance', bearing%clearance, 'm', &
+                       'radial clearance, shaft to top foil at rest', positive, .true.)
+    call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
+                       'where the pad begins; it ends at 2 pi', from_below(0.0_wp, full_turn))
+    call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &
+                         'ambient pressure at both ends of the pad, or a full ring')
+    if (bearing%leading_edge_condition == leading_edge_periodic .and. &
+        bearing%leading_edge_angle > 0.0_wp) then
+      call keys%complain('bearing', 'leading_edge_angle', &
+                         "must be 0 with leading_edge_condition = 'periodic', a full ring")
+    end if
+    call keys%finish_group()
+  end subroutine read_bearing_case
+
+  !> Angle that the pad covers [rad].
+  elemental function pad_angle(bearing) result(angle)
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp) :: angle
+    angle = full_turn - bearing%leading_edge_angle
+  end function pad_angle
+
+  !> Length of the unrolled pad [m].
+  elemental function pad_length(bearing) result(length)
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp) :: length
+    length = bearing%radius*pad_angle(bearing)
+  end function pad_length
+end module gfb_bearing_case

@@ -1,0 +1,214 @@
+!> Reads the keys of the groups: one call a key reads it, checks it, complains, and writes its line
+!> of the echo and its row of the table of keys.
+!>
+!> A key that is not given keeps the value it came with. `default` says in words what holds then,
+!> where that value is not fixed; the value is then echoed unless it is zero, which means unset.
+module gfb_case_keys
+  use gfb_kinds, only: wp
+  use gfb_case_reader, only: case_reader_type, longest_list
+  use gfb_key_notes, only: no_default, quoted, value_list, choices, chosen_word, chosen_words
+  use gfb_namelist_values, only: read_integer, read_logical, value_string
+  use gfb_text, only: exact_text, text
+  use gfb_value_rules, only: rule_type, broken_rule
+  implicit none (type, external)
+  private
+  public :: case_keys_type, longest_list, no_default
+
+  integer, parameter :: single = 0            !! values of a key that takes no list
+  integer, parameter :: longest_string = 500  !! characters
+  integer, parameter :: most_words = 100      !! in a list of words
+
+  !> The keys of a case file, kind by kind.
+  type, extends(case_reader_type) :: case_keys_type
+  contains
+    procedure :: real_key
+    procedure :: real_vector_key
+    procedure :: real_list_key
+    procedure :: integer_key
+    procedure :: logical_key
+    procedure :: string_key
+    procedure :: choice_key
+    procedure :: words_key
+  end type case_keys_type
+
+contains
+
+  !> One real number.
+  subroutine real_key(self, name, value, unit, meaning, rule, required, default, given)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(wp), intent(inout) :: value            !! the default on entry
+    character(len=*), intent(in) :: unit, meaning
+    type(rule_type), intent(in), optional :: rule
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
+    logical, intent(out), optional :: given
+    integer, allocatable :: elements(:)
+
+    call self%describe(name, 'real', unit, meaning)
+    call self%begin_key(exact_text(value), single, elements, required, default, given)
+    if (size(elements) == 1) call self%take_real(elements(1), 0, value, rule)
+    call self%end_key(exact_text(value), abs(value) > 0.0_wp)
+  end subroutine real_key
+
+  !> A fixed number of real numbers; all of them must be given.
+  subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(wp), intent(inout) :: values(:)        !! the defaults on entry
+    character(len=*), intent(in) :: unit, meaning
+    type(rule_type), intent(in), optional :: rule
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
+    logical, intent(out), optional :: given
+    integer, allocatable :: elements(:)
+    integer :: i
+
+    call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
+    call self%begin_key(value_list(values), size(values), elements, required, default, given)
+    if (size(elements) > 0 .and. size(elements) < size(values)) then
+      call self%complain(self%notes%group, name, 'needs '//text(size(values))//' values, not '// &
+                         text(size(elements)))
+    else if (size(elements) == size(values)) then
+      do i = 1, size(values)
+        call self%take_real(elements(i), i, values(i), rule)
+      end do
+    end if
+    call self%end_key(value_list(values), any(abs(values) > 0.0_wp))
+  end subroutine real_vector_key
+
+  !> A list of real numbers that must be given; empty where the group is absent.
+  subroutine real_list_key(self, name, values, most, unit, meaning, rule)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(wp), allocatable, intent(out) :: values(:)
+    integer, intent(in) :: most                 !! values at most
+    character(len=*), intent(in) :: unit, meaning
+    type(rule_type), intent(in), optional :: rule
+    integer, allocatable :: elements(:)
+    integer :: i
+
+    call self%describe(name, 'list of reals', unit, meaning)
+    call self%begin_key('', most, elements, required=.true.)
+    allocate (values(size(elements)), source=0.0_wp)
+    do i = 1, size(values)
+      call self%take_real(elements(i), i, values(i), rule)
+    end do
+    call self%end_key(value_list(values), size(values) > 0)
+  end subroutine real_list_key
+
+  !> One whole number.
+  subroutine integer_key(self, name, value, meaning, rule, required, default, given)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer, intent(inout) :: value             !! the default on entry
+    character(len=*), intent(in) :: meaning
+    type(rule_type), intent(in) :: rule
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
+    logical, intent(out), optional :: given
+    integer, allocatable :: elements(:)
+    character(len=:), allocatable :: problem
+    integer :: number
+
+    call self%describe(name, 'integer', '1', meaning)
+    call self%begin_key(text(value), single, elements, required, default, given)
+    if (size(elements) == 1) then
+      call read_integer(self%file%value_text(elements(1)), number, problem)
+      if (self%file%values(elements(1))%kind == value_string) then
+        problem = 'must be a whole number, without quotes'
+      end if
+      if (problem == '') problem = broken_rule(rule, real(number, wp))
+      if (problem == '') value = number
+      call self%complain_value(elements(1), 0, problem)
+    end if
+    call self%end_key(text(value), value /= 0)
+  end subroutine integer_key
+
+  !> Yes or no.
+  subroutine logical_key(self, name, value, meaning)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    logical, intent(inout) :: value             !! the default on entry
+    character(len=*), intent(in) :: meaning
+    integer, allocatable :: elements(:)
+    character(len=:), allocatable :: problem
+    logical :: truth
+
+    call self%describe(name, 'logical', '', meaning)
+    call self%begin_key(text(value), single, elements)
+    if (size(elements) == 1) then
+      call read_logical(self%file%value_text(elements(1)), truth, problem)
+      if (self%file%values(elements(1))%kind == value_string) then
+        problem = 'must be .true. or .false., without quotes'
+      end if
+      if (problem == '') value = truth
+      call self%complain_value(elements(1), 0, problem)
+    end if
+    call self%end_key(text(value), .true.)
+  end subroutine logical_key
+
+  !> Free text.
+  subroutine string_key(self, name, value, meaning)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    character(len=:), allocatable, intent(inout) :: value !! the default on entry
+    character(len=*), intent(in) :: meaning
+    integer, allocatable :: elements(:)
+    character(len=:), allocatable :: problem, words
+
+    call self%describe(name, 'string', '', meaning)
+    call self%begin_key(quoted(value), single, elements)
+    if (size(elements) == 1) then
+      problem = ''
+      words = self%file%value_text(elements(1))
+      if (self%file%values(elements(1))%kind /= value_string) then
+        problem = 'must be in quotes'
+      else if (len(words) > longest_string) then
+        problem = 'must not be longer than '//text(longest_string)//' characters'
+      else
+        value = words
+      end if
+      call self%complain_value(elements(1), 0, problem)
+    end if
+    call self%end_key(quoted(value), .true.)
+  end subroutine string_key
+
+  !> One of several words, as its number in their list.
+  subroutine choice_key(self, name, value, words, meaning, required)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer, intent(inout) :: value             !! the default on entry; 0 where none was read
+    character(len=*), intent(in) :: words(:)    !! blank-padded
+    character(len=*), intent(in) :: meaning
+    logical, intent(in), optional :: required
+    integer, allocatable :: elements(:)
+
+    call self%describe(name, '`'//choices(words)//'`', '', meaning)
+    call self%begin_key(chosen_word(words, value), single, elements, required)
+    if (self%key%given) value = 0
+    if (size(elements) == 1) call self%take_choice(elements(1), 0, words, value)
+    call self%end_key(chosen_word(words, value), value > 0)
+  end subroutine choice_key
+
+  !> Several of several words.
+  subroutine words_key(self, name, chosen, words, meaning)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    logical, intent(inout) :: chosen(:)         !! one a word; the default on entry
+    character(len=*), intent(in) :: words(:)    !! blank-padded
+    character(len=*), intent(in) :: meaning
+    integer, allocatable :: elements(:)
+    integer :: i, choice
+
+    call self%describe(name, 'list of `'//choices(words)//'`', '', meaning)
+    call self%begin_key(chosen_words(words, chosen), most_words, elements)
+    if (size(elements) > 0) chosen = .false.
+    do i = 1, size(elements)
+      choice = 0
+      call self%take_choice(elements(i), i, words, choice)
+      if (choice > 0) chosen(choice) = .true.
+    end do
+    call self%end_key(chosen_words(words, chosen), any(chosen))
+  end subroutine words_key
+end module gfb_case_keys

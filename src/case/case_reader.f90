@@ -1,0 +1,253 @@
+!> A case file while its keys are read: finds a key's values, complains, and keeps the notes.
+module gfb_case_reader
+  use gfb_kinds, only: wp
+  use gfb_complaints, only: complaints_type
+  use gfb_errors, only: error_type, fail, status_input
+  use gfb_key_book, only: key_book_type
+  use gfb_key_elements, only: find_elements
+  use gfb_key_notes, only: key_type, key_notes_type, choices
+  use gfb_namelist_file, only: namelist_file_type
+  use gfb_namelist_scanner, only: scan_namelist
+  use gfb_namelist_values, only: read_real, value_string, value_number
+  use gfb_text, only: text, lower_case, nearest_word
+  use gfb_value_rules, only: rule_type, broken_rule
+  implicit none (type, external)
+  private
+  public :: case_reader_type
+
+  integer, parameter, public :: longest_list = 10000 !! values one key can have
+
+  !> A case file while its keys are read.
+  type :: case_reader_type
+    type(namelist_file_type) :: file
+    type(complaints_type) :: complaints
+    type(key_notes_type) :: notes          !! the echo and the table of keys
+    type(key_type) :: key                  !! the one that is being read
+    type(key_book_type), private :: book   !! the groups and keys there are
+    integer, private :: complaints_before = 0 !! the key that is being read
+    integer, private :: group_line = 0     !! of the open group, 0 where the file has none
+  contains
+    procedure :: open_text
+    procedure :: start_group
+    procedure :: finish_group
+    procedure :: finish
+    procedure :: report
+    procedure :: complain
+    procedure :: meant
+    procedure :: last_key_is_right
+    procedure :: describe
+    procedure :: begin_key
+    procedure :: take_real
+    procedure :: take_choice
+    procedure :: end_key
+    procedure :: complain_value
+  end type case_reader_type
+
+contains
+
+  !> Scans the text of a case file.
+  subroutine open_text(self, words, file)
+    class(case_reader_type), intent(out) :: self
+    character(len=*), intent(in) :: words !! the whole file
+    character(len=*), intent(in) :: file  !! its name, for complaints
+
+    self%complaints%file = trim(file)
+    call scan_namelist(words, self%file, self%complaints)
+  end subroutine open_text
+
+  !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
+  subroutine start_group(self, name, required, optional, present_in_file)
+    class(case_reader_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    logical, intent(in), optional :: required !! its absence is a mistake
+    logical, intent(in), optional :: optional !! without it, what it describes is not there
+    logical, intent(out), optional :: present_in_file
+    integer :: group
+    logical :: is_required, is_optional
+
+    is_required = .false.
+    if (present(required)) is_required = required
+    is_optional = .false.
+    if (present(optional)) is_optional = optional
+    self%group_line = 0
+    do group = size(self%file%groups), 1, -1
+      if (self%file%group_name(group) == name) self%group_line = self%file%groups(group)%line
+    end do
+    call self%book%add_group(name, self%group_line, is_required)
+    call self%notes%start_group(name, self%group_line > 0 .or. .not. is_optional)
+    if (present(present_in_file)) present_in_file = self%group_line > 0
+  end subroutine start_group
+
+  !> Ends a group.
+  subroutine finish_group(self)
+    class(case_reader_type), intent(inout) :: self
+    call self%notes%finish_group()
+  end subroutine finish_group
+
+  !> After the last group: complains about names that do not exist, and about what is missing.
+  subroutine finish(self)
+    class(case_reader_type), intent(inout) :: self
+    call self%book%check_names(self%file, self%complaints)
+  end subroutine finish
+
+  !> All mistakes as one error; none where the file is right.
+  subroutine report(self, error)
+    class(case_reader_type), intent(in) :: self
+    type(error_type), allocatable, intent(out) :: error
+    if (self%complaints%count > 0) call fail(error, self%complaints%report(), status_input)
+  end subroutine report
+
+  !> Complains about a key whose value does not fit the rest of the scene.
+  subroutine complain(self, group, key, rule, element)
+    class(case_reader_type), intent(inout) :: self
+    character(len=*), intent(in) :: group, key
+    character(len=*), intent(in) :: rule      !! what it should be
+    integer, intent(in), optional :: element  !! of a list
+    integer, allocatable :: elements(:)
+    character(len=:), allocatable :: place
+    integer :: value, entry
+
+    do entry = 1, size(self%file%entries)
+      associate (item => self%file%entries(entry))
+        if (self%file%group_name(item%group) /= group) cycle
+        if (self%file%key_name(entry) /= key) cycle
+        place = '&'//group//': '//key
+        if (present(element)) then
+          call find_elements(self%file, group, key, longest_list, elements)
+          value = 0
+          if (size(elements) >= element) value = elements(element)
+          if (value > 0) then
+            call self%complaints%add(self%file%values(value)%line, place//'('//text(element)// &
+                                     ') = '//self%file%value_shown(value)//': '//rule)
+            return
+          end if
+        end if
+        call self%complaints%add(item%line, place//' = '// &
+                                 self%file%values_shown(item%first_value, item%last_value)// &
+                                 ': '//rule)
+        return
+      end associate
+    end do
+    call self%complaints%add(self%book%group_line(group), '&'//group//': '//key//': '//rule)
+  end subroutine complain
+
+  !> Whether a key stands in the file, be it misspelt; not before `finish`.
+  function meant(self, group, key)
+    class(case_reader_type), intent(in) :: self
+    character(len=*), intent(in) :: group, key
+    logical :: meant
+    meant = self%book%is_meant(group, key)
+  end function meant
+
+  !> Whether the key read last stands in the file without a mistake.
+  pure function last_key_is_right(self) result(right)
+    class(case_reader_type), intent(in) :: self
+    logical :: right
+    right = self%key%given .and. self%complaints%count == self%complaints_before
+  end function last_key_is_right
+
+  !> Notes what a key is.
+  subroutine describe(self, name, type_words, unit, meaning)
+    class(case_reader_type), intent(inout) :: self
+    character(len=*), intent(in) :: name, type_words
+    character(len=*), intent(in) :: unit    !! '1' for a pure number, empty for words
+    character(len=*), intent(in) :: meaning
+
+    self%key%name = name
+    self%key%type_words = type_words
+    self%key%unit = unit
+    self%key%meaning = meaning
+  end subroutine describe
+
+  !> Finds a key's values and notes what the table says of it.
+  subroutine begin_key(self, value_words, most, elements, required, default, given)
+    class(case_reader_type), intent(inout) :: self
+    character(len=*), intent(in) :: value_words      !! the default in figures
+    integer, intent(in) :: most                      !! values at most, or `single`
+    integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
+    logical, intent(out), optional :: given
+
+    self%complaints_before = self%complaints%count
+    self%key%required = .false.
+    if (present(required)) self%key%required = required
+    self%key%default = ''
+    if (present(default)) self%key%default = default
+    call find_elements(self%file, self%notes%group, self%key%name, most, elements, self%key%given, &
+                       self%complaints)
+    call self%notes%add_row(self%key, value_words)
+    call self%book%add_key(self%notes%group, self%key%name, self%key%given, &
+                           self%key%required .and. self%group_line > 0, self%key%meaning)
+    if (present(given)) given = self%key%given
+  end subroutine begin_key
+
+  !> Writes the echo of the key.
+  subroutine end_key(self, value_words, is_set)
+    class(case_reader_type), intent(inout) :: self
+    character(len=*), intent(in) :: value_words
+    logical, intent(in) :: is_set  !! a value that is a default is more than a placeholder
+    call self%notes%add_line(self%key, value_words, is_set)
+  end subroutine end_key
+
+  !> Reads and checks one real number.
+  subroutine take_real(self, item, element, value, rule)
+    class(case_reader_type), intent(inout) :: self
+    integer, intent(in) :: item                !! the value's number in the file
+    integer, intent(in) :: element             !! of a list, 0 for a single value
+    real(wp), intent(inout) :: value           !! unchanged where a rule is broken
+    type(rule_type), intent(in), optional :: rule
+    character(len=:), allocatable :: problem
+    real(wp) :: number
+
+    call read_real(self%file%value_text(item), number, problem)
+    if (self%file%values(item)%kind == value_string) problem = 'must be a number, without quotes'
+    if (problem == '' .and. present(rule)) problem = broken_rule(rule, number)
+    if (problem == '') value = number
+    ! Minus zero would not come back from the echo.
+    if (.not. abs(value) > 0.0_wp) value = 0.0_wp
+    call self%complain_value(item, element, problem)
+  end subroutine take_real
+
+  !> Reads one word of a list of choices.
+  subroutine take_choice(self, item, element, words, value)
+    class(case_reader_type), intent(inout) :: self
+    integer, intent(in) :: item             !! the value's number in the file
+    integer, intent(in) :: element          !! of a list, 0 for a single value
+    character(len=*), intent(in) :: words(:)
+    integer, intent(inout) :: value         !! unchanged where the word is none of the list
+    character(len=:), allocatable :: word, near, problem
+    integer :: i
+
+    word = lower_case(trim(self%file%value_text(item)))
+    problem = 'must be one of '//choices(words)
+    near = nearest_word(word, words)
+    if (near /= '') problem = 'did you mean '''//near//'''? It '//problem
+    do i = 1, size(words)
+      if (word /= words(i)) cycle
+      problem = 'must be in quotes: '''//word//''''
+      if (self%file%values(item)%kind == value_string) then
+        value = i
+        problem = ''
+      end if
+    end do
+    if (self%file%values(item)%kind == value_number) problem = 'must be one of '//choices(words)
+    call self%complain_value(item, element, problem)
+  end subroutine take_choice
+
+  !> Complains about one value of the key; nothing where there is no problem.
+  subroutine complain_value(self, item, element, problem)
+    class(case_reader_type), intent(inout) :: self
+    integer, intent(in) :: item               !! the value's number in the file
+    integer, intent(in) :: element            !! of a list, 0 for a single value
+    character(len=*), intent(in) :: problem   !! the rule that is broken
+    character(len=:), allocatable :: words
+
+    if (problem == '') return
+    words = '&'//self%notes%group//': '//self%key%name
+    if (element > 0) words = words//'('//text(element)//')'
+    words = words//' = '//self%file%value_shown(item)//': '//problem
+    if (self%key%unit /= '' .and. self%key%unit /= '1') words = words//' ['//self%key%unit//']'
+    call self%complaints%add(self%file%values(item)%line, words)
+  end subroutine complain_value
+end module gfb_case_reader

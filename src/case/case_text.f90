@@ -1,0 +1,110 @@
+!> The characters of a case file, read once.
+module gfb_case_text
+  use, intrinsic :: iso_fortran_env, only: iostat_end
+  use gfb_kinds, only: long, wp
+  use gfb_errors, only: error_type, fail, status_input
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: read_case_text
+
+  integer(long), parameter :: longest = 1000000_long !! bytes; a case file has some thousand
+
+contains
+
+  !> All bytes of a case file.
+  !>
+  !> Fails when it does not exist, is a folder, cannot be read, is empty, too long or binary.
+  subroutine read_case_text(file, words, error)
+    character(len=*), intent(in) :: file
+    character(len=:), allocatable, intent(out) :: words
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: problem
+
+    words = ''
+    call look_at_file(file, problem)
+    if (problem == '') call read_bytes(file, words, problem)
+    if (problem == '') problem = binary_problem(words)
+    if (problem /= '') call fail(error, trim(file)//': '//problem, status_input)
+  end subroutine read_case_text
+
+  !> What keeps a file from being opened at all; a pipe would be waited for without end, and its
+  !> size is zero.
+  subroutine look_at_file(file, problem)
+    character(len=*), intent(in) :: file
+    character(len=:), allocatable, intent(out) :: problem
+    integer(long) :: bytes
+    logical :: there, folder
+
+    problem = ''
+    if (len_trim(file) == 0) then
+      problem = 'the name of the case file is empty'
+      return
+    end if
+    inquire (file=trim(file), exist=there)
+    if (.not. there) then
+      problem = 'the case file does not exist'
+      return
+    end if
+    inquire (file=trim(file)//'/.', exist=folder)
+    if (folder) then
+      problem = 'is a folder, not a case file'
+      return
+    end if
+    inquire (file=trim(file), size=bytes)
+    if (bytes == 0) problem = 'the case file is empty'
+    if (bytes > longest) problem = 'the case file has '//megabytes(bytes)// &
+                                   ', more than the limit of '//megabytes(longest)
+  end subroutine look_at_file
+
+  !> Reads the file as a stream of characters.
+  subroutine read_bytes(file, words, problem)
+    character(len=*), intent(in) :: file
+    character(len=:), allocatable, intent(out) :: words, problem
+    character(len=200) :: message
+    integer(long) :: bytes
+    integer :: unit, status
+
+    problem = ''
+    words = ''
+    message = ''
+    open (newunit=unit, file=trim(file), access='stream', form='unformatted', action='read', &
+          status='old', iostat=status, iomsg=message)
+    if (status == 0) then
+      inquire (unit=unit, size=bytes)
+      bytes = max(0_long, min(bytes, longest))
+      deallocate (words)
+      allocate (character(len=bytes) :: words)
+      read (unit, iostat=status, iomsg=message) words
+      close (unit)
+    end if
+    if (status == iostat_end) message = 'it became shorter while it was read'
+    if (status /= 0) problem = 'the case file cannot be read: '//trim(message)
+  end subroutine read_bytes
+
+  !> Says where a file holds characters that no text has.
+  pure function binary_problem(words) result(problem)
+    character(len=*), intent(in) :: words
+    character(len=:), allocatable :: problem
+    integer :: i, code, line
+
+    problem = ''
+    line = 1
+    do i = 1, len(words)
+      code = iachar(words(i:i))
+      if (code == 10) line = line + 1
+      if ((code < 32 .and. (code < 9 .or. code > 13)) .or. code == 127) then
+        problem = 'is binary, not a text file: line '//text(line)// &
+                  ' holds the control character '//text(code)
+        return
+      end if
+    end do
+  end function binary_problem
+
+  !> A size in MB.
+  pure function megabytes(bytes) result(words)
+    integer(long), intent(in) :: bytes
+    character(len=:), allocatable :: words
+    words = text(real(bytes, wp)*1.0e-6_wp, 4)//' MB'
+  end function megabytes
+end module gfb_case_text

@@ -1,0 +1,223 @@
+!> The groups and keys there are, against the names that stand in a file.
+module gfb_key_book
+  use gfb_complaints, only: complaints_type, shown
+  use gfb_namelist_file, only: namelist_file_type, namelist_group_type
+  use gfb_text, only: join, lower_case, nearest_word, text
+  implicit none (type, external)
+  private
+  public :: key_book_type
+
+  integer, parameter :: name_length = 40 !! no group and no key is longer
+
+  !> What is known of a group or a key.
+  type :: name_type
+    integer :: line = 0              !! of a group in the file, 0 where it is absent
+    logical :: missing = .false.     !! required and absent
+    logical :: given = .false.       !! it stands in the file
+    logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
+    character(len=:), allocatable :: meaning
+  end type name_type
+
+  !> All groups and keys.
+  type :: key_book_type
+    private
+    character(len=name_length), allocatable :: group_names(:)
+    type(name_type), allocatable :: groups(:)
+    character(len=name_length), allocatable :: key_groups(:), key_names(:)
+    type(name_type), allocatable :: keys(:)
+  contains
+    procedure :: add_group
+    procedure :: add_key
+    procedure :: check_names
+    procedure :: is_meant
+    procedure :: group_line
+  end type key_book_type
+
+contains
+
+  !> Adds a group.
+  pure subroutine add_group(self, group, line, required)
+    class(key_book_type), intent(inout) :: self
+    character(len=*), intent(in) :: group
+    integer, intent(in) :: line      !! of the file, 0 where it is absent
+    logical, intent(in) :: required
+    type(name_type) :: name
+
+    if (.not. allocated(self%groups)) then
+      allocate (self%group_names(0), self%groups(0))
+      allocate (self%key_groups(0), self%key_names(0), self%keys(0))
+    end if
+    name%line = line
+    name%missing = required .and. line == 0
+    self%group_names = [character(len=name_length) :: self%group_names, group]
+    self%groups = [self%groups, name]
+  end subroutine add_group
+
+  !> Adds a key.
+  pure subroutine add_key(self, group, key, given, required, meaning)
+    class(key_book_type), intent(inout) :: self
+    character(len=*), intent(in) :: group, key
+    logical, intent(in) :: given     !! it stands in the file
+    logical, intent(in) :: required
+    character(len=*), intent(in) :: meaning
+    type(name_type) :: name
+
+    name%given = given
+    name%missing = required .and. .not. given
+    name%meaning = meaning
+    self%key_groups = [character(len=name_length) :: self%key_groups, group]
+    self%key_names = [character(len=name_length) :: self%key_names, key]
+    self%keys = [self%keys, name]
+  end subroutine add_key
+
+  !> Line of a group in the file, 0 where it is absent.
+  pure function group_line(self, group) result(line)
+    class(key_book_type), intent(in) :: self
+    character(len=*), intent(in) :: group
+    integer :: line
+    integer :: i
+
+    line = 0
+    i = findloc(self%group_names == group, .true., dim=1)
+    if (i > 0) line = self%groups(i)%line
+  end function group_line
+
+  !> Whether a key stands in the file, be it misspelt.
+  pure function is_meant(self, group, key) result(meant)
+    class(key_book_type), intent(in) :: self
+    character(len=*), intent(in) :: group, key
+    logical :: meant
+    meant = any(self%key_groups == group .and. self%key_names == key .and. &
+                (self%keys%given .or. self%keys%misspelt))
+  end function is_meant
+
+  !> Complains about unknown groups and keys, and about missing ones that no misspelling explains.
+  subroutine check_names(self, file, complaints)
+    class(key_book_type), intent(inout) :: self
+    type(namelist_file_type), intent(in) :: file
+    type(complaints_type), intent(inout) :: complaints
+    character(len=:), allocatable :: group_name
+    integer :: i
+
+    do i = 1, size(file%groups)
+      call check_group(self, file, i, complaints)
+    end do
+    do i = 1, size(file%strays)
+      call excuse_group(self, stray_word(file, i))
+    end do
+    do i = 1, size(file%entries)
+      call check_key(self, file, i, complaints)
+    end do
+    do i = 1, size(self%groups)
+      associate (group => self%groups(i))
+        if (.not. group%missing .or. group%misspelt) cycle
+        call complaints%add(0, 'the group &'//trim(self%group_names(i))//' is missing')
+      end associate
+    end do
+    do i = 1, size(self%keys)
+      associate (key => self%keys(i))
+        if (.not. key%missing .or. key%misspelt) cycle
+        group_name = trim(self%key_groups(i))
+        call complaints%add(self%group_line(group_name), '&'//group_name// &
+                            ": the required key '"//trim(self%key_names(i))//"' is missing ("// &
+                            key%meaning//')')
+      end associate
+    end do
+  end subroutine check_names
+
+  !> Complains about a group that does not exist or stands in the file before.
+  subroutine check_group(self, file, i, complaints)
+    class(key_book_type), intent(inout) :: self
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+    character(len=:), allocatable :: name, near
+    integer :: line
+
+    name = file%group_name(i)
+    if (name == '') return
+    line = file%groups(i)%line
+    if (is_group(self, name)) then
+      if (line /= self%group_line(name) .or. earlier(file, i)) then
+        call complaints%add(line, '&'//name//': the group is given twice, first in line '// &
+                            text(self%group_line(name)))
+      end if
+      return
+    end if
+    near = nearest_word(name, self%group_names)
+    if (near /= '') then
+      call complaints%add(line, "unknown group '&"//shown(name)//"', did you mean '&"//near//"'?")
+      call excuse_group(self, near)
+    else
+      call complaints%add(line, "unknown group '&"//shown(name)//"'; the groups are &"// &
+                          join(self%group_names, ', &'))
+    end if
+  end subroutine check_group
+
+  !> Whether a group of the same name stands before this one, perhaps on the same line.
+  pure function earlier(file, i) result(is_earlier)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: i
+    logical :: is_earlier
+    integer :: j
+
+    is_earlier = .false.
+    do j = 1, i - 1
+      if (file%groups(j)%line /= file%groups(i)%line) cycle
+      if (file%group_name(j) == file%group_name(i)) is_earlier = .true.
+    end do
+  end function earlier
+
+  !> Whether a group of this name exists.
+  pure function is_group(self, name) result(exists)
+    class(key_book_type), intent(in) :: self
+    character(len=*), intent(in) :: name
+    logical :: exists
+    exists = any(self%group_names == name)
+  end function is_group
+
+  !> Complains about a key that does not exist.
+  subroutine check_key(self, file, i, complaints)
+    class(key_book_type), intent(inout) :: self
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+    character(len=:), allocatable :: group, key, near, words
+    logical :: in_group(size(self%keys))
+    integer :: j
+
+    group = file%group_name(file%entries(i)%group)
+    if (.not. is_group(self, group)) return
+    key = file%key_name(i)
+    in_group = self%key_groups == group
+    if (any(in_group .and. self%key_names == key)) return
+    words = '&'//group//": unknown key '"//shown(key)//"'"
+    near = nearest_word(key, pack(self%key_names, in_group))
+    if (any(self%key_names == key)) then
+      j = findloc(self%key_names == key, .true., dim=1)
+      words = words//'; it belongs into &'//trim(self%key_groups(j))
+      self%keys(j)%misspelt = .true.
+    else if (near /= '') then
+      words = words//", did you mean '"//near//"'?"
+      where (in_group .and. self%key_names == near) self%keys%misspelt = .true.
+    else
+      words = words//'; the keys of &'//group//' are '//join(pack(self%key_names, in_group), ', ')
+    end if
+    call complaints%add(file%entries(i)%line, words)
+  end subroutine check_key
+
+  !> Notes that the file means to have a group.
+  subroutine excuse_group(self, name)
+    class(key_book_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    where (self%group_names == name) self%groups%misspelt = .true.
+  end subroutine excuse_group
+
+  !> A word that stands outside of all groups.
+  pure function stray_word(file, i) result(word)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: i
+    character(len=:), allocatable :: word
+    word = lower_case(file%words(file%strays(i)%first:file%strays(i)%last))
+  end function stray_word
+end module gfb_key_book

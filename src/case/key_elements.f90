@@ -1,0 +1,160 @@
+!> The values of one key: which value of the file fills which element of a list.
+module gfb_key_elements
+  use gfb_kinds, only: long
+  use gfb_complaints, only: complaints_type
+  use gfb_namelist_file, only: namelist_file_type, bad_index
+  use gfb_namelist_values, only: value_word
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: find_elements
+
+contains
+
+  !> Finds the values of a key, in entries with and without index.
+  !>
+  !> There are no elements where the key is absent, and where a mistake was complained about.
+  subroutine find_elements(file, group, key, most, elements, given, complaints)
+    type(namelist_file_type), intent(in) :: file
+    character(len=*), intent(in) :: group, key
+    integer, intent(in) :: most                      !! values at most; 0: one, without index
+    integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
+    logical, intent(out), optional :: given          !! the key stands in the file
+    type(complaints_type), intent(inout), optional :: complaints
+    type(complaints_type) :: found
+    integer, allocatable :: filled(:), owner(:)
+    integer :: entry, mistakes, last
+    logical :: is_given
+
+    allocate (filled(max(1, most)), owner(max(1, most)), source=0)
+    if (present(complaints)) found = complaints
+    mistakes = found%count
+    is_given = .false.
+    do entry = 1, size(file%entries)
+      if (.not. is_entry_of(file, entry, group, key)) cycle
+      is_given = .true.
+      call fill(file, entry, most, filled, owner, found)
+      if (file%entries(entry)%element == bad_index) mistakes = -1
+    end do
+    last = findloc(filled > 0, .true., dim=1, back=.true.)
+    if (any(filled(:last) == 0) .and. found%count == mistakes) then
+      call found%add(file%entries(owner(last))%line, '&'//group//': '//key//'('// &
+                     text(findloc(filled, 0, dim=1))//') is not given, but '//key//'('// &
+                     text(last)//') is')
+    end if
+    if (found%count /= mistakes) last = 0
+    elements = filled(:last)
+    if (present(given)) given = is_given
+    if (present(complaints)) complaints = found
+  end subroutine find_elements
+
+  !> Whether an entry of the file belongs to a key.
+  pure function is_entry_of(file, entry, group, key) result(belongs)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: entry
+    character(len=*), intent(in) :: group, key
+    logical :: belongs
+
+    belongs = .false.
+    associate (item => file%entries(entry))
+      if (item%last - item%first + 1 /= len(key)) return
+      if (file%key_name(entry) /= key) return
+      belongs = file%group_name(item%group) == group
+    end associate
+  end function is_entry_of
+
+  !> Fills the elements that one entry gives.
+  subroutine fill(file, entry, most, filled, owner, complaints)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: entry
+    integer, intent(in) :: most
+    integer, intent(inout) :: filled(:)  !! value of each element, 0 where none yet
+    integer, intent(inout) :: owner(:)   !! entry that gave it
+    type(complaints_type), intent(inout) :: complaints
+    integer(long) :: n
+    integer :: value, repeat_number, element, first
+
+    associate (item => file%entries(entry))
+      first = max(1, item%element)
+      n = 0
+      do value = item%first_value, item%last_value
+        n = n + file%values(value)%repeats
+      end do
+      if (item%element == bad_index .or. n == 0) return
+      if (most == 0 .and. item%element > 0) then
+        call complain('is a single value and takes no index')
+      else if (first > size(filled)) then
+        call complain('the index must lie between 1 and '//text(most))
+      else if (first - 1 + n > size(filled)) then
+        call complain('takes '//most_words(size(filled))//', not '//text(first - 1 + n)// &
+                      missing_equals(file, item%first_value + 1, item%last_value))
+      else
+        element = first
+        do value = item%first_value, item%last_value
+          do repeat_number = 1, file%values(value)%repeats
+            if (filled(element) > 0) then
+              call complain_twice(element)
+              return
+            end if
+            filled(element) = value
+            owner(element) = entry
+            element = element + 1
+          end do
+        end do
+      end if
+    end associate
+
+  contains
+
+    !> Complains about this entry.
+    subroutine complain(rule)
+      character(len=*), intent(in) :: rule
+      associate (item => file%entries(entry))
+        call complaints%add(item%line, '&'//file%group_name(item%group)//': '// &
+                            file%key_name(entry)//index_shown(item%element)//' = '// &
+                            file%values_shown(item%first_value, item%last_value)//': '//rule)
+      end associate
+    end subroutine complain
+
+    !> Complains that an earlier entry gave this element.
+    subroutine complain_twice(element)
+      integer, intent(in) :: element
+      call complain('the key is given twice, first in line '// &
+                    text(file%entries(owner(element))%line))
+    end subroutine complain_twice
+  end subroutine fill
+
+  !> How many values a key takes.
+  pure function most_words(most) result(words)
+    integer, intent(in) :: most
+    character(len=:), allocatable :: words
+
+    words = 'one value'
+    if (most > 1) words = 'at most '//text(most)//' values'
+  end function most_words
+
+  !> An index as typed with a key; nothing where none was.
+  pure function index_shown(element) result(words)
+    integer, intent(in) :: element
+    character(len=:), allocatable :: words
+    words = ''
+    if (element > 0) words = '('//text(element)//')'
+  end function index_shown
+
+  !> A hint where a word among values looks like a key.
+  pure function missing_equals(file, first, last) result(words)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: first, last
+    character(len=:), allocatable :: words
+    integer :: value
+
+    words = ''
+    do value = first, last
+      if (file%values(value)%kind /= value_word) cycle
+      if (verify(file%value_text(value), 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_') &
+          > 0) cycle
+      words = "; is '=' missing after '"//file%value_shown(value)//"'?"
+      return
+    end do
+  end function missing_equals
+end module gfb_key_elements

@@ -1,0 +1,152 @@
+!> What is written down of each key: its line of the echo, and its row of the table of keys.
+module gfb_key_notes
+  use gfb_kinds, only: wp
+  use gfb_text, only: exact_text, join
+  implicit none (type, external)
+  private
+  public :: key_type, key_notes_type, quoted, value_list, choices, chosen_word, chosen_words
+
+  character(len=*), parameter, public :: no_default = 'none' !! nothing holds without the key
+
+  integer, parameter :: values_a_line = 8 !! of a long list in the echo
+
+  !> What is known of a key.
+  type :: key_type
+    character(len=:), allocatable :: name, type_words
+    character(len=:), allocatable :: unit           !! '1' for a pure number, empty for words
+    character(len=:), allocatable :: meaning
+    character(len=:), allocatable :: default        !! in words; empty: the value it came with
+    logical :: required = .false.
+    logical :: given = .false.                      !! it stands in the file
+  end type key_type
+
+  !> The echo and the table of keys.
+  type :: key_notes_type
+    character(len=:), allocatable :: echo   !! a case file with every value used
+    character(len=:), allocatable :: table  !! rows of a Markdown table
+    character(len=:), allocatable :: group  !! the one that is open
+    logical, private :: is_echoed = .true.  !! an optional group that is absent is not
+  contains
+    procedure :: start_group
+    procedure :: finish_group
+    procedure :: add_row
+    procedure :: add_line
+  end type key_notes_type
+
+contains
+
+  !> Begins a group.
+  pure subroutine start_group(self, name, is_echoed)
+    class(key_notes_type), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    logical, intent(in) :: is_echoed !! false for an optional group that is absent
+
+    if (.not. allocated(self%echo)) then
+      self%echo = "! Every key with the value used; those not given are marked '(default)'."// &
+                  new_line('a')
+      self%table = '| group | key | type | unit | default | meaning |'//new_line('a')// &
+                   '| --- | --- | --- | --- | --- | --- |'//new_line('a')
+    end if
+    self%group = name
+    self%is_echoed = is_echoed
+    if (is_echoed) then
+      self%echo = self%echo//new_line('a')//'&'//name//new_line('a')
+    else
+      self%echo = self%echo//new_line('a')//'! &'//name//' is not given'//new_line('a')
+    end if
+  end subroutine start_group
+
+  !> Ends a group.
+  pure subroutine finish_group(self)
+    class(key_notes_type), intent(inout) :: self
+    if (self%is_echoed) self%echo = self%echo//'/'//new_line('a')
+  end subroutine finish_group
+
+  !> Adds the row of a key.
+  pure subroutine add_row(self, key, value_words)
+    class(key_notes_type), intent(inout) :: self
+    type(key_type), intent(in) :: key
+    character(len=*), intent(in) :: value_words !! default in figures
+    character(len=:), allocatable :: default
+
+    default = '`'//value_words//'`'
+    if (key%required) default = 'required'
+    if (key%default /= '') default = key%default
+    self%table = self%table//'| `&'//self%group//'` | `'//key%name//'` | '//key%type_words// &
+                 ' | '//key%unit//' | '//default//' | '//key%meaning//' |'//new_line('a')
+  end subroutine add_row
+
+  !> Adds the line of a key.
+  pure subroutine add_line(self, key, value_words, is_set)
+    class(key_notes_type), intent(inout) :: self
+    type(key_type), intent(in) :: key
+    character(len=*), intent(in) :: value_words
+    logical, intent(in) :: is_set !! a value with a default in words is more than a placeholder
+    character(len=:), allocatable :: line
+
+    if (.not. self%is_echoed) return
+    if (key%given .or. is_set .or. (key%default == '' .and. .not. key%required)) then
+      line = '  '//key%name//' = '//value_words//' !'
+      if (key%unit /= '') line = line//' ['//key%unit//']'
+      line = line//' '//key%meaning
+      if (.not. key%given) line = line//' (default)'
+    else
+      line = '  ! '//key%name//' is not given: '//key%meaning
+      if (key%default /= '' .and. key%default /= no_default) line = line//' ('//key%default//')'
+    end if
+    self%echo = self%echo//line//new_line('a')
+  end subroutine add_line
+
+  !> Words as a namelist string.
+  pure function quoted(words)
+    character(len=*), intent(in) :: words
+    character(len=:), allocatable :: quoted
+    integer :: i
+
+    quoted = ''''
+    do i = 1, len(words)
+      quoted = quoted//words(i:i)
+      if (words(i:i) == '''') quoted = quoted//''''
+    end do
+    quoted = quoted//''''
+  end function quoted
+
+  !> Numbers that read back exactly, separated by commas.
+  pure function value_list(values) result(words)
+    real(wp), intent(in) :: values(:)
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = ''
+    do i = 1, size(values)
+      if (i > 1) words = words//', '
+      if (i > 1 .and. mod(i - 1, values_a_line) == 0) words = words//new_line('a')//'    '
+      words = words//exact_text(values(i))
+    end do
+  end function value_list
+
+  !> Words to choose from.
+  pure function choices(words) result(list)
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    character(len=:), allocatable :: list
+    list = ''''//join(words, ''', ''')//''''
+  end function choices
+
+  !> A word of a list as a namelist string; empty where none is chosen.
+  pure function chosen_word(words, choice) result(word)
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    integer, intent(in) :: choice            !! its number, 0 for none
+    character(len=:), allocatable :: word
+
+    word = ''
+    if (choice > 0) word = ''''//trim(words(choice))//''''
+  end function chosen_word
+
+  !> The chosen words of a list as namelist strings.
+  pure function chosen_words(words, chosen) result(list)
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    logical, intent(in) :: chosen(:)         !! one a word
+    character(len=:), allocatable :: list
+    list = choices(pack(words, chosen))
+  end function chosen_words
+end module gfb_key_notes

@@ -1,0 +1,66 @@
+!> `&mesh`: number of elements.
+module gfb_mesh_case
+  use gfb_kinds, only: wp, long
+  use gfb_bearing_case, only: bearing_case_type, pad_length
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_text, only: text
+  use gfb_value_rules, only: from_to
+  implicit none (type, external)
+  private
+  public :: mesh_case_type, read_mesh_case, default_circumferential_elements
+
+  integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
+  integer, parameter :: elements_around = 240   !! of a pad without bumps
+  integer, parameter :: most_a_side = 100000
+  integer(long), parameter :: most_in_all = 50000000_long
+
+  !> Number of elements.
+  type :: mesh_case_type
+    integer :: circumferential_elements = elements_around
+    integer :: axial_elements = 32 !! of the whole width, also where one half is solved
+  end type mesh_case_type
+
+contains
+
+  !> Reads the group; its defaults are those of the bearing.
+  subroutine read_mesh_case(keys, mesh, bearing, foil)
+    type(case_keys_type), intent(inout) :: keys
+    type(mesh_case_type), intent(out) :: mesh
+    type(bearing_case_type), intent(in) :: bearing
+    type(bump_foil_case_type), intent(in) :: foil
+    logical :: given
+
+    call keys%start_group('mesh')
+    mesh%circumferential_elements = default_circumferential_elements(bearing, foil)
+    call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
+                          'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
+                          default='8 a pitch with bumps, otherwise 240', given=given)
+    if (.not. given .and. mesh%circumferential_elements > most_a_side) then
+      call keys%complain('bump_foil', 'pitch', '8 elements a pitch would be more than '// &
+                         text(most_a_side)//' along the pad: give circumferential_elements')
+    end if
+    call keys%integer_key('axial_elements', mesh%axial_elements, &
+                          'elements of the whole width, also where one half is solved', &
+                          from_to(2.0_wp, real(most_a_side, wp)))
+    if (int(mesh%circumferential_elements, long)*mesh%axial_elements > most_in_all) then
+      call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &
+                         text(mesh%axial_elements)//' elements are more than '//text(most_in_all))
+    end if
+    call keys%finish_group()
+  end subroutine read_mesh_case
+
+  !> Elements along the pad where the case does not say: whole pitches that cover it.
+  elemental function default_circumferential_elements(bearing, foil) result(elements)
+    type(bearing_case_type), intent(in) :: bearing
+    type(bump_foil_case_type), intent(in) :: foil
+    integer :: elements
+    real(wp), parameter :: rounding = 1.0e-9_wp !! whole pitches are not rounded up, relative
+    real(wp) :: pitches
+
+    elements = elements_around
+    if (.not. foil%pitch > 0.0_wp .or. .not. bearing%radius > 0.0_wp) return
+    pitches = pad_length(bearing)/foil%pitch*(1.0_wp - rounding)
+    elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
+  end function default_circumferential_elements
+end module gfb_mesh_case

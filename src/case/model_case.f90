@@ -1,0 +1,59 @@
+!> `&model`: how the bearing is modelled.
+module gfb_model_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_value_rules, only: positive
+  implicit none (type, external)
+  private
+  public :: model_case_type, read_model_case
+
+  integer, parameter, public :: foil_rigid = 1
+  integer, parameter, public :: foil_elastic_foundation = 2 !! independent bump springs
+
+  integer, parameter, public :: half_width_auto = 1
+  integer, parameter, public :: half_width_yes = 2
+  integer, parameter, public :: half_width_no = 3
+
+  integer, parameter, public :: film_scheme_auto = 1
+  integer, parameter, public :: film_scheme_galerkin = 2
+  integer, parameter, public :: film_scheme_supg = 3
+
+  integer, parameter, public :: foundation_pressure_local = 1
+  integer, parameter, public :: foundation_pressure_axial_mean = 2
+
+  character(len=*), parameter :: foil_words(*) = [character(len=18) :: &
+                                                  'rigid', 'elastic_foundation']
+  character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
+  character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
+  character(len=*), parameter :: pressure_words(*) = [character(len=10) :: 'local', 'axial_mean']
+
+  !> The model.
+  type :: model_case_type
+    integer :: foil = 0                          !! `foil_rigid`, ...
+    integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
+    integer :: film_scheme = film_scheme_auto
+    real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
+    integer :: foundation_pressure = foundation_pressure_local
+  end type model_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_model_case(keys, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(out) :: model
+
+    call keys%start_group('model', required=.true.)
+    call keys%choice_key('foil', model%foil, foil_words, 'model of the foils', .true.)
+    call keys%choice_key('half_width', model%half_width, half_words, &
+                         'solve one half, with symmetry at the midplane')
+    call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
+                         'upwinding of the film elements')
+    call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
+                       'pressure over deflection of the elastic foundation', positive, &
+                       default='Walowit-Anno from `&bump_foil`')
+    call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
+                         'what deflects the foundation: the pressure there, or its axial mean')
+    call keys%finish_group()
+  end subroutine read_model_case
+end module gfb_model_case

@@ -1,0 +1,119 @@
+!> A namelist file as scanned: groups, keys and raw values with their lines.
+module gfb_namelist_file
+  use gfb_complaints, only: shown
+  use gfb_namelist_values, only: value_string
+  use gfb_text, only: lower_case
+  implicit none (type, external)
+  private
+  public :: namelist_file_type, namelist_group_type, namelist_entry_type, namelist_value_type
+
+  integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
+
+  !> A group as it stands in the file.
+  type :: namelist_group_type
+    integer :: first = 1, last = 0 !! its name in the text
+    integer :: line = 0            !! of the file
+  end type namelist_group_type
+
+  !> A value as typed.
+  type :: namelist_value_type
+    integer :: kind = 0            !! `value_number`, `value_string`, ...
+    integer :: first = 1, last = 0 !! in the text; of a string what stands between the quotes
+    integer :: repeats = 1
+    integer :: line = 0            !! of the file
+  end type namelist_value_type
+
+  !> A key with its values.
+  type :: namelist_entry_type
+    integer :: group = 0           !! number of its group in the file
+    integer :: first = 1, last = 0 !! the key in the text
+    integer :: element = 0         !! index given with the key, 0 if none, or `bad_index`
+    integer :: line = 0            !! of the file
+    integer :: first_value = 1, last_value = 0
+  end type namelist_entry_type
+
+  !> A scanned file.
+  type :: namelist_file_type
+    character(len=:), allocatable :: words               !! the whole text
+    type(namelist_group_type), allocatable :: groups(:)
+    type(namelist_entry_type), allocatable :: entries(:)
+    type(namelist_value_type), allocatable :: values(:)
+    type(namelist_group_type), allocatable :: strays(:)  !! words outside groups, one a place
+  contains
+    procedure :: group_name
+    procedure :: key_name
+    procedure :: value_text
+    procedure :: value_shown
+    procedure :: values_shown
+  end type namelist_file_type
+
+contains
+
+  !> Name of a group in lower case.
+  pure function group_name(self, group) result(name)
+    class(namelist_file_type), intent(in) :: self
+    integer, intent(in) :: group
+    character(len=:), allocatable :: name
+    name = lower_case(self%words(self%groups(group)%first:self%groups(group)%last))
+  end function group_name
+
+  !> Key of an entry in lower case.
+  pure function key_name(self, entry) result(name)
+    class(namelist_file_type), intent(in) :: self
+    integer, intent(in) :: entry
+    character(len=:), allocatable :: name
+    name = lower_case(self%words(self%entries(entry)%first:self%entries(entry)%last))
+  end function key_name
+
+  !> A value; of a string what stands between the quotes, doubled ones made single.
+  pure function value_text(self, value) result(words)
+    class(namelist_file_type), intent(in) :: self
+    integer, intent(in) :: value
+    character(len=:), allocatable :: words
+    character(len=1) :: quote
+    integer :: i, n
+
+    associate (item => self%values(value))
+      words = self%words(item%first:item%last)
+      if (item%kind /= value_string) return
+      quote = self%words(item%first - 1:item%first - 1)
+      n = 0
+      i = 1
+      do while (i <= len(words))
+        n = n + 1
+        words(n:n) = words(i:i)
+        if (words(i:i) == quote) i = i + 1
+        i = i + 1
+      end do
+      words = words(1:n)
+    end associate
+  end function value_text
+
+  !> A value as typed, fit for a complaint.
+  pure function value_shown(self, value) result(words)
+    class(namelist_file_type), intent(in) :: self
+    integer, intent(in) :: value
+    character(len=:), allocatable :: words
+    words = values_shown(self, value, value)
+  end function value_shown
+
+  !> Neighbouring values as typed, fit for a complaint.
+  pure function values_shown(self, first_value, last_value) result(words)
+    class(namelist_file_type), intent(in) :: self
+    integer, intent(in) :: first_value, last_value
+    character(len=:), allocatable :: words
+    integer :: first, last
+
+    words = ''
+    if (last_value < first_value) return
+    first = self%values(first_value)%first
+    last = self%values(last_value)%last
+    if (self%values(first_value)%kind == value_string) first = first - 1
+    if (self%values(last_value)%kind == value_string) then
+      if (last < len(self%words)) then
+        if (scan(self%words(last + 1:last + 1), '''"') == 1) last = last + 1
+      end if
+    end if
+    words = shown(self%words(first:last))
+  end function values_shown
+end module gfb_namelist_file

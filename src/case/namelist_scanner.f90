@@ -1,0 +1,312 @@
+!> Tokens of a namelist file to groups, keys and raw values.
+!>
+!> The scanner knows the syntax only. gfortran's own namelist read is not used: it gives no line
+!> numbers, and lets unknown groups, keys given twice and NaN pass.
+module gfb_namelist_scanner
+  use gfb_complaints, only: complaints_type, shown
+  use gfb_namelist_file, only: namelist_file_type, namelist_group_type, namelist_entry_type, &
+                               namelist_value_type, bad_index
+  use gfb_namelist_tokens, only: token_type, find_tokens, token_group, token_slash, token_equals, &
+                                 token_comma, token_open, token_close, token_string, token_word
+  use gfb_namelist_values, only: word_kind, repeat_count, value_string, value_word
+  use gfb_text, only: lower_case, text
+  implicit none (type, external)
+  private
+  public :: scan_namelist
+
+  !> What the scanner knows between two tokens.
+  type :: scanner_type
+    type(namelist_file_type) :: file
+    type(token_type), allocatable :: tokens(:)
+    integer :: n_groups = 0, n_entries = 0, n_values = 0, n_strays = 0
+    logical :: in_group = .false.
+    logical :: in_entry = .false.
+    logical :: stray = .false.        !! a run of stray words has been complained about
+    logical :: after_comma = .false.  !! a comma here would leave a value out
+    logical :: told = .false.         !! this entry has been complained about
+  end type scanner_type
+
+contains
+
+  !> Scans the text of a namelist file.
+  pure subroutine scan_namelist(words, file, complaints)
+    character(len=*), intent(in) :: words                !! the whole file
+    type(namelist_file_type), intent(out) :: file
+    type(complaints_type), intent(inout) :: complaints
+    type(scanner_type) :: scanner
+    integer :: i, n
+
+    scanner%file%words = words
+    call find_tokens(words, scanner%tokens, complaints)
+    n = size(scanner%tokens)
+    allocate (scanner%file%groups(n), scanner%file%entries(n), scanner%file%values(n), &
+              scanner%file%strays(n))
+    i = 1
+    do while (i <= n)
+      call take(scanner, i, complaints)
+      i = i + 1
+    end do
+    if (scanner%in_group) then
+      call complain_open_group(scanner, 'before the end of the file', complaints)
+    end if
+    call end_entry(scanner, complaints)
+    file%words = words
+    file%groups = scanner%file%groups(:scanner%n_groups)
+    file%entries = scanner%file%entries(:scanner%n_entries)
+    file%values = scanner%file%values(:scanner%n_values)
+    file%strays = scanner%file%strays(:scanner%n_strays)
+  end subroutine scan_namelist
+
+  !> Takes one token, or the several that make a key.
+  pure subroutine take(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(inout) :: i                          !! token; the last one taken
+    type(complaints_type), intent(inout) :: complaints
+    logical :: closes
+
+    associate (token => self%tokens(i))
+      closes = token%kind == token_slash
+      if (token%kind == token_group) closes = lower_case(token_words(self, i)) == 'end'
+      if (token%kind == token_group .and. .not. closes) then
+        call begin_group(self, i, complaints)
+      else if (.not. self%in_group) then
+        call take_stray(self, i, complaints)
+      else if (closes) then
+        call end_entry(self, complaints)
+        self%in_group = .false.
+        self%stray = .false.
+      else if (key_length(self, i) > 0) then
+        call begin_entry(self, i, complaints)
+      else if (token%kind == token_comma) then
+        call take_comma(self, i, complaints)
+      else if (token%kind == token_word .or. token%kind == token_string) then
+        call take_value(self, i, complaints)
+      else
+        call complaints%add(token%line, place(self)//"unexpected '"//token_words(self, i)//"'")
+        self%told = .true.
+      end if
+    end associate
+  end subroutine take
+
+  !> Begins a group; one that is still open was not ended.
+  pure subroutine begin_group(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+
+    associate (token => self%tokens(i))
+      if (self%in_group) then
+        call complain_open_group(self, 'before &'//shown(token_words(self, i))//' in line '// &
+                                 text(token%line), complaints)
+      end if
+      call end_entry(self, complaints)
+      if (token%last < token%first) then
+        call complaints%add(token%line, "a group's name must follow '&' at once")
+      end if
+      self%n_groups = self%n_groups + 1
+      self%file%groups(self%n_groups) = namelist_group_type(token%first, token%last, token%line)
+      self%in_group = .true.
+      self%stray = .false.
+    end associate
+  end subroutine begin_group
+
+  !> Complains about a group without its end, where it begins.
+  pure subroutine complain_open_group(self, where_seen, complaints)
+    type(scanner_type), intent(in) :: self
+    character(len=*), intent(in) :: where_seen
+    type(complaints_type), intent(inout) :: complaints
+
+    call complaints%add(self%file%groups(self%n_groups)%line, place(self)// &
+                        "the group that begins here is not ended by '/' "//where_seen)
+  end subroutine complain_open_group
+
+  !> Complains about text outside a group, once for each run of it.
+  pure subroutine take_stray(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+
+    if (self%stray) return
+    self%stray = .true.
+    associate (token => self%tokens(i))
+      self%n_strays = self%n_strays + 1
+      self%file%strays(self%n_strays) = namelist_group_type(token%first, token%last, token%line)
+      if (token%kind == token_word) then
+        call complaints%add(token%line, "text outside a group: '"//shown(token_words(self, i))// &
+                            "'; a group begins with '&' and its name, a comment with '!'")
+      else
+        call complaints%add(token%line, "text outside a group: '"// &
+                            shown(token_words(self, i))//"'")
+      end if
+    end associate
+  end subroutine take_stray
+
+  !> Number of tokens that make a key with its equals sign, 0 where no key stands.
+  pure function key_length(self, i) result(length)
+    type(scanner_type), intent(in) :: self
+    integer, intent(in) :: i
+    integer :: length
+    integer :: j
+
+    length = 0
+    if (self%tokens(i)%kind /= token_word) return
+    ! An index is a word between parentheses; a few more tokens are looked at to find a spoilt one.
+    do j = i + 1, min(i + 6, size(self%tokens))
+      select case (self%tokens(j)%kind)
+      case (token_equals)
+        length = j - i + 1
+        return
+      case (token_open, token_close, token_comma, token_word)
+        if (self%tokens(i + 1)%kind /= token_open) return
+      case default
+        return
+      end select
+    end do
+  end function key_length
+
+  !> Begins a key's entry.
+  pure subroutine begin_entry(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(inout) :: i
+    type(complaints_type), intent(inout) :: complaints
+    integer :: length, element
+
+    call end_entry(self, complaints)
+    length = key_length(self, i)
+    element = 0
+    self%told = .false.
+    if (length > 2) then
+      element = bad_index
+      if (length == 5 .and. self%tokens(i + 3)%kind == token_close) then
+        element = repeat_count(token_words(self, i + 2))
+      end if
+      if (element < 1) element = bad_index
+    end if
+    associate (token => self%tokens(i))
+      if (element == bad_index) then
+        self%told = .true.
+        call complaints%add(token%line, place(self)//"the index of '"// &
+                            shown(token_words(self, i))//"' must be one whole number from 1 on")
+      end if
+      self%n_entries = self%n_entries + 1
+      self%file%entries(self%n_entries) = namelist_entry_type( &
+                                          self%n_groups, token%first, token%last, element, &
+                                          token%line, self%n_values + 1, self%n_values)
+    end associate
+    self%in_entry = .true.
+    self%after_comma = .true.
+    i = i + length - 1
+  end subroutine begin_entry
+
+  !> Ends a key's entry; one without a value is a mistake.
+  pure subroutine end_entry(self, complaints)
+    type(scanner_type), intent(inout) :: self
+    type(complaints_type), intent(inout) :: complaints
+
+    if (self%in_entry .and. .not. self%told) then
+      associate (entry => self%file%entries(self%n_entries))
+        if (entry%last_value < entry%first_value) then
+          call complaints%add(entry%line, place(self)//'key '''// &
+                              shown(self%file%key_name(self%n_entries))//''' has no value')
+        end if
+      end associate
+    end if
+    self%in_entry = .false.
+    self%told = .false.
+  end subroutine end_entry
+
+  !> Takes a comma; two of them, or one after the equals sign, leave a value out.
+  pure subroutine take_comma(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+
+    if (self%after_comma .and. .not. self%told) then
+      call complaints%add(self%tokens(i)%line, place(self)//'a value is left out before a comma')
+      self%told = .true.
+    end if
+    self%after_comma = .true.
+  end subroutine take_comma
+
+  !> Takes a value, with its repeat count where it has one.
+  pure subroutine take_value(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(inout) :: i
+    type(complaints_type), intent(inout) :: complaints
+    type(namelist_value_type) :: value
+    integer :: star
+
+    value = namelist_value_type(value_string, self%tokens(i)%first, self%tokens(i)%last, 1, &
+                                self%tokens(i)%line)
+    if (self%tokens(i)%kind == token_word) then
+      star = index(token_words(self, i), '*')
+      if (star > 1) then
+        value%repeats = repeat_count(self%file%words(value%first:value%first + star - 2))
+      end if
+      if (star > 1 .and. value%repeats >= 0) value%first = value%first + star
+      value%kind = value_word
+      if (value%first <= value%last) value%kind = word_kind(self%file%words(value%first:value%last))
+      if (value%first > value%last .and. string_follows(self, i)) then
+        i = i + 1
+        value%kind = value_string
+        value%first = self%tokens(i)%first
+        value%last = self%tokens(i)%last
+      else if (value%first > value%last) then
+        call complain_about_value(self, i, 'a repeat count without a value', complaints)
+        return
+      end if
+      if (value%repeats == 0) then
+        call complain_about_value(self, i, 'a repeat count must not be zero', complaints)
+        return
+      end if
+      value%repeats = max(value%repeats, 1)
+    end if
+    if (.not. self%in_entry) then
+      if (.not. self%told) call complain_about_value(self, i, 'a value without a key', complaints)
+      return
+    end if
+    self%n_values = self%n_values + 1
+    self%file%values(self%n_values) = value
+    self%file%entries(self%n_entries)%last_value = self%n_values
+    self%after_comma = .false.
+  end subroutine take_value
+
+  !> Complains about the value at a token.
+  pure subroutine complain_about_value(self, i, rule, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: i
+    character(len=*), intent(in) :: rule
+    type(complaints_type), intent(inout) :: complaints
+
+    call complaints%add(self%tokens(i)%line, place(self)//rule//': '//shown(token_words(self, i)))
+    self%told = .true.
+    self%after_comma = .false.
+  end subroutine complain_about_value
+
+  !> Whether a string begins right behind this token.
+  pure function string_follows(self, i) result(follows)
+    type(scanner_type), intent(in) :: self
+    integer, intent(in) :: i
+    logical :: follows
+
+    follows = .false.
+    if (i == size(self%tokens)) return
+    if (self%tokens(i + 1)%kind /= token_string) return
+    follows = self%tokens(i + 1)%first == self%tokens(i)%last + 2
+  end function string_follows
+
+  !> A token as typed.
+  pure function token_words(self, i) result(words)
+    type(scanner_type), intent(in) :: self
+    integer, intent(in) :: i
+    character(len=:), allocatable :: words
+    words = self%file%words(self%tokens(i)%first:self%tokens(i)%last)
+  end function token_words
+
+  !> The open group as the beginning of a complaint.
+  pure function place(self) result(words)
+    type(scanner_type), intent(in) :: self
+    character(len=:), allocatable :: words
+    words = '&'//shown(self%file%group_name(self%n_groups))//': '
+  end function place
+end module gfb_namelist_scanner

@@ -1,0 +1,58 @@
+!> `&operation`: speed, load and position of the shaft.
+module gfb_operation_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_value_rules, only: not_negative
+  implicit none (type, external)
+  private
+  public :: operation_case_type, read_operation_case, angular_speed
+
+  real(wp), parameter :: radians_per_second_of_rpm = acos(-1.0_wp)/30.0_wp
+
+  !> Operating point.
+  type :: operation_case_type
+    real(wp) :: speed_rpm = 0.0_wp        !! of the shaft [rpm]
+    real(wp) :: load(2) = 0.0_wp          !! external force on the shaft, x and y [N]
+    real(wp) :: eccentricity(2) = 0.0_wp  !! of the sleeve relative to the shaft, x and y [m]
+    real(wp) :: tilt(2) = 0.0_wp          !! of the sleeve against the shaft, about x and y [rad]
+    logical :: load_given = .false.
+    logical :: eccentricity_given = .false.
+  end type operation_case_type
+
+contains
+
+  !> Reads the group; what it must hold depends on the analysis.
+  subroutine read_operation_case(keys, operation, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(operation_case_type), intent(out) :: operation
+    integer, intent(in) :: analysis  !! 0 where it is not known
+
+    call keys%start_group('operation', required=.true.)
+    call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
+                       not_negative, .true.)
+    if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &
+        .not. operation%speed_rpm > 0.0_wp) then
+      call keys%complain('operation', 'speed_rpm', 'must be positive: a film without speed '// &
+                         'carries no load')
+    end if
+    call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
+                              required=analysis == analysis_equilibrium, &
+                              default='required for an equilibrium', given=operation%load_given)
+    call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
+                              'the sleeve relative to the shaft, x and y: held, or to start at', &
+                              required=analysis == analysis_fixed_position, &
+                              default='required for a fixed position', &
+                              given=operation%eccentricity_given)
+    call keys%real_vector_key('tilt', operation%tilt, 'rad', &
+                              'the sleeve relative to the shaft, about x and y')
+    call keys%finish_group()
+  end subroutine read_operation_case
+
+  !> Angular speed [rad/s].
+  elemental function angular_speed(speed_rpm) result(speed)
+    real(wp), intent(in) :: speed_rpm !! [rpm]
+    real(wp) :: speed
+    speed = speed_rpm*radians_per_second_of_rpm
+  end function angular_speed
+end module gfb_operation_case

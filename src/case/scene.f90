@@ -1,0 +1,118 @@
+!> One case file as plain values: what was asked, in SI, checked.
+module gfb_scene
+  use gfb_errors, only: error_type
+  use gfb_bearing_case, only: bearing_case_type, read_bearing_case
+  use gfb_bump_foil_case, only: bump_foil_case_type, read_bump_foil_case
+  use gfb_case_keys, only: case_keys_type
+  use gfb_case_text, only: read_case_text
+  use gfb_gas_case, only: gas_case_type, read_gas_case
+  use gfb_mesh_case, only: mesh_case_type, read_mesh_case
+  use gfb_model_case, only: model_case_type, read_model_case
+  use gfb_operation_case, only: operation_case_type, read_operation_case
+  use gfb_output_case, only: output_case_type, read_output_case
+  use gfb_scene_case, only: scene_case_type, read_scene_case
+  use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, check_rigid_position
+  use gfb_solver_case, only: solver_case_type, read_solver_case
+  use gfb_sweep_case, only: sweep_case_type, read_sweep_case
+  implicit none (type, external)
+  private
+  public :: scene_type, read_scene, read_scene_text, key_table
+
+  character(len=*), parameter :: ending = '.nml'
+
+  !> One scene.
+  type :: scene_type
+    character(len=:), allocatable :: file      !! as the user gave it
+    character(len=:), allocatable :: name      !! of the file, without folder and ending
+    character(len=:), allocatable :: verbatim  !! text of the file
+    character(len=:), allocatable :: echo      !! the same with every value used; can be run again
+    type(scene_case_type) :: general
+    type(bearing_case_type) :: bearing
+    type(gas_case_type) :: gas
+    type(operation_case_type) :: operation
+    type(sweep_case_type) :: sweep
+    type(bump_foil_case_type) :: bump_foil
+    type(model_case_type) :: model
+    type(mesh_case_type) :: mesh
+    type(solver_case_type) :: solver
+    type(output_case_type) :: output
+  end type scene_type
+
+contains
+
+  !> Reads a case file.
+  !>
+  !> Fails with all mistakes of the file, one a line.
+  subroutine read_scene(file, scene, error)
+    character(len=*), intent(in) :: file
+    type(scene_type), intent(out) :: scene
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: words
+
+    call read_case_text(file, words, error)
+    if (allocated(error)) return
+    call read_scene_text(words, file, scene, error)
+  end subroutine read_scene
+
+  !> Reads the text of a case file.
+  subroutine read_scene_text(words, file, scene, error)
+    character(len=*), intent(in) :: words  !! of the whole file
+    character(len=*), intent(in) :: file   !! its name
+    type(scene_type), intent(out) :: scene
+    type(error_type), allocatable, intent(out) :: error
+    type(case_keys_type) :: keys
+
+    scene%file = trim(file)
+    scene%name = base_name(scene%file)
+    scene%verbatim = words
+    call keys%open_text(words, file)
+    call read_groups(keys, scene)
+    call keys%finish()
+    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis)
+    call check_foundation(keys, scene%model)
+    call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
+    call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
+    scene%echo = keys%notes%echo
+    call keys%report(error)
+  end subroutine read_scene_text
+
+  !> All groups and keys there are, as a Markdown table.
+  function key_table() result(table)
+    character(len=:), allocatable :: table
+    type(case_keys_type) :: keys
+    type(scene_type) :: scene
+
+    call keys%open_text('', 'none')
+    call read_groups(keys, scene)
+    table = keys%notes%table
+  end function key_table
+
+  !> Reads the groups in the order in which they need each other.
+  subroutine read_groups(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(inout) :: scene
+
+    call read_scene_case(keys, scene%general)
+    call read_bearing_case(keys, scene%bearing)
+    call read_gas_case(keys, scene%gas)
+    call read_operation_case(keys, scene%operation, scene%general%analysis)
+    call read_sweep_case(keys, scene%sweep)
+    call read_bump_foil_case(keys, scene%bump_foil, scene%bearing)
+    call read_model_case(keys, scene%model)
+    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil)
+    call read_solver_case(keys, scene%solver, scene%bearing)
+    call read_output_case(keys, scene%output)
+  end subroutine read_groups
+
+  !> A file's name without its folder and its ending.
+  pure function base_name(file) result(name)
+    character(len=*), intent(in) :: file
+    character(len=:), allocatable :: name
+    integer :: last
+
+    name = file(index(file, '/', back=.true.) + 1:)
+    last = len(name) - len(ending)
+    if (last < 1) return
+    if (name(last + 1:) == ending) name = name(:last)
+  end function base_name
+end module gfb_scene

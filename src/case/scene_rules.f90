@@ -1,0 +1,190 @@
+!> What the groups of a scene ask of each other.
+module gfb_scene_rules
+  use gfb_kinds, only: wp
+  use gfb_bearing_case, only: bearing_case_type
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_mesh_case, only: mesh_case_type
+  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, half_width_yes
+  use gfb_operation_case, only: operation_case_type
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
+                            sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
+  use gfb_text, only: join, text
+  implicit none (type, external)
+  private
+  public :: check_sweep, check_foundation, check_half_width, check_rigid_position, is_symmetric
+
+contains
+
+  !> A sweep needs an analysis that fits to its parameter.
+  subroutine check_sweep(keys, sweep, operation, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(sweep_case_type), intent(in) :: sweep
+    type(operation_case_type), intent(in) :: operation
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    integer :: point
+
+    if (.not. sweep%present .or. analysis == 0) return
+    if (sweep%hold_position .and. analysis /= analysis_equilibrium) then
+      call keys%complain('sweep', 'hold_position', "needs analysis = 'equilibrium': it holds "// &
+                         'the shaft where the equilibrium at &operation is')
+    end if
+    select case (sweep%parameter)
+    case (sweep_load)
+      if (analysis /= analysis_equilibrium .or. sweep%hold_position) then
+        call keys%complain('sweep', 'parameter', "needs analysis = 'equilibrium' without "// &
+                           'hold_position')
+      else if (operation%load_given .and. .not. any(abs(operation%load) > 0.0_wp)) then
+        call keys%complain('operation', 'load', 'must not be zero where it is swept: it gives '// &
+                           'the direction')
+      end if
+    case (sweep_eccentricity_x, sweep_eccentricity_y)
+      if (analysis /= analysis_fixed_position) then
+        call keys%complain('sweep', 'parameter', "needs analysis = 'fixed_position'")
+      end if
+    case (sweep_speed)
+      if (analysis /= analysis_equilibrium .or. sweep%hold_position) return
+      do point = 1, size(sweep%values)
+        if (sweep%values(point) > 0.0_wp) cycle
+        call keys%complain('sweep', 'values', 'must be positive: a film without speed carries '// &
+                           'no load', point)
+      end do
+    case default
+      return ! a tilt fits to every analysis
+    end select
+  end subroutine check_sweep
+
+  !> An elastic foundation needs its stiffness, or what it is computed from.
+  subroutine check_foundation(keys, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(in) :: model
+    character(len=*), parameter :: needed(*) = [character(len=14) :: &
+                                                'thickness', 'youngs_modulus', 'poissons_ratio', &
+                                                'half_length']
+    character(len=14) :: missing(size(needed) + 1)
+    integer :: i, n
+
+    if (model%foil /= foil_elastic_foundation) return
+    if (keys%meant('model', 'foundation_stiffness')) return
+    n = 0
+    do i = 1, size(needed)
+      if (keys%meant('bump_foil', trim(needed(i)))) cycle
+      n = n + 1
+      missing(n) = needed(i)
+    end do
+    if (.not. keys%meant('bump_foil', 'pitch') .and. .not. keys%meant('bump_foil', 'bumps')) then
+      n = n + 1
+      missing(n) = 'pitch or bumps'
+    end if
+    if (n == 0) return
+    call keys%complain('model', 'foil', 'needs foundation_stiffness, or what is missing in '// &
+                       '&bump_foil: '//join(missing(:n), ', '))
+  end subroutine check_foundation
+
+  !> Half the width can be asked for only where the film is symmetric to the midplane.
+  subroutine check_half_width(keys, model, mesh, operation, sweep)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(in) :: model
+    type(mesh_case_type), intent(in) :: mesh
+    type(operation_case_type), intent(in) :: operation
+    type(sweep_case_type), intent(in) :: sweep
+
+    if (model%half_width /= half_width_yes) return
+    if (.not. is_symmetric(operation, sweep)) then
+      call keys%complain('model', 'half_width', 'needs a bearing without tilt')
+    end if
+    if (mod(mesh%axial_elements, 2) /= 0) then
+      call keys%complain('model', 'half_width', 'needs an even number of axial_elements in '// &
+                         '&mesh, not '//text(mesh%axial_elements))
+    end if
+  end subroutine check_half_width
+
+  !> Whether no point of the scene is tilted, so that one half mirrors the other.
+  pure function is_symmetric(operation, sweep) result(symmetric)
+    type(operation_case_type), intent(in) :: operation
+    type(sweep_case_type), intent(in) :: sweep
+    logical :: symmetric
+
+    symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. &
+                sweep%parameter /= sweep_tilt_x .and. sweep%parameter /= sweep_tilt_y
+  end function is_symmetric
+
+  !> A rigid pad leaves the shaft no more room than the clearance, at both ends of the bearing.
+  subroutine check_rigid_position(keys, model, bearing, operation, sweep)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(in) :: model
+    type(bearing_case_type), intent(in) :: bearing
+    type(operation_case_type), intent(in) :: operation
+    type(sweep_case_type), intent(in) :: sweep
+    real(wp) :: way
+    integer :: point
+
+    if (model%foil /= foil_rigid) return
+    if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
+    if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x) then
+      way = way_to_pad(bearing, operation)
+      if (way >= bearing%clearance) call complain(guilty_key(operation))
+      return
+    end if
+    do point = 1, size(sweep%values)
+      way = way_to_pad(bearing, operation_at(operation, sweep, point))
+      if (way >= bearing%clearance) call complain('values', point)
+    end do
+
+  contains
+
+    !> Complains about what brings the shaft out of the bearing.
+    subroutine complain(key, point)
+      character(len=*), intent(in) :: key
+      integer, intent(in), optional :: point
+      character(len=9) :: group
+
+      group = 'operation'
+      if (present(point)) group = 'sweep'
+      call keys%complain(trim(group), key, 'moves the shaft by '//text(way, 4)//' m towards the pad, which '// &
+                         'must stay below the clearance of '//text(bearing%clearance)// &
+                         ' m in a rigid bearing', point)
+    end subroutine complain
+  end subroutine check_rigid_position
+
+  !> The key that tells where the shaft is held, or how it is tilted.
+  pure function guilty_key(operation) result(key)
+    type(operation_case_type), intent(in) :: operation
+    character(len=:), allocatable :: key
+    key = 'tilt'
+    if (any(abs(operation%eccentricity) > 0.0_wp)) key = 'eccentricity'
+  end function guilty_key
+
+  !> Way of the shaft towards the pad, the larger one of both ends [m].
+  pure function way_to_pad(bearing, operation) result(way)
+    type(bearing_case_type), intent(in) :: bearing
+    type(operation_case_type), intent(in) :: operation
+    real(wp) :: way
+    real(wp) :: z
+
+    associate (e => operation%eccentricity, tilt => operation%tilt)
+      z = 0.5_wp*bearing%length
+      way = max(way_at_end(bearing, e + z*[tilt(2), -tilt(1)]), &
+                way_at_end(bearing, e - z*[tilt(2), -tilt(1)]))
+    end associate
+  end function way_to_pad
+
+  !> Way towards the pad at one end of the bearing; nothing is in the way where the pad is not.
+  pure function way_at_end(bearing, eccentricity) result(way)
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp), intent(in) :: eccentricity(2) !! of the sleeve relative to the shaft at that end [m]
+    real(wp) :: way
+    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+    real(wp) :: thinnest
+
+    thinnest = modulo(atan2(-eccentricity(2), -eccentricity(1)), turn)
+    if (thinnest >= bearing%leading_edge_angle) then
+      way = norm2(eccentricity)
+    else
+      associate (angle => bearing%leading_edge_angle)
+        way = max(-eccentricity(1), -eccentricity(1)*cos(angle) - eccentricity(2)*sin(angle))
+      end associate
+    end if
+  end function way_at_end
+end module gfb_scene_rules

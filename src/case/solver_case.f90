@@ -1,0 +1,55 @@
+!> `&solver`: tolerances and limits of the solution.
+module gfb_solver_case
+  use gfb_kinds, only: wp
+  use gfb_bearing_case, only: bearing_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_value_rules, only: between, from_to, positive
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: solver_case_type, read_solver_case
+
+  real(wp), parameter :: touch_down_part = 1.0e-4_wp !! of the clearance, smallest film
+  real(wp), parameter :: most_iterations = 1.0e6_wp
+
+  !> Tolerances and limits.
+  type :: solver_case_type
+    real(wp) :: residual_tolerance = 1.0e-10_wp !! of the scaled residual [1]
+    real(wp) :: step_tolerance = 1.0e-9_wp      !! of the scaled step [1]
+    integer :: maximum_iterations = 40          !! Newton steps of one load step
+    integer :: maximum_load_steps = 200
+    real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole way [1]
+    real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
+  end type solver_case_type
+
+contains
+
+  !> Reads the group; the touch-down gap's default is a part of the clearance.
+  subroutine read_solver_case(keys, solver, bearing)
+    type(case_keys_type), intent(inout) :: keys
+    type(solver_case_type), intent(out) :: solver
+    type(bearing_case_type), intent(in) :: bearing
+
+    call keys%start_group('solver')
+    call keys%real_key('residual_tolerance', solver%residual_tolerance, '1', &
+                       'scaled residual at which Newton stops', between(0.0_wp, 1.0_wp))
+    call keys%real_key('step_tolerance', solver%step_tolerance, '1', &
+                       'scaled step at which Newton stops', between(0.0_wp, 1.0_wp))
+    call keys%integer_key('maximum_iterations', solver%maximum_iterations, &
+                          'Newton steps of one load step at most', from_to(1.0_wp, most_iterations))
+    call keys%integer_key('maximum_load_steps', solver%maximum_load_steps, &
+                          'load steps at most', from_to(1.0_wp, most_iterations))
+    call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
+                       'load step, as a part of the whole way, below which it is given up', &
+                       between(0.0_wp, 1.0_wp))
+    solver%touch_down_gap = touch_down_part*bearing%clearance
+    call keys%real_key('touch_down_gap', solver%touch_down_gap, 'm', &
+                       'smallest film below which an equilibrium is refused', positive, &
+                       default='1e-4 of the clearance')
+    if (bearing%clearance > 0.0_wp .and. solver%touch_down_gap >= bearing%clearance) then
+      call keys%complain('solver', 'touch_down_gap', 'must be less than the clearance, '// &
+                         text(bearing%clearance)//' m')
+    end if
+    call keys%finish_group()
+  end subroutine read_solver_case
+end module gfb_solver_case

@@ -1,0 +1,81 @@
+!> `&sweep`: one parameter of the operating point takes several values.
+module gfb_sweep_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_operation_case, only: operation_case_type
+  use gfb_value_rules, only: rule_type, any_value, not_negative
+  implicit none (type, external)
+  private
+  public :: sweep_case_type, read_sweep_case, operation_at
+
+  integer, parameter, public :: sweep_load = 1
+  integer, parameter, public :: sweep_speed = 2
+  integer, parameter, public :: sweep_tilt_x = 3
+  integer, parameter, public :: sweep_tilt_y = 4
+  integer, parameter, public :: sweep_eccentricity_x = 5
+  integer, parameter, public :: sweep_eccentricity_y = 6
+
+  character(len=*), parameter :: parameter_words(*) = &
+    [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', 'tilt_y', 'eccentricity_x', &
+                          'eccentricity_y']
+  character(len=*), parameter :: units(0:6) = [character(len=16) :: &
+                                               'N, rpm, rad or m', 'N', 'rpm', 'rad', 'rad', &
+                                               'm', 'm']
+
+  !> The sweep.
+  type :: sweep_case_type
+    logical :: present = .false.           !! the case asks for a sweep
+    integer :: parameter = 0               !! `sweep_load`, ...; 0 without a sweep
+    real(wp), allocatable :: values(:)     !! of the parameter; a load is its magnitude
+    logical :: hold_position = .false.     !! the shaft stays where &operation's equilibrium is
+  end type sweep_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_sweep_case(keys, sweep)
+    type(case_keys_type), intent(inout) :: keys
+    type(sweep_case_type), intent(out) :: sweep
+    type(rule_type) :: rule
+
+    call keys%start_group('sweep', optional=.true., present_in_file=sweep%present)
+    call keys%choice_key('parameter', sweep%parameter, parameter_words, &
+                         'what is varied; load: its magnitude, in the direction of `load`', .true.)
+    rule = any_value
+    if (sweep%parameter == sweep_load .or. sweep%parameter == sweep_speed) rule = not_negative
+    call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
+                            'values of the parameter, in the order in which they are computed', &
+                            rule)
+    call keys%logical_key('hold_position', sweep%hold_position, &
+                          'hold the shaft where the equilibrium at `&operation` is')
+    call keys%finish_group()
+  end subroutine read_sweep_case
+
+  !> The operating point with one of the sweep's values in it.
+  pure function operation_at(operation, sweep, point) result(there)
+    type(operation_case_type), intent(in) :: operation
+    type(sweep_case_type), intent(in) :: sweep
+    integer, intent(in) :: point  !! number of the value
+    type(operation_case_type) :: there
+
+    there = operation
+    associate (value => sweep%values(point))
+      select case (sweep%parameter)
+      case (sweep_load)
+        there%load = value*(operation%load/hypot(operation%load(1), operation%load(2)))
+      case (sweep_speed)
+        there%speed_rpm = value
+      case (sweep_tilt_x)
+        there%tilt(1) = value
+      case (sweep_tilt_y)
+        there%tilt(2) = value
+      case (sweep_eccentricity_x)
+        there%eccentricity(1) = value
+      case (sweep_eccentricity_y)
+        there%eccentricity(2) = value
+      case default
+        return ! a misspelt parameter, complained about
+      end select
+    end associate
+  end function operation_at
+end module gfb_sweep_case

@@ -1,0 +1,193 @@
+!> Geometry of the four-node shell element: nodes, directors, base vectors, lamina frame.
+!>
+!> $$ \mathbf{x}(\xi, \eta, \zeta) = \sum_a N_a(\xi, \eta) \Bigl( \mathbf{x}_a
+!>    + \frac{h}{2} \zeta \mathbf{V}_a \Bigr), \qquad
+!>    \mathbf{u} = \sum_a N_a \Bigl( \mathbf{u}_a + \frac{h}{2} \zeta \,
+!>    \boldsymbol{\theta}_a \times \mathbf{V}_a \Bigr), \qquad
+!>    \boldsymbol{\theta}_a = \alpha_a \mathbf{V}^1_a + \beta_a \mathbf{V}^2_a $$
+!>
+!> Source: [DvorkinBathe1984]. The director \( \mathbf{V}_a \) belongs to the element, the rotation
+!> axes \( \mathbf{V}^1_a, \mathbf{V}^2_a \) to the node. Where the director is the third of the axes,
+!> its change is the usual \( -\alpha \mathbf{V}^2 + \beta \mathbf{V}^1 \). There is no rotation about
+!> the nodal normal (drilling): it has no unknown and no stiffness. At a smooth node it would not turn
+!> the director anyway; at a kink, where an element has a director of its own, that director does not
+!> follow a turn about the nodal normal.
+!>
+!> Nodes run counter-clockwise seen from the tips of the directors. Unknowns of an element, node by
+!> node: three displacements along the global axes [m], \( \alpha, \beta \) [rad].
+module gfb_shell_geometry
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail
+  implicit none (type, external)
+  private
+  public :: check_shell, director_rates, bilinear, shell_base, shell_lamina, cross
+
+  integer, parameter, public :: shell_nodes = 4    !! nodes of an element
+  integer, parameter, public :: node_unknowns = 5  !! u, v, w, alpha, beta
+  integer, parameter, public :: shell_unknowns = shell_nodes*node_unknowns
+  real(wp), parameter, public :: shell_abscissa = 1.0_wp/sqrt(3.0_wp) !! of two-point Gauss rules [1]
+
+  real(wp), parameter :: node_xi(shell_nodes) = [-1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
+  real(wp), parameter :: node_eta(shell_nodes) = [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp]
+  !> Sine of a corner's angle below which an element is useless: its stiffness has lost six digits.
+  real(wp), parameter :: least_sine = 1.0e-6_wp
+
+  !> Where an element is.
+  type, public :: shell_geometry_type
+    real(wp) :: position(3, shell_nodes) !! of the nodes on the mid-surface [m]
+    real(wp) :: director(3, shell_nodes) !! unit thickness directions of this element [1]
+    real(wp) :: axis(3, 2, shell_nodes)  !! unit rotation axes V1, V2 of the nodes [1]
+  end type shell_geometry_type
+
+  !> What an element is made of.
+  type, public :: shell_section_type
+    real(wp) :: thickness = 0.0_wp      !! h [m]
+    real(wp) :: youngs_modulus = 0.0_wp !! E [Pa]
+    real(wp) :: poissons_ratio = 0.0_wp !! nu [1]
+    real(wp) :: density = 0.0_wp        !! [kg/m3]
+  end type shell_section_type
+
+  !> The lamina (surface of constant zeta) at a point.
+  type, public :: shell_lamina_type
+    real(wp) :: frame(3, 3) !! unit vectors in columns: along xi, in the lamina, normal to it [1]
+    real(wp) :: dual(3, 3)  !! component of contravariant base vector (second index) on each [1/m]
+    real(wp) :: volume      !! Jacobian determinant [m3]
+  end type shell_lamina_type
+
+contains
+
+  !> Refuses elements that have no positive volume.
+  !>
+  !> Fails when an edge or a corner's angle vanishes, when the nodes run clockwise about the
+  !> directors, when the element is folded, or when it is too thick for its curvature.
+  pure subroutine check_shell(geometry, thickness, error)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness !! h [m]
+    type(error_type), allocatable, intent(out) :: error
+
+    real(wp) :: edge(3, shell_nodes), length(shell_nodes), sine(shell_nodes), twist, base(3, 3)
+    integer :: a, before, face
+
+    do a = 1, shell_nodes
+      edge(:, a) = geometry%position(:, modulo(a, shell_nodes) + 1) - geometry%position(:, a)
+      length(a) = sqrt(dot_product(edge(:, a), edge(:, a)))
+    end do
+    do a = 1, shell_nodes
+      before = modulo(a - 2, shell_nodes) + 1
+      twist = dot_product(cross(edge(:, before), edge(:, a)), geometry%director(:, a))
+      sine(a) = 0.0_wp
+      if (length(a)*length(before) > 0.0_wp) sine(a) = twist/(length(a)*length(before))
+    end do
+    if (all(sine > least_sine)) then
+      do a = 1, shell_nodes
+        do face = -1, 1, 2
+          base = corner_base(geometry, thickness, a, face)
+          if (.not. dot_product(cross(base(:, 1), base(:, 2)), base(:, 3)) > 0.0_wp) then
+            call fail(error, 'a shell element is too thick for its curvature')
+            return
+          end if
+        end do
+      end do
+    else if (all(sine < -least_sine)) then
+      call fail(error, 'the nodes of a shell element run clockwise about its directors')
+    else if (any(sine < -least_sine)) then
+      call fail(error, 'a shell element is folded over')
+    else
+      call fail(error, 'a shell element is degenerate: an edge or the angle of a corner vanishes')
+    end if
+  end subroutine check_shell
+
+  !> Base vectors at a corner of the upper or lower face.
+  pure function corner_base(geometry, thickness, corner, face) result(base)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness !! h [m]
+    integer, intent(in) :: corner     !! node
+    integer, intent(in) :: face       !! 1 or -1
+    real(wp) :: base(3, 3)
+    real(wp) :: shape(shell_nodes), by_xi(shell_nodes), by_eta(shell_nodes)
+
+    call bilinear(node_xi(corner), node_eta(corner), shape, by_xi, by_eta)
+    base = shell_base(geometry, thickness, shape, by_xi, by_eta, real(face, wp))
+  end function corner_base
+
+  !> Change of half the thickness vector for unit rotations, \( (h/2) V^k_a \times V_a \).
+  pure function director_rates(geometry, thickness) result(rate)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness    !! h [m]
+    real(wp) :: rate(3, 2, shell_nodes)  !! for alpha and beta of each node [m]
+    integer :: a, k
+
+    do a = 1, shell_nodes
+      do k = 1, 2
+        rate(:, k, a) = 0.5_wp*thickness*cross(geometry%axis(:, k, a), geometry%director(:, a))
+      end do
+    end do
+  end function director_rates
+
+  !> Bilinear shape functions and their derivatives.
+  pure subroutine bilinear(xi, eta, shape, by_xi, by_eta)
+    real(wp), intent(in) :: xi, eta              !! in [-1, 1]
+    real(wp), intent(out) :: shape(shell_nodes)  !! [1]
+    real(wp), intent(out) :: by_xi(shell_nodes)  !! [1]
+    real(wp), intent(out) :: by_eta(shell_nodes) !! [1]
+
+    shape = 0.25_wp*(1.0_wp + node_xi*xi)*(1.0_wp + node_eta*eta)
+    by_xi = 0.25_wp*node_xi*(1.0_wp + node_eta*eta)
+    by_eta = 0.25_wp*node_eta*(1.0_wp + node_xi*xi)
+  end subroutine bilinear
+
+  !> Covariant base vectors: derivatives of the position by xi, eta, zeta in columns.
+  pure function shell_base(geometry, thickness, shape, by_xi, by_eta, zeta) result(base)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness                              !! h [m]
+    real(wp), intent(in), dimension(shell_nodes) :: shape, by_xi, by_eta !! [1]
+    real(wp), intent(in) :: zeta                                   !! in [-1, 1]
+    real(wp) :: base(3, 3)                                         !! [m]
+    real(wp) :: half, point(3)
+    integer :: a
+
+    half = 0.5_wp*thickness
+    base = 0.0_wp
+    do a = 1, shell_nodes
+      point = geometry%position(:, a) + half*zeta*geometry%director(:, a)
+      base(:, 1) = base(:, 1) + by_xi(a)*point
+      base(:, 2) = base(:, 2) + by_eta(a)*point
+      base(:, 3) = base(:, 3) + half*shape(a)*geometry%director(:, a)
+    end do
+  end function shell_base
+
+  !> Lamina frame, contravariant components and volume from the base vectors.
+  !>
+  !> The first two unit vectors span the lamina, so a contravariant vector along zeta has none but a
+  !> third component: strains in the lamina do not mix with transverse ones. The base vectors must
+  !> be independent (`check_shell`).
+  pure function shell_lamina(base) result(lamina)
+    real(wp), intent(in) :: base(3, 3) !! [m]
+    type(shell_lamina_type) :: lamina
+    real(wp) :: normal(3), area, along, slant, rise, tilt(3)
+
+    normal = cross(base(:, 1), base(:, 2))
+    area = sqrt(dot_product(normal, normal))
+    along = sqrt(dot_product(base(:, 1), base(:, 1)))
+    lamina%frame(:, 3) = normal/area
+    lamina%frame(:, 1) = base(:, 1)/along
+    lamina%frame(:, 2) = cross(lamina%frame(:, 3), lamina%frame(:, 1))
+    slant = dot_product(base(:, 2), lamina%frame(:, 1))
+    rise = area/along
+    tilt = matmul(base(:, 3), lamina%frame)
+    lamina%dual(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp/tilt(3)]
+    lamina%dual(:, 2) = [0.0_wp, 1.0_wp/rise, -tilt(2)/(rise*tilt(3))]
+    lamina%dual(1:2, 1) = [1.0_wp/along, -slant/(along*rise)]
+    lamina%dual(3, 1) = -(tilt(1)*lamina%dual(1, 1) + tilt(2)*lamina%dual(2, 1))/tilt(3)
+    lamina%volume = area*tilt(3)
+  end function shell_lamina
+
+  !> Vector product.
+  pure function cross(first, second) result(product)
+    real(wp), intent(in) :: first(3), second(3)
+    real(wp) :: product(3)
+
+    product = [first(2)*second(3) - first(3)*second(2), first(3)*second(1) - first(1)*second(3), &
+               first(1)*second(2) - first(2)*second(1)]
+  end function cross
+end module gfb_shell_geometry

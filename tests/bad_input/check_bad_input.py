@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Runs gfb on case files with mistakes and looks for the messages they expect.
+
+    check_bad_input.py GFB_EXECUTABLE
+
+Each `*.nml` beside this script begins with comment lines `! expect: <part of the message>`.
+gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
+that are no text files (a missing file, a folder, ...) are made in a temporary folder.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+LONGEST_MESSAGE = 20000  # bytes; nobody reads more
+SECONDS = 60
+
+GOOD = """&bearing radius = 0.02, length = 0.04, clearance = 3.0e-5 /
+&gas viscosity = 1.95e-5, ambient_pressure = 101325.0 /
+&operation speed_rpm = 30000.0, load = -50.0, 0.0 /
+&model foil = 'rigid' /
+&mesh circumferential_elements = 24, axial_elements = 4 /
+"""
+
+
+def run(gfb, arguments, folder):
+    """Status, output and error stream of gfb."""
+    done = subprocess.run([gfb, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
+                          capture_output=True, timeout=SECONDS)
+    return (done.returncode, done.stdout.decode("utf-8", "replace"),
+            done.stderr.decode("utf-8", "replace"))
+
+
+def complaints(gfb, arguments, expected, folder, status=1):
+    """What is wrong with gfb's answer, one a line; empty where all is as expected."""
+    before = sorted(folder.iterdir())
+    try:
+        found, _, words = run(gfb, arguments, folder)
+    except subprocess.TimeoutExpired:
+        return [f"no end after {SECONDS} s"]
+    wrong = []
+    if found != status:
+        wrong.append(f"status {found}, not {status}")
+    wrong += [f"not said: {part}" for part in expected if part not in words]
+    if status and not words.strip():
+        wrong.append("nothing on the error stream")
+    if "Fortran runtime" in words or "Backtrace" in words:
+        wrong.append("a crash")
+    if len(words) > LONGEST_MESSAGE:
+        wrong.append(f"{len(words)} bytes of message")
+    new = [str(path.name) for path in sorted(folder.iterdir()) if path not in before]
+    if new:
+        wrong.append("left behind: " + ", ".join(new))
+    if wrong and words:
+        wrong.append("said: " + words.strip()[:2000])
+    return wrong
+
+
+def files_with_mistakes():
+    """Name, arguments and expected parts of the case files beside this script."""
+    for path in sorted(HERE.glob("*.nml")):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        expected = [line[len("! expect: "):] for line in lines if line.startswith("! expect: ")]
+        if not expected:
+            raise SystemExit(f"{path}: no line '! expect: ...'")
+        yield path.stem, ["--check", str(path)], expected
+
+
+def places_with_mistakes(folder):
+    """Name, arguments and expected parts of what is no case file at all."""
+    (folder / "good.nml").write_text(GOOD)
+    (folder / "folder.nml").mkdir()
+    (folder / "empty.nml").write_bytes(b"")
+    (folder / "binary.nml").write_bytes(b"&scene\n" + bytes(range(256)))
+    (folder / "program.nml").write_bytes(pathlib.Path(sys.executable).read_bytes()[:100000])
+    (folder / "large.nml").write_bytes(b"! a comment of 40 bytes, again and again\n" * 250000)
+    (folder / "long_line.nml").write_bytes(b"&scene title = " + b"x" * 900000)
+    (folder / "garbage.nml").write_bytes(b"a=1,(2)'b'/&c d=*=\xff " * 45000)
+    (folder / "in_the_way").write_text("a file")
+    yield "missing file", ["--check", "nowhere.nml"], ["nowhere.nml: the case file does not exist"]
+    yield "missing folder", ["--check", "nowhere/case.nml"], ["does not exist"]
+    yield "a file as folder", ["--check", "in_the_way/case.nml"], ["does not exist"]
+    yield "empty name", ["--check", ""], []
+    yield "odd name", ["--check", "\t'\"* \\ \n&.nml"], ["does not exist"]
+    yield "long name", ["--check", "x" * 5000], ["does not exist"]
+    yield "a folder", ["--check", "folder.nml"], ["folder.nml: is a folder"]
+    yield "the root folder", ["--check", "/"], ["is a folder"]
+    yield "a device", ["--check", "/dev/zero"], ["is empty"]
+    yield "empty file", ["--check", "empty.nml"], ["empty.nml: the case file is empty"]
+    yield "binary file", ["--check", "binary.nml"], ["binary.nml: is binary", "line 2"]
+    yield "a program", ["--check", "program.nml"], ["program.nml: is binary"]
+    yield "10 MB", ["--check", "large.nml"], ["has 10.25 MB, more than the limit of 1 MB"]
+    yield "long line", ["--check", "long_line.nml"], ["x" * 60 + "..."]
+    yield "garbage", ["--check", "garbage.nml"], [" more"]
+    yield "output below a file", ["--output", "in_the_way/results", "good.nml"], ["in_the_way"]
+
+
+def main():
+    if len(sys.argv) != 2:
+        raise SystemExit(__doc__)
+    gfb = str(pathlib.Path(sys.argv[1]).resolve())
+    passed = failed = 0
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        tests = list(files_with_mistakes()) + list(places_with_mistakes(folder))
+        # A program that refuses everything would pass all the rest.
+        wrong = {"the good case": complaints(gfb, ["--check", "good.nml"], [], folder, status=0)}
+        for test, arguments, expected in tests:
+            wrong[test] = complaints(gfb, arguments, expected, folder)
+    for test, lines in wrong.items():
+        if lines:
+            failed += 1
+            print(f"FAILED {test}")
+            print("".join(f"    {line}\n" for line in lines), end="")
+        else:
+            passed += 1
+    print(f"{passed} passed, {failed} failed")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

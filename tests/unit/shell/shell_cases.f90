@@ -1,0 +1,304 @@
+!> The benchmark problems of shell elements, each as displacement over its reference value.
+!>
+!> Definitions: [MacNealHarder1985], the skew plate after Morley. Lengths, forces and moduli have the
+!> units of the sources.
+module shell_cases
+  use gfb_kinds, only: wp
+  use gfb_shell_geometry, only: shell_section_type, cross
+  use shell_model, only: surface_type, model_type, new_model, solve_model, clamp_node, &
+    hold_symmetry, hold_unknown, add_area_load
+  implicit none (type, external)
+  private
+  public :: scordelis_lo, pinched_cylinder, hemisphere, twisted_beam, curved_beam, square_plate, &
+            skew_plate
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter :: degree = pi/180.0_wp
+
+  !> Part of a cylinder about y, s along the arc from the top, t along the axis.
+  type, extends(surface_type) :: cylinder_type
+    real(wp) :: radius, angle, length
+  contains
+    procedure :: point => cylinder_point
+  end type cylinder_type
+
+  !> Quarter of a sphere about z from the equator up, s along the circles of latitude.
+  type, extends(surface_type) :: sphere_type
+    real(wp) :: radius, latitude
+  contains
+    procedure :: point => sphere_point
+  end type sphere_type
+
+  !> Strip along x twisted by a quarter turn, s across.
+  type, extends(surface_type) :: twisted_type
+    real(wp) :: length, width
+  contains
+    procedure :: point => twisted_point
+  end type twisted_type
+
+  !> Flat quarter ring about z, s along the radius.
+  type, extends(surface_type) :: ring_type
+    real(wp) :: inner, outer
+  contains
+    procedure :: point => ring_point
+  end type ring_type
+
+  !> Flat parallelogram.
+  type, extends(surface_type) :: plate_type
+    real(wp) :: side, angle
+  contains
+    procedure :: point => plate_point
+  end type plate_type
+
+contains
+
+  !> Roof under its weight, a quarter of it: sag at the middle of the free edge.
+  function scordelis_lo(mesh) result(ratio)
+    integer, intent(in) :: mesh !! elements a side
+    real(wp) :: ratio
+    type(model_type) :: model
+    integer :: i
+
+    call new_model(cylinder_type(25.0_wp, 40.0_wp*degree, 25.0_wp), mesh, mesh, &
+                   shell_section_type(0.25_wp, 4.32e8_wp, 0.0_wp, 0.0_wp), model)
+    do i = 0, mesh
+      call hold_unknown(model, model%node(i, 0), 1)
+      call hold_unknown(model, model%node(i, 0), 3)
+      call hold_symmetry(model, model%node(i, mesh), 2)
+      call hold_symmetry(model, model%node(0, i), 1)
+    end do
+    call add_area_load(model, [0.0_wp, 0.0_wp, -90.0_wp])
+    call solve_model(model)
+    ratio = -model%displacement(3, model%node(mesh, mesh))/0.3024_wp
+  end function scordelis_lo
+
+  !> Cylinder with end diaphragms pinched at the middle, an eighth of it: displacement of the load.
+  function pinched_cylinder(mesh) result(ratio)
+    integer, intent(in) :: mesh !! elements a side
+    real(wp) :: ratio
+    type(model_type) :: model
+    integer :: i
+
+    call new_model(cylinder_type(300.0_wp, 90.0_wp*degree, 300.0_wp), mesh, mesh, &
+                   shell_section_type(3.0_wp, 3.0e6_wp, 0.3_wp, 0.0_wp), model)
+    do i = 0, mesh
+      call hold_unknown(model, model%node(i, 0), 1)
+      call hold_unknown(model, model%node(i, 0), 3)
+      call hold_symmetry(model, model%node(i, mesh), 2)
+      call hold_symmetry(model, model%node(0, i), 1)
+      call hold_symmetry(model, model%node(mesh, i), 3)
+    end do
+    model%load(3, model%node(0, mesh)) = -0.25_wp
+    call solve_model(model)
+    ratio = -model%displacement(3, model%node(0, mesh))/1.8248e-5_wp
+  end function pinched_cylinder
+
+  !> Hemisphere with a hole pulled and pushed at the equator, a quarter: displacement of a load.
+  function hemisphere(mesh) result(ratio)
+    integer, intent(in) :: mesh !! elements a side
+    real(wp) :: ratio
+    type(model_type) :: model
+    integer :: i
+
+    call new_model(sphere_type(10.0_wp, 72.0_wp*degree), mesh, mesh, &
+                   shell_section_type(0.04_wp, 6.825e7_wp, 0.3_wp, 0.0_wp), model)
+    do i = 0, mesh
+      call hold_symmetry(model, model%node(0, i), 2)
+      call hold_symmetry(model, model%node(mesh, i), 1)
+    end do
+    call hold_unknown(model, model%node(0, 0), 3)
+    model%load(1, model%node(0, 0)) = 1.0_wp
+    model%load(2, model%node(mesh, 0)) = -1.0_wp
+    call solve_model(model)
+    ratio = model%displacement(1, model%node(0, 0))/0.094_wp
+  end function hemisphere
+
+  !> Twisted cantilever under loads at its tip along its width and along its normal there.
+  function twisted_beam(along, across, thickness, reference) result(ratio)
+    integer, intent(in) :: along, across !! elements
+    real(wp), intent(in) :: thickness
+    real(wp), intent(in) :: reference(2) !! displacement per unit load, in plane, out of plane
+    real(wp) :: ratio(2)
+    type(model_type) :: model
+    integer :: load
+
+    do load = 1, 2
+      call new_model(twisted_type(12.0_wp, 1.1_wp), across, along, &
+                     shell_section_type(thickness, 29.0e6_wp, 0.22_wp, 0.0_wp), model)
+      ratio(load) = cantilever(model, merge(3, 2, load == 1))/reference(load)
+    end do
+  end function twisted_beam
+
+  !> Curved cantilever under loads at its tip along the radius and along its normal.
+  function curved_beam(along, across, reference) result(ratio)
+    integer, intent(in) :: along, across !! elements
+    real(wp), intent(in) :: reference(2) !! displacement in plane, out of plane
+    real(wp) :: ratio(2)
+    type(model_type) :: model
+    integer :: load
+
+    do load = 1, 2
+      call new_model(ring_type(4.12_wp, 4.32_wp), across, along, &
+                     shell_section_type(0.1_wp, 1.0e7_wp, 0.25_wp, 0.0_wp), model)
+      ratio(load) = cantilever(model, merge(2, 3, load == 1))/reference(load)
+    end do
+  end function curved_beam
+
+  !> Displacement, averaged with the load's weights, of the last row under a unit load spread over it.
+  function cantilever(model, direction) result(displacement)
+    type(model_type), intent(inout) :: model
+    integer, intent(in) :: direction !! of load and displacement
+    real(wp) :: displacement
+    real(wp) :: weight(0:model%columns)
+    integer :: i
+
+    weight = 1.0_wp/model%columns
+    weight([0, model%columns]) = 0.5_wp/model%columns
+    do i = 0, model%columns
+      call clamp_node(model, model%node(i, 0))
+    end do
+    model%load(direction, model%node(:, model%rows)) = weight
+    call solve_model(model)
+    displacement = dot_product(weight, model%displacement(direction, model%node(:, model%rows)))
+  end function cantilever
+
+  !> Square plate on hard simple supports under uniform load, a quarter: deflection of the centre.
+  function square_plate(mesh, thickness) result(ratio)
+    integer, intent(in) :: mesh          !! elements a side of the whole plate
+    real(wp), intent(in) :: thickness
+    real(wp) :: ratio
+    type(model_type) :: model
+    type(shell_section_type) :: section
+    integer :: i, n
+
+    n = mesh/2
+    section = shell_section_type(thickness, 1.0e7_wp, 0.3_wp, 0.0_wp)
+    call new_model(plate_type(0.5_wp, 0.5_wp*pi), n, n, section, model)
+    model%held(1:2, :) = .true.
+    do i = 0, n
+      call hold_symmetry(model, model%node(0, i), 1)
+      call hold_symmetry(model, model%node(i, 0), 2)
+      ! The director keeps its tilt along the edge.
+      call hold_unknown(model, model%node(n, i), 3)
+      call hold_axis(model, model%node(n, i), 1)
+      call hold_unknown(model, model%node(i, n), 3)
+      call hold_axis(model, model%node(i, n), 2)
+    end do
+    call add_area_load(model, [0.0_wp, 0.0_wp, 1.0_wp])
+    call solve_model(model)
+    ratio = model%displacement(3, model%node(0, 0))/mindlin_deflection(section)
+  end function square_plate
+
+  !> Holds the rotation of a node about a global axis that is one of its own.
+  pure subroutine hold_axis(model, node, direction)
+    type(model_type), intent(inout) :: model
+    integer, intent(in) :: node
+    integer, intent(in) :: direction !! global axis
+    integer :: k
+
+    do k = 1, 2
+      if (abs(model%axis(direction, k, node)) > 0.5_wp) model%held(3 + k, node) = .true.
+    end do
+  end subroutine hold_axis
+
+  !> Centre of a unit square Mindlin plate, hard simple supports, unit load: Navier's series for the
+  !> Kirchhoff plate and for the shear (Marcus moment over shear stiffness), which add up exactly.
+  pure function mindlin_deflection(section) result(deflection)
+    type(shell_section_type), intent(in) :: section
+    real(wp) :: deflection
+    real(wp) :: bending, shear, term, rigidity, shear_stiffness
+    integer, parameter :: last = 1001
+    integer :: m, n
+
+    bending = 0.0_wp
+    shear = 0.0_wp
+    do m = last, 1, -2
+      do n = last, 1, -2
+        term = merge(1.0_wp, -1.0_wp, modulo((m + n)/2, 2) == 1)/(real(m, wp)*n)
+        bending = bending + term/real(m**2 + n**2, wp)**2
+        shear = shear + term/(m**2 + n**2)
+      end do
+    end do
+    rigidity = section%youngs_modulus*section%thickness**3/(12.0_wp*(1.0_wp - section%poissons_ratio**2))
+    shear_stiffness = 5.0_wp/12.0_wp*section%youngs_modulus/(1.0_wp + section%poissons_ratio)* &
+      section%thickness
+    deflection = 16.0_wp/pi**6*bending/rigidity + 16.0_wp/pi**4*shear/shear_stiffness
+  end function mindlin_deflection
+
+  !> Skew plate of 30 degrees on soft simple supports under uniform load: deflection of the centre.
+  function skew_plate(mesh, thickness) result(ratio)
+    integer, intent(in) :: mesh         !! elements a side
+    real(wp), intent(in) :: thickness
+    real(wp) :: ratio
+    type(model_type) :: model
+    type(shell_section_type) :: section
+    integer :: i
+
+    section = shell_section_type(thickness, 1.0e5_wp, 0.3_wp, 0.0_wp)
+    call new_model(plate_type(100.0_wp, 30.0_wp*degree), mesh, mesh, section, model)
+    model%held(1:2, :) = .true.
+    do i = 0, mesh
+      call hold_unknown(model, model%node(0, i), 3)
+      call hold_unknown(model, model%node(mesh, i), 3)
+      call hold_unknown(model, model%node(i, 0), 3)
+      call hold_unknown(model, model%node(i, mesh), 3)
+    end do
+    call add_area_load(model, [0.0_wp, 0.0_wp, 1.0_wp])
+    call solve_model(model)
+    ratio = model%displacement(3, model%node(mesh/2, mesh/2))*section%youngs_modulus*thickness**3/ &
+      (12.0_wp*(1.0_wp - section%poissons_ratio**2)*0.000408_wp*100.0_wp**4)
+  end function skew_plate
+
+  pure subroutine cylinder_point(self, s, t, position, normal)
+    class(cylinder_type), intent(in) :: self
+    real(wp), intent(in) :: s, t
+    real(wp), intent(out) :: position(3), normal(3)
+
+    normal = [sin(s*self%angle), 0.0_wp, cos(s*self%angle)]
+    position = self%radius*normal + [0.0_wp, t*self%length, 0.0_wp]
+  end subroutine cylinder_point
+
+  pure subroutine sphere_point(self, s, t, position, normal)
+    class(sphere_type), intent(in) :: self
+    real(wp), intent(in) :: s, t
+    real(wp), intent(out) :: position(3), normal(3)
+
+    normal = [cos(t*self%latitude)*cos(0.5_wp*pi*s), cos(t*self%latitude)*sin(0.5_wp*pi*s), &
+              sin(t*self%latitude)]
+    position = self%radius*normal
+  end subroutine sphere_point
+
+  pure subroutine twisted_point(self, s, t, position, normal)
+    class(twisted_type), intent(in) :: self
+    real(wp), intent(in) :: s, t
+    real(wp), intent(out) :: position(3), normal(3)
+    real(wp) :: across(3), along(3), turn, offset
+
+    turn = 0.5_wp*pi*t
+    offset = self%width*(s - 0.5_wp)
+    across = [0.0_wp, cos(turn), sin(turn)]
+    along = [self%length, -0.5_wp*pi*offset*sin(turn), 0.5_wp*pi*offset*cos(turn)]
+    position = [self%length*t, 0.0_wp, 0.0_wp] + offset*across
+    normal = cross(across, along)
+    normal = normal/norm2(normal)
+  end subroutine twisted_point
+
+  pure subroutine ring_point(self, s, t, position, normal)
+    class(ring_type), intent(in) :: self
+    real(wp), intent(in) :: s, t
+    real(wp), intent(out) :: position(3), normal(3)
+
+    position = (self%inner + s*(self%outer - self%inner))* &
+      [cos(0.5_wp*pi*t), sin(0.5_wp*pi*t), 0.0_wp]
+    normal = [0.0_wp, 0.0_wp, 1.0_wp]
+  end subroutine ring_point
+
+  pure subroutine plate_point(self, s, t, position, normal)
+    class(plate_type), intent(in) :: self
+    real(wp), intent(in) :: s, t
+    real(wp), intent(out) :: position(3), normal(3)
+
+    position = self%side*[s + t*cos(self%angle), t*sin(self%angle), 0.0_wp]
+    normal = [0.0_wp, 0.0_wp, 1.0_wp]
+  end subroutine plate_point
+end module shell_cases

@@ -1,0 +1,196 @@
+# shellcheck shell=bash
+# Shared by tools/run, tools/test and tools/check: what must be installed, the build, and what MPI needs.
+# Exit statuses are the program's: 1 wrong input, 3 the machine failed.
+
+root=$(CDPATH='' cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd -P)
+requirements=$root/tools/requirements.txt
+venv=$root/build/venv
+
+run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin
+  petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libopenblas0-serial python3)
+# shellcheck disable=SC2034 # used by those who source this
+test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib findent
+  ca-certificates)
+libraries='gfortran, a C compiler, CMake 3.21, Ninja, pkg-config, Open MPI or another MPI, PETSc 3.18 with
+  MUMPS, SLEPc 3.18, HDF5 for that MPI with its Fortran interface, METIS, BLAS and LAPACK, Python 3'
+
+say() {
+  printf '%s\n' "$*" >&2
+}
+
+stop() {
+  say "$*"
+  exit 3
+}
+
+# Only one call at a time installs and builds in this checkout.
+lock_build() {
+  mkdir -p -- "$root/build" || stop "cannot write in $root"
+  if command -v flock >/dev/null; then
+    exec 9>"$root/build/lock"
+    flock -n 9 || { say 'another call is building here: waiting for it'; flock 9; }
+  fi
+}
+
+unlock_build() {
+  exec 9>&-
+}
+
+# need_packages PACKAGE...: installs what is missing of them.
+need_packages() {
+  local present package missing=()
+  if [[ ${GFB_INSTALL:-yes} == no ]] || ! has_apt; then
+    return
+  fi
+  # shellcheck disable=SC2016 # the ${} are dpkg-query's
+  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
+  for package in "$@"; do
+    [[ $'\n'$present$'\n' == *$'\n'"installed $package"$'\n'* ]] || missing+=("$package")
+  done
+  if ((${#missing[@]} > 0)); then
+    install_packages "${missing[@]}"
+  fi
+}
+
+has_apt() {
+  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null
+}
+
+install_packages() {
+  local log=$root/build/apt.log as_root=() system
+  local install=(apt-get install --yes --no-install-recommends -o DPkg::Lock::Timeout=300 "$@")
+  if ((EUID != 0)); then
+    if command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
+      as_root=(sudo -n)
+    elif command -v sudo >/dev/null && [[ -t 0 && -t 2 ]]; then
+      as_root=(sudo)
+    else
+      say 'missing packages; please let an administrator run'
+      say "  apt-get update && apt-get install --yes --no-install-recommends $*"
+      stop 'or set GFB_INSTALL=no where libraries of your own take their place (PKG_CONFIG_PATH)'
+    fi
+  fi
+  system=$(. /etc/os-release 2>/dev/null; printf '%s %s' "${ID:-}" "${VERSION_ID:-}")
+  [[ $system == 'debian 12' ]] || say "gfb is tested on Debian 12; ${system:-this system} is untested"
+  say "installing with apt: $*"
+  say '(some minutes the first time)'
+  as_root+=(env DEBIAN_FRONTEND=noninteractive)
+  if ! "${as_root[@]}" "${install[@]}" >"$log" 2>&1 </dev/null 9>&-; then
+    say "updating apt's package list, which is missing or old"
+    if ! { "${as_root[@]}" apt-get update && "${as_root[@]}" "${install[@]}"; } \
+      >>"$log" 2>&1 </dev/null 9>&-; then
+      tail -n 15 -- "$log" >&2
+      stop "apt failed; its messages are in $log"
+    fi
+  fi
+  say "installed with apt: $*"
+  packages_changed=yes
+}
+
+# Python packages that Debian lacks, in a virtual environment that sees Debian's own.
+need_venv() {
+  local log=$root/build/pip.log base=/usr/bin/python3 wanted names
+  [[ -x $base ]] || base=$(command -v python3) || stop 'python3 is missing'
+  wanted=$("$base" --version)$'\n'$(<"$requirements")
+  if [[ -x $venv/bin/python && -f $venv/installed.txt && $(<"$venv/installed.txt") == "$wanted" ]]; then
+    return
+  fi
+  names=$(grep -v '^#' -- "$requirements" | tr '\n' ' ')
+  say "installing in build/venv with pip: $names"
+  rm -rf -- "$venv"
+  if ! { "$base" -m venv --system-site-packages "$venv" && "$venv/bin/python" -m pip install --no-input \
+    --disable-pip-version-check --requirement "$requirements"; } >"$log" 2>&1 </dev/null 9>&-; then
+    tail -n 15 -- "$log" >&2
+    stop "pip failed; its messages are in $log"
+  fi
+  printf '%s\n' "$wanted" >"$venv/installed.txt"
+  say "installed in build/venv: $names"
+}
+
+# build_program PRESET TARGET: configures where needed, builds, and shows errors only.
+build_program() {
+  local folder=$root/build/$1 log=$root/build/$1.log
+  command -v cmake >/dev/null || stop "cmake is missing. gfb needs $libraries"
+  configure_if_needed "$1"
+  if ! make_target "$folder" "$2" "$log"; then
+    # A library that moved or went since, or a damaged build folder: once more from the start.
+    if [[ $configured == no ]] && grep -qE '^ninja: error|could not load cache' -- "$log"; then
+      say "build/$1 no longer fits this machine: configuring again"
+      rm -f -- "$folder/configured.txt" "$folder/CMakeCache.txt"
+      configure_if_needed "$1"
+      make_target "$folder" "$2" "$log" && return
+    fi
+    grep -vE '^\[[0-9]+/[0-9]+\] ' -- "$log" >&2 || true
+    stop "the build failed; all its messages are in $log"
+  fi
+}
+
+make_target() {
+  cmake --build "$1" --target "$2" 2>&1 9>&- | tee -- "$3" | show_progress
+}
+
+# A line now and then, none where the build is short.
+show_progress() {
+  local line next=$((SECONDS + 3))
+  while IFS= read -r line; do
+    if [[ $line == '['*/*']'* ]] && ((SECONDS >= next)); then
+      say "building ${line%%]*}]"
+      next=$((SECONDS + 15))
+    fi
+  done
+}
+
+# A build folder belongs to one checkout and one set of libraries; another starts it afresh.
+configure_if_needed() {
+  local folder=$root/build/$1 log=$root/build/$1.configure.log python=$venv/bin/python wanted
+  [[ -x $python ]] || python=$(command -v /usr/bin/python3 || command -v python3) || python=''
+  wanted=$(printf '%s\n' "root $root" "PKG_CONFIG_PATH ${PKG_CONFIG_PATH:-}" \
+    "CMAKE_PREFIX_PATH ${CMAKE_PREFIX_PATH:-}" "compilers ${FC:-} ${CC:-} ${FFLAGS:-} ${CFLAGS:-}")
+  configured=no
+  if [[ ${packages_changed:-no} == no && -f $folder/build.ninja && -f $folder/configured.txt \
+    && $(<"$folder/configured.txt") == "$wanted"$'\n'"python $python" \
+    && ! $root/CMakePresets.json -nt $folder/configured.txt ]]; then
+    return
+  fi
+  if [[ -f $folder/configured.txt && $(<"$folder/configured.txt") != "$wanted"$'\n'* ]] \
+    || { [[ -f $folder/CMakeCache.txt ]] \
+    && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" -- "$folder/CMakeCache.txt"; }; then
+    say "build/$1 is of another place or other libraries: building afresh"
+    rm -rf -- "$folder"
+  fi
+  [[ ${packages_changed:-no} == no ]] || rm -f -- "$folder/CMakeCache.txt"
+  has_apt || say "this system has no apt; CMake looks for what gfb needs: $libraries"
+  say "configuring build/$1"
+  if ! (cd -- "$root" && help_find_hdf5 && cmake --preset "$1" -D "GFB_PYTHON=$python") >"$log" 2>&1 9>&-; then
+    sed -n '/CMake Error/,$p' -- "$log" >&2
+    if grep -qiE 'could not find|not found' -- "$log"; then
+      say "gfb needs $libraries"
+    fi
+    stop "CMake failed; all its messages are in $log"
+  fi
+  printf '%s\n' "$wanted" "python $python" >"$folder/configured.txt"
+  configured=yes
+}
+
+# CMake asks HDF5's compiler wrapper, a script that fails in a folder with a blank in its name: there, say
+# where HDF5 is.
+help_find_hdf5() {
+  local include library
+  [[ $root == *[[:space:]]* && -z ${HDF5_ROOT:-} ]] || return 0
+  include=$(pkg-config --cflags-only-I hdf5-mpi) && library=$(pkg-config --libs-only-L hdf5-mpi) || return 0
+  include=${include#-I} library=${library#-L}
+  export CMAKE_INCLUDE_PATH=${include%% *} CMAKE_LIBRARY_PATH=${library%% *}
+}
+
+# One thread a rank; root in a container, more ranks than cores, no ssh, no ptrace. What the user has set stays.
+prepare_mpi() {
+  export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  export OMPI_MCA_rmaps_base_oversubscribe=${OMPI_MCA_rmaps_base_oversubscribe:-1}
+  export OMPI_MCA_hwloc_base_binding_policy=${OMPI_MCA_hwloc_base_binding_policy:-none}
+  export OMPI_MCA_btl_vader_single_copy_mechanism=${OMPI_MCA_btl_vader_single_copy_mechanism:-none}
+  export OMPI_MCA_orte_execute_quiet=${OMPI_MCA_orte_execute_quiet:-1}
+  if ! command -v ssh >/dev/null && ! command -v rsh >/dev/null; then
+    export OMPI_MCA_plm_rsh_agent=${OMPI_MCA_plm_rsh_agent:-sh}
+  fi
+}
