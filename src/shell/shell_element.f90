@@ -92,7 +92,7 @@ contains
     real(wp), intent(in), dimension(shell_unknowns) :: shear_xi, shear_eta !! tied strains
     real(wp), intent(out) :: rows(shell_unknowns, strains)
 
-    real(wp), dimension(shell_unknowns) :: e_11, e_22, e_12
+    real(wp), dimension(shell_unknowns) :: e_11, e_22, e_12, in_11, in_22
     type(shell_lamina_type) :: lamina
     real(wp) :: scale(strains)
     integer :: a
@@ -107,16 +107,18 @@ contains
     end do
     lamina = shell_lamina(base)
     scale = root*sqrt(lamina%volume)
-    ! dual(1, 2), dual(1, 3) and dual(2, 3) are zero.
+    ! dual(1, 2), dual(3, 1) and dual(3, 2) are zero; e_12, shear_xi and shear_eta are doubled strains.
     associate (d => lamina%dual)
-      rows(:, 1) = scale(1)*((d(1, 1)**2 + d(2, 1)**2)*e_11 + d(2, 2)**2*e_22 + d(2, 1)*d(2, 2)*e_12)
-      rows(:, 2) = scale(2)*((d(1, 1)**2 - d(2, 1)**2)*e_11 - d(2, 2)**2*e_22 - d(2, 1)*d(2, 2)*e_12)
-      rows(:, 3) = scale(3)*(2.0_wp*d(1, 1)*d(2, 1)*e_11 + d(1, 1)*d(2, 2)*e_12)
-      rows(:, 4) = scale(4)*(2.0_wp*d(1, 1)*d(3, 1)*e_11 + d(1, 1)*d(3, 2)*e_12 &
-                             + d(1, 1)*d(3, 3)*shear_xi)
-      rows(:, 5) = scale(5)*(2.0_wp*d(2, 1)*d(3, 1)*e_11 + 2.0_wp*d(2, 2)*d(3, 2)*e_22 &
-                             + (d(2, 1)*d(3, 2) + d(2, 2)*d(3, 1))*e_12 &
-                             + d(2, 1)*d(3, 3)*shear_xi + d(2, 2)*d(3, 3)*shear_eta)
+      in_11 = d(1, 1)**2*e_11 + d(1, 1)*d(1, 3)*shear_xi
+      in_22 = d(2, 1)**2*e_11 + d(2, 2)**2*e_22 + d(2, 1)*d(2, 2)*e_12 &
+        + d(2, 1)*d(2, 3)*shear_xi + d(2, 2)*d(2, 3)*shear_eta
+      rows(:, 1) = scale(1)*(in_11 + in_22)
+      rows(:, 2) = scale(2)*(in_11 - in_22)
+      rows(:, 3) = scale(3)*(2.0_wp*d(1, 1)*d(2, 1)*e_11 + d(1, 1)*d(2, 2)*e_12 &
+                             + (d(1, 1)*d(2, 3) + d(1, 3)*d(2, 1))*shear_xi &
+                             + d(1, 3)*d(2, 2)*shear_eta)
+      rows(:, 4) = scale(4)*d(1, 1)*d(3, 3)*shear_xi
+      rows(:, 5) = scale(5)*d(3, 3)*(d(2, 1)*shear_xi + d(2, 2)*shear_eta)
     end associate
   end subroutine strain_rows
 

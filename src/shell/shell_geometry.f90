@@ -47,10 +47,10 @@ module gfb_shell_geometry
     real(wp) :: density = 0.0_wp        !! [kg/m3]
   end type shell_section_type
 
-  !> The lamina (surface of constant zeta) at a point.
+  !> The frame of plane stress at a point, and the contravariant base vectors in it.
   type, public :: shell_lamina_type
-    real(wp) :: frame(3, 3) !! unit vectors in columns: along xi, in the lamina, normal to it [1]
-    real(wp) :: dual(3, 3)  !! component of contravariant base vector (second index) on each [1/m]
+    real(wp) :: frame(3, 3) !! unit vectors in columns: along xi, across, director [1]
+    real(wp) :: dual(3, 3)  !! components (frame's vector, base vector) [1/m]
     real(wp) :: volume      !! Jacobian determinant [m3]
   end type shell_lamina_type
 
@@ -158,28 +158,32 @@ contains
 
   !> Lamina frame, contravariant components and volume from the base vectors.
   !>
-  !> The first two unit vectors span the lamina, so a contravariant vector along zeta has none but a
-  !> third component: strains in the lamina do not mix with transverse ones. The base vectors must
-  !> be independent (`check_shell`).
+  !> The frame's third vector is the interpolated director, its first the part of \( \mathbf{g}_\xi \)
+  !> at right angles to it. Stress along the director is zero, [DvorkinBathe1984]. With a director that
+  !> is not normal to the surface the transverse strains have a share in the strains of the lamina.
+  !> The base vectors must be independent (`check_shell`).
   pure function shell_lamina(base) result(lamina)
     real(wp), intent(in) :: base(3, 3) !! [m]
     type(shell_lamina_type) :: lamina
-    real(wp) :: normal(3), area, along, slant, rise, tilt(3)
+    real(wp) :: half, lean, along, slant, rise
 
-    normal = cross(base(:, 1), base(:, 2))
-    area = sqrt(dot_product(normal, normal))
-    along = sqrt(dot_product(base(:, 1), base(:, 1)))
-    lamina%frame(:, 3) = normal/area
-    lamina%frame(:, 1) = base(:, 1)/along
-    lamina%frame(:, 2) = cross(lamina%frame(:, 3), lamina%frame(:, 1))
-    slant = dot_product(base(:, 2), lamina%frame(:, 1))
-    rise = area/along
-    tilt = matmul(base(:, 3), lamina%frame)
-    lamina%dual(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp/tilt(3)]
-    lamina%dual(:, 2) = [0.0_wp, 1.0_wp/rise, -tilt(2)/(rise*tilt(3))]
-    lamina%dual(1:2, 1) = [1.0_wp/along, -slant/(along*rise)]
-    lamina%dual(3, 1) = -(tilt(1)*lamina%dual(1, 1) + tilt(2)*lamina%dual(2, 1))/tilt(3)
-    lamina%volume = area*tilt(3)
+    half = sqrt(dot_product(base(:, 3), base(:, 3)))
+    associate (frame => lamina%frame, dual => lamina%dual)
+      frame(:, 3) = base(:, 3)/half
+      lean = dot_product(base(:, 1), frame(:, 3))
+      frame(:, 1) = base(:, 1) - lean*frame(:, 3)
+      along = sqrt(dot_product(frame(:, 1), frame(:, 1)))
+      frame(:, 1) = frame(:, 1)/along
+      frame(:, 2) = cross(frame(:, 3), frame(:, 1))
+      slant = dot_product(base(:, 2), frame(:, 1))
+      rise = dot_product(base(:, 2), frame(:, 2))
+      dual(:, 1) = [1.0_wp/along, -slant/(along*rise), 0.0_wp]
+      dual(:, 2) = [0.0_wp, 1.0_wp/rise, 0.0_wp]
+      dual(3, 3) = 1.0_wp/half
+      dual(1, 3) = -dual(3, 3)*lean/along
+      dual(2, 3) = -(dual(3, 3)*dot_product(base(:, 2), frame(:, 3)) + dual(1, 3)*slant)/rise
+    end associate
+    lamina%volume = along*rise*half
   end function shell_lamina
 
   !> Vector product.

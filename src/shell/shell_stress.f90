@@ -14,7 +14,7 @@ module gfb_shell_stress
 
   !> Stresses at one point of the mid-surface.
   !>
-  !> Components 11, 22, 12 in the lamina frame: 1 along the element's xi, 3 normal, 2 across.
+  !> Components 11, 22, 12 in the lamina frame: 1 along the element's xi, 3 along the director, 2 across.
   type, public :: shell_stress_type
     real(wp) :: frame(3, 3)                              !! the lamina's unit vectors in columns [1]
     real(wp) :: membrane(3)                              !! mean of both faces [Pa]

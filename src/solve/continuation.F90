@@ -12,7 +12,9 @@ module gfb_continuation
   private
   public :: follow_path
 
-  integer, parameter :: easy_iterations = 6 !! a step that took no more of them is doubled
+  integer, parameter :: easy_iterations = 6          !! a step that took no more of them is doubled
+  real(wp), parameter :: closing_gap = 0.02_wp       !! a gap this small ends paths, over the clearance [1]
+  real(wp), parameter :: micrometres = 1.0e6_wp      !! in a metre
 
   !> Limits of a path.
   type, public :: path_settings_type
@@ -88,7 +90,7 @@ contains
       if (bearing%smallest_gap() < settings%touch_down_gap) then
         report%touched = .true.
         report%reason = 'the shaft touches down: the film is thinner than '// &
-          text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
+          text(settings%touch_down_gap*micrometres, 3)//' um'
         exit
       end if
     end do
@@ -96,9 +98,23 @@ contains
     if (report%converged) report%reason = 'converged'
     bearing%point = report%reached
     call bearing%apply_point()
+    if (.not. report%converged .and. .not. report%touched) call name_touch_down(bearing, report)
     PetscCallA(VecDestroy(here, ierr))
     PetscCallA(VecDestroy(before, ierr))
   end subroutine follow_path
+
+  !> Says so where a path ended because the gap closes.
+  subroutine name_touch_down(bearing, report)
+    type(bearing_system_type), intent(in) :: bearing
+    type(path_report_type), intent(inout) :: report
+    real(wp) :: gap
+
+    gap = bearing%smallest_gap()
+    report%touched = gap < closing_gap*bearing%film%clearance
+    if (.not. report%touched) return
+    report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
+      ' um, beyond that '//report%reason
+  end subroutine name_touch_down
 
   !> Start value of a step: the line through the last two answers, as far along it as can be evaluated.
   subroutine predict(bearing, here, before, at_here, at_before, trial)

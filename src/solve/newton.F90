@@ -5,6 +5,8 @@
 !> factors of an earlier matrix serve again while that makes the steps shrink fast. The line search is
 !> non-monotone: a residual may grow for a while, but not beyond the largest of the last few.
 module gfb_newton
+  use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, &
+                                           ieee_set_halting_mode
   use petscsnes
   use gfb_kinds, only: wp
   use gfb_text, only: text
@@ -49,6 +51,7 @@ module gfb_newton
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
     logical, private :: fresh = .false.      !! the factors belong to the present state
+    logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
     real(wp), private :: unknowns = 1.0_wp   !! their number
     real(wp), private :: step = 0.0_wp       !! last relative step, before it was shortened
@@ -77,6 +80,7 @@ contains
     newton%settings = settings
     newton%log = log
     newton%keep = .false.
+    call ieee_get_halting_mode(ieee_divide_by_zero, newton%traps)
     PetscCallA(VecDuplicate(system%state, newton%residual, ierr))
     PetscCallA(VecGetSize(system%state, unknowns, ierr))
     newton%unknowns = real(max(unknowns, 1_pint), wp)
@@ -175,9 +179,12 @@ contains
     PetscErrorCode, intent(out) :: ierr
     logical :: valid
 
+    call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%evaluate(x, f, valid)
     ierr = 0
     if (.not. valid) then
+      ! PETSc will mark the residual with one over zero.
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
       PetscCall(SNESSetFunctionDomainError(snes, ierr))
     end if
   end subroutine form_residual

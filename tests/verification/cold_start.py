@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """From nothing to the equilibrium, for positions from nearly centred to nearly touching, and along sweeps.
 
-A held position gives the force; that force as the load, from nothing, must give the position back.
+A held position gives the force; that force as the load, from nothing, must give the position back. The
+thinnest film is kept away from the slit: near it the same load has two equilibria, and the start value chooses.
 """
 
 import math
@@ -22,15 +23,29 @@ def check_way_back(checks, folder):
     """Lambda from 0.01 to 1000, eccentricity up to 0.99, in different directions."""
     for i, number in enumerate(NUMBERS):
         for j, eps in enumerate(ECCENTRICITIES):
-            direction = 2.0*math.pi*(0.1 + 0.13*(len(ECCENTRICITIES)*i + j))
+            direction = math.radians(-90.0 + (37.0*(len(ECCENTRICITIES)*i + j)) % 180.0)
             wanted = eps*BEARING.clearance*numpy.array([math.cos(direction), math.sin(direction)])
             case = {"mesh": (128, 16), "number": number}
             if number > 10.0:
                 case["groups"] = {"model": {"film_scheme": "supg"}}
             held = run(folder, "held", BEARING, eccentricity=tuple(wanted), **case)
             found = run(folder, "found", BEARING, load=tuple(held.force), **case)
-            checks.below(f"Lambda {number:g}, eps {eps:g}, {math.degrees(direction) % 360.0:.0f} deg: position",
+            checks.below(f"Lambda {number:g}, eps {eps:g}, {math.degrees(direction):.0f} deg: position",
                          numpy.abs(found.eccentricity - wanted).max()/BEARING.clearance, POSITION)
+
+
+def check_branches(checks, folder):
+    """With the thinnest film near the slit one load has two equilibria; a start value near one finds it."""
+    direction = math.radians(176.4)
+    wanted = 0.9*BEARING.clearance*numpy.array([math.cos(direction), math.sin(direction)])
+    case = {"mesh": (128, 16), "number": 0.01}
+    load = tuple(run(folder, "held", BEARING, eccentricity=tuple(wanted), **case).force)
+    cold = run(folder, "cold", BEARING, load=load, **case)
+    near = run(folder, "near", BEARING, load=load, eccentricity=tuple(0.97*wanted), **case)
+    again = run(folder, "held", BEARING, eccentricity=tuple(cold.eccentricity), **case)
+    checks.below("two equilibria: the start value's", numpy.abs(near.eccentricity - wanted).max()/BEARING.clearance, POSITION)
+    checks.that("two equilibria: another one", numpy.abs(cold.eccentricity - wanted).max() > 0.1*BEARING.clearance)
+    checks.below("two equilibria: with the same force", numpy.abs(again.force - load).max()/numpy.hypot(*load), POSITION)
 
 
 def check_loads(checks, folder):
@@ -108,6 +123,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_way_back(checks, folder)
+        check_branches(checks, folder)
         check_loads(checks, folder)
         check_sweeps(checks, folder)
         check_held_sweeps(checks, folder)

@@ -144,7 +144,8 @@ contains
     end do
   end function curved_beam
 
-  !> Displacement, averaged with the load's weights, of the last row under a unit load spread over it.
+  !> Displacement in the middle of the last row under a unit load spread over it; with one column that
+  !> of the row's first node.
   function cantilever(model, direction) result(displacement)
     type(model_type), intent(inout) :: model
     integer, intent(in) :: direction !! of load and displacement
@@ -159,7 +160,7 @@ contains
     end do
     model%load(direction, model%node(:, model%rows)) = weight
     call solve_model(model)
-    displacement = dot_product(weight, model%displacement(direction, model%node(:, model%rows)))
+    displacement = model%displacement(direction, model%node(model%columns/2, model%rows))
   end function cantilever
 
   !> Square plate on hard simple supports under uniform load, a quarter: deflection of the centre.
