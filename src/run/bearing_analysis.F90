@@ -107,7 +107,7 @@ contains
                        path, log, bearing, newton, report, error)
     if (allocated(error)) return
     converged = report%converged
-    if (.not. converged) call explain(log, scene, report)
+    if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
       call add_row(scene, bearing, 0, converged, history)
       return
@@ -123,7 +123,7 @@ contains
       if (.not. converged) exit
       call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
       converged = report%converged
-      if (.not. converged) call explain(log, scene, report)
+      if (.not. converged) call explain(log, scene, bearing, report)
       if (converged) call add_row(scene, bearing, point, converged, history)
       call show_progress(log, scene%sweep, point, begun)
     end do
@@ -153,15 +153,16 @@ contains
   end subroutine hold_shaft
 
   !> Says why there is no answer, and how far the way led.
-  subroutine explain(log, scene, report)
+  subroutine explain(log, scene, bearing, report)
     type(run_log_type), intent(in) :: log
     type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
     type(path_report_type), intent(in) :: report
 
-    associate (point => report%reached)
+    associate (point => report%reached, force => bearing%reaction())
       if (scene%general%analysis == analysis_equilibrium) then
         call log%line('no equilibrium found: '//report%reason)
-        call log%line('last state reached: load ('//text(point%load(1), 5)//', '//text(point%load(2), 5)// &
+        call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
                       text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
       else

@@ -3,10 +3,10 @@
 module gfb_bearing_files
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
   use gfb_quantity, only: quantity_type
-  use gfb_petsc_session, only: this_rank, rank_count, any_rank
+  use gfb_petsc_session, only: this_rank, rank_count, share_failure
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: film_block, full_rows
   use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
@@ -124,13 +124,4 @@ contains
     if (allocated(error)) return
     call write_text_file(stem//'.summary', summary_text(summary), error)
   end subroutine keep_all
-
-  !> Makes a failure on one rank a failure on all.
-  subroutine share_failure(error)
-    type(error_type), allocatable, intent(inout) :: error
-
-    if (any_rank(allocated(error)) .and. .not. allocated(error)) then
-      call fail(error, 'another rank could not write its part', status_machine)
-    end if
-  end subroutine share_failure
 end module gfb_bearing_files

@@ -7,10 +7,11 @@ module gfb_shell_element
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
-    shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, check_shell, director_rates, &
+    shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, check_shell, &
     bilinear, shell_base, shell_lamina
   use gfb_shell_shear, only: shear_points, shear_rows, shear_strains, shear_forces, shear_weights
-  use gfb_shell_strain, only: shear_factor, shell_motion, lamina_strain, lamina_stress
+  use gfb_shell_strain, only: shear_factor, lamina_strain, lamina_stress
+  use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized
   implicit none (type, external)
   private
   public :: shell_stiffness, shell_internal_force
@@ -35,7 +36,8 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     real(wp) :: factor(shell_unknowns, columns)
-    real(wp) :: rate(3, 2, shell_nodes), tied(shell_unknowns, shear_points)
+    type(shell_turn_type) :: turn
+    real(wp) :: tied(shell_unknowns, shear_points)
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
     real(wp), dimension(shell_unknowns) :: shear_xi, shear_eta
     real(wp) :: xi, eta, zeta, weight(shear_points), root(strains)
@@ -44,8 +46,8 @@ contains
     stiffness = 0.0_wp
     call check_shell(geometry, section%thickness, error)
     if (allocated(error)) return
-    rate = director_rates(geometry, section%thickness)
-    tied = shear_rows(geometry, section%thickness, rate)
+    turn = shell_turn(geometry, section%thickness)
+    tied = shear_rows(geometry, section%thickness, turn)
     root = material_root(section)
     first = 0
     do j = -1, 1, 2
@@ -59,7 +61,7 @@ contains
         do k = -1, 1, 2
           zeta = k*shell_abscissa
           call strain_rows(shell_base(geometry, section%thickness, shape, by_xi, by_eta, zeta), &
-                           rate, by_xi, by_eta, zeta, root, shear_xi, shear_eta, &
+                           turn, by_xi, by_eta, zeta, root, shear_xi, shear_eta, &
                            factor(:, first + 1:first + strains))
           first = first + strains
         end do
@@ -83,9 +85,9 @@ contains
   end function material_root
 
   !> The five strains at a Gauss point as rows over the unknowns, times the root of modulus and volume.
-  pure subroutine strain_rows(base, rate, by_xi, by_eta, zeta, root, shear_xi, shear_eta, rows)
+  pure subroutine strain_rows(base, turn, by_xi, by_eta, zeta, root, shear_xi, shear_eta, rows)
     real(wp), intent(in) :: base(3, 3)                                !! [m]
-    real(wp), intent(in) :: rate(3, 2, shell_nodes)                   !! of `director_rates` [m]
+    type(shell_turn_type), intent(in) :: turn
     real(wp), intent(in), dimension(shell_nodes) :: by_xi, by_eta     !! [1]
     real(wp), intent(in) :: zeta                                      !! [1]
     real(wp), intent(in) :: root(strains)                             !! of the moduli
@@ -94,16 +96,24 @@ contains
 
     real(wp), dimension(shell_unknowns) :: e_11, e_22, e_12, in_11, in_22
     type(shell_lamina_type) :: lamina
-    real(wp) :: scale(strains)
+    real(wp) :: scale(strains), on_xi, on_eta
     integer :: a
 
     do a = 1, shell_nodes
       associate (first => node_unknowns*(a - 1))
-        call node_columns(base, rate(:, :, a), by_xi(a), by_eta(a), zeta, &
+        call node_columns(base, turn%rate(:, :, a), by_xi(a), by_eta(a), zeta, &
                           e_11(first + 1:first + node_unknowns), &
                           e_22(first + 1:first + node_unknowns), &
                           e_12(first + 1:first + node_unknowns))
       end associate
+    end do
+    do a = 1, shell_nodes
+      if (.not. turn%kink(a)) cycle
+      on_xi = zeta*dot_product(base(:, 1), turn%drill_rate(:, a))
+      on_eta = zeta*dot_product(base(:, 2), turn%drill_rate(:, a))
+      e_11 = e_11 + by_xi(a)*on_xi*turn%drill(:, a)
+      e_22 = e_22 + by_eta(a)*on_eta*turn%drill(:, a)
+      e_12 = e_12 + (by_eta(a)*on_xi + by_xi(a)*on_eta)*turn%drill(:, a)
     end do
     lamina = shell_lamina(base)
     scale = root*sqrt(lamina%volume)
@@ -178,14 +188,14 @@ contains
 
     real(wp), dimension(3, shell_nodes) :: translation, change, force, couple
     real(wp), dimension(shear_points) :: tied, work
-    real(wp) :: rate(3, 2, shell_nodes)
-    integer :: i, j, k, a
+    type(shell_turn_type) :: turn
+    integer :: i, j, k
 
     internal_force = 0.0_wp
     call check_shell(geometry, section%thickness, error)
     if (allocated(error)) return
-    rate = director_rates(geometry, section%thickness)
-    call shell_motion(rate, displacement, translation, change)
+    turn = shell_turn(geometry, section%thickness)
+    call shell_motion(turn, displacement, translation, change)
     tied = shear_strains(geometry, section%thickness, translation, change)
     force = 0.0_wp
     couple = 0.0_wp
@@ -199,12 +209,7 @@ contains
       end do
     end do
     call shear_forces(geometry, section%thickness, work, force, couple)
-    do a = 1, shell_nodes
-      associate (first => node_unknowns*(a - 1))
-        internal_force(first + 1:first + 3) = force(:, a)
-        internal_force(first + 4:first + 5) = matmul(couple(:, a), rate(:, :, a))
-      end associate
-    end do
+    internal_force = shell_generalized(turn, force, couple)
   end subroutine shell_internal_force
 
   !> Adds a Gauss point's forces on translations and thickness vectors, and the work on tied strains.

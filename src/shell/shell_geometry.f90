@@ -8,10 +8,9 @@
 !>
 !> Source: [DvorkinBathe1984]. The director \( \mathbf{V}_a \) belongs to the element, the rotation
 !> axes \( \mathbf{V}^1_a, \mathbf{V}^2_a \) to the node. Where the director is the third of the axes,
-!> its change is the usual \( -\alpha \mathbf{V}^2 + \beta \mathbf{V}^1 \). There is no rotation about
-!> the nodal normal (drilling): it has no unknown and no stiffness. At a smooth node it would not turn
-!> the director anyway; at a kink, where an element has a director of its own, that director does not
-!> follow a turn about the nodal normal.
+!> its change is the usual \( -\alpha \mathbf{V}^2 + \beta \mathbf{V}^1 \). Rotation about the nodal
+!> normal (drilling) has no unknown and no stiffness; at a smooth node it does not turn the director
+!> anyway, at a kink it follows the element's translations (`gfb_shell_turn`).
 !>
 !> Nodes run counter-clockwise seen from the tips of the directors. Unknowns of an element, node by
 !> node: three displacements along the global axes [m], \( \alpha, \beta \) [rad].
@@ -20,7 +19,7 @@ module gfb_shell_geometry
   use gfb_errors, only: error_type, fail
   implicit none (type, external)
   private
-  public :: check_shell, director_rates, bilinear, shell_base, shell_lamina, cross
+  public :: check_shell, bilinear, shell_base, shell_lamina, cross
 
   integer, parameter, public :: shell_nodes = 4    !! nodes of an element
   integer, parameter, public :: node_unknowns = 5  !! u, v, w, alpha, beta
@@ -109,20 +108,6 @@ contains
     call bilinear(node_xi(corner), node_eta(corner), shape, by_xi, by_eta)
     base = shell_base(geometry, thickness, shape, by_xi, by_eta, real(face, wp))
   end function corner_base
-
-  !> Change of half the thickness vector for unit rotations, \( (h/2) V^k_a \times V_a \).
-  pure function director_rates(geometry, thickness) result(rate)
-    type(shell_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: thickness    !! h [m]
-    real(wp) :: rate(3, 2, shell_nodes)  !! for alpha and beta of each node [m]
-    integer :: a, k
-
-    do a = 1, shell_nodes
-      do k = 1, 2
-        rate(:, k, a) = 0.5_wp*thickness*cross(geometry%axis(:, k, a), geometry%director(:, a))
-      end do
-    end do
-  end function director_rates
 
   !> Bilinear shape functions and their derivatives.
   pure subroutine bilinear(xi, eta, shape, by_xi, by_eta)

@@ -3,8 +3,9 @@ module gfb_shell_mass
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, &
-    shell_unknowns, node_unknowns, shell_abscissa, check_shell, director_rates, bilinear, &
+    shell_unknowns, shell_abscissa, check_shell, bilinear, &
     shell_base, cross
+  use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized
   implicit none (type, external)
   private
   public :: shell_mass
@@ -22,7 +23,7 @@ contains
   !> Source: the displacements of [DvorkinBathe1984]. The thickness is integrated exactly (the volume
   !> is quadratic in \( \zeta \)), the plane by 2 x 2 Gauss points, exact for total mass and, on flat
   !> elements, for every entry. The terms linear in \( \zeta \) couple translations and rotations of
-  !> curved elements. No inertia of drilling.
+  !> curved elements.
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_mass(geometry, section, mass, error)
@@ -31,25 +32,28 @@ contains
     real(wp), intent(out) :: mass(shell_unknowns, shell_unknowns) !! [kg], [kg m], [kg m2]
     type(error_type), allocatable, intent(out) :: error
 
-    real(wp) :: moment(shell_nodes, shell_nodes, 0:powers - 1), rate(3, 2, shell_nodes)
-    integer :: a, b, c, row, column
+    real(wp) :: moment(shell_nodes, shell_nodes, 0:powers - 1), unit(shell_unknowns)
+    real(wp), dimension(3, shell_nodes) :: translation, change
+    type(shell_turn_type) :: turn
+    integer :: i, j
 
     mass = 0.0_wp
     call check_shell(geometry, section%thickness, error)
     if (allocated(error)) return
-    rate = director_rates(geometry, section%thickness)
+    turn = shell_turn(geometry, section%thickness)
     moment = section%density*thickness_moments(geometry, section%thickness)
-    do b = 1, shell_nodes
-      column = node_unknowns*(b - 1)
-      do a = 1, shell_nodes
-        row = node_unknowns*(a - 1)
-        do c = 1, 3
-          mass(row + c, column + c) = moment(a, b, 0)
-        end do
-        mass(row + 1:row + 3, column + 4:column + 5) = moment(a, b, 1)*rate(:, :, b)
-        mass(row + 4:row + 5, column + 1:column + 3) = moment(a, b, 1)*transpose(rate(:, :, a))
-        mass(row + 4:row + 5, column + 4:column + 5) = &
-          moment(a, b, 2)*matmul(transpose(rate(:, :, a)), rate(:, :, b))
+    unit = 0.0_wp
+    do j = 1, shell_unknowns
+      unit(j) = 1.0_wp
+      call shell_motion(turn, unit, translation, change)
+      mass(:, j) = shell_generalized(turn, &
+        matmul(translation, moment(:, :, 0)) + matmul(change, moment(:, :, 1)), &
+        matmul(translation, moment(:, :, 1)) + matmul(change, moment(:, :, 2)))
+      unit(j) = 0.0_wp
+    end do
+    do j = 2, shell_unknowns
+      do i = 1, j - 1
+        mass(i, j) = mass(j, i)
       end do
     end do
   end subroutine shell_mass

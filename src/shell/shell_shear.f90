@@ -13,6 +13,7 @@
 module gfb_shell_shear
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: shell_geometry_type, shell_nodes, shell_unknowns, node_unknowns
+  use gfb_shell_turn, only: shell_turn_type
   implicit none (type, external)
   private
   public :: shear_rows, shear_strains, shear_forces, shear_weights
@@ -25,10 +26,10 @@ module gfb_shell_shear
 contains
 
   !> Derivatives of the four tied strains with respect to the element's unknowns.
-  pure function shear_rows(geometry, thickness, rate) result(rows)
+  pure function shear_rows(geometry, thickness, turn) result(rows)
     type(shell_geometry_type), intent(in) :: geometry
     real(wp), intent(in) :: thickness                !! h [m]
-    real(wp), intent(in) :: rate(3, 2, shell_nodes)  !! of `director_rates` [m]
+    type(shell_turn_type), intent(in) :: turn
     real(wp) :: rows(shell_unknowns, shear_points)
     real(wp) :: side(3), half_thickness(3)
     integer :: point, i, j, row_i, row_j, k
@@ -43,9 +44,13 @@ contains
       rows(row_i + 1:row_i + 3, point) = -0.5_wp*half_thickness
       rows(row_j + 1:row_j + 3, point) = 0.5_wp*half_thickness
       do k = 1, 2
-        rows(row_i + 3 + k, point) = 0.5_wp*dot_product(side, rate(:, k, i))
-        rows(row_j + 3 + k, point) = 0.5_wp*dot_product(side, rate(:, k, j))
+        rows(row_i + 3 + k, point) = 0.5_wp*dot_product(side, turn%rate(:, k, i))
+        rows(row_j + 3 + k, point) = 0.5_wp*dot_product(side, turn%rate(:, k, j))
       end do
+      if (turn%kink(i)) rows(:, point) = rows(:, point) &
+        + 0.5_wp*dot_product(side, turn%drill_rate(:, i))*turn%drill(:, i)
+      if (turn%kink(j)) rows(:, point) = rows(:, point) &
+        + 0.5_wp*dot_product(side, turn%drill_rate(:, j))*turn%drill(:, j)
     end do
   end function shear_rows
 

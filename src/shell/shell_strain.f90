@@ -1,31 +1,15 @@
-!> Strains of the shell element from its displacements, and forces from stresses.
+!> Strains and stresses at a point of the shell element.
 module gfb_shell_strain
   use gfb_kinds, only: wp
-  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
-    shell_nodes, shell_unknowns, node_unknowns
-  use gfb_shell_shear, only: shear_points, shear_weights
+  use gfb_shell_geometry, only: shell_section_type, shell_lamina_type
+  use gfb_shell_shear, only: shear_points
   implicit none (type, external)
   private
-  public :: shell_motion, lamina_strain, lamina_stress
+  public :: lamina_strain, lamina_stress
 
   real(wp), parameter, public :: shear_factor = 5.0_wp/6.0_wp !! of the transverse shear [1]
 
 contains
-
-  !> Translations and changes of half the thickness vectors of the nodes.
-  pure subroutine shell_motion(rate, displacement, translation, change)
-    real(wp), intent(in) :: rate(3, 2, shell_nodes)      !! of `director_rates` [m]
-    real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
-    real(wp), intent(out) :: translation(3, shell_nodes) !! [m]
-    real(wp), intent(out) :: change(3, shell_nodes)      !! [m]
-    integer :: a, first
-
-    do a = 1, shell_nodes
-      first = node_unknowns*(a - 1)
-      translation(:, a) = displacement(first + 1:first + 3)
-      change(:, a) = displacement(first + 4)*rate(:, 1, a) + displacement(first + 5)*rate(:, 2, a)
-    end do
-  end subroutine shell_motion
 
   !> Strain tensor in the lamina frame.
   !>

@@ -3,9 +3,10 @@ module gfb_shell_stress
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
-    shell_nodes, shell_unknowns, check_shell, director_rates, bilinear, shell_base, shell_lamina
+    shell_nodes, shell_unknowns, check_shell, bilinear, shell_base, shell_lamina
   use gfb_shell_shear, only: shear_points, shear_strains, shear_weights
-  use gfb_shell_strain, only: shell_motion, lamina_strain, lamina_stress
+  use gfb_shell_strain, only: lamina_strain, lamina_stress
+  use gfb_shell_turn, only: shell_turn, shell_motion
   implicit none (type, external)
   private
   public :: shell_stress, von_mises
@@ -54,7 +55,7 @@ contains
 
     call check_shell(geometry, section%thickness, error)
     if (allocated(error)) return
-    call shell_motion(director_rates(geometry, section%thickness), displacement, translation, change)
+    call shell_motion(shell_turn(geometry, section%thickness), displacement, translation, change)
     tied = shear_strains(geometry, section%thickness, translation, change)
     weight = shear_weights(xi, eta)
     call bilinear(xi, eta, shape, by_xi, by_eta)

@@ -14,7 +14,8 @@ module gfb_bearing_system
   use gfb_gas_film, only: gas_film_type, create_gas_film
   use gfb_film_geometry, only: film_nodes
   use gfb_film_load, only: film_forces
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure
+  use gfb_partition, only: partition_elements
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type
@@ -72,22 +73,25 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     real(wp), allocatable :: position(:, :)
-    integer :: rank, i, j
+    integer, allocatable :: element_nodes(:, :), part(:)
+    integer :: rank, ranks, i, j
     PetscErrorCode :: ierr
 
     bearing%whole = whole
     call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
     if (rank == 0) then
+      element_nodes = film_elements(whole)
+      call partition_elements(element_nodes, whole%nodes(), ranks, part, error)
       position = reshape([((whole%radius*whole%station_angle(i), whole%row_axial(j), &
                             j=1, whole%rows()), i=1, whole%stations())], [2, whole%nodes()])
-      call distribute_mesh(PETSC_COMM_WORLD, whole%nodes(), film_elements(whole), position, &
-                           bearing%mesh, error)
     else
-      allocate (position(2, 0))
-      call distribute_mesh(PETSC_COMM_WORLD, whole%nodes(), reshape([integer ::], [4, 0]), position, &
-                           bearing%mesh, error)
+      allocate (element_nodes(4, 0), part(0), position(2, 0))
     end if
+    call share_failure(error)
     if (allocated(error)) return
+    call distribute_mesh(PETSC_COMM_WORLD, element_nodes, part, position, [(1, i=1, whole%nodes())], &
+                         bearing%mesh)
     call create_gas_film(whole, bearing%mesh%mesh_node, bearing%mesh%element_nodes, clearance, &
                          ambient_pressure, viscosity, upwind, bearing%film, error)
   end subroutine create_film_part
@@ -123,10 +127,10 @@ contains
     call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
     call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
     bearing%last_rank = rank == ranks - 1
-    bearing%owned = bearing%mesh%owned_nodes + bearing%foil%owned
+    bearing%owned = bearing%mesh%owned_unknowns + bearing%foil%owned
     if (bearing%floats .and. bearing%last_rank) bearing%owned = bearing%owned + shaft_unknowns
     allocate (both(2, ranks))
-    call MPI_Allgather([bearing%mesh%owned_nodes, bearing%foil%owned], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
+    call MPI_Allgather([bearing%mesh%owned_unknowns, bearing%foil%owned], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
     film_end = [(sum(both(1, :i)), i=0, ranks)]
     foil_end = [(sum(both(2, :i)), i=0, ranks)]
     all_end = film_end + foil_end
@@ -134,9 +138,9 @@ contains
 
     allocate (global(bearing%local_size()))
     owner = 1
-    do i = 1, size(bearing%mesh%global_node)
-      call find_owner(film_end, bearing%mesh%global_node(i), owner)
-      global(i) = all_end(owner) + bearing%mesh%global_node(i) - film_end(owner) - 1
+    do i = 1, size(bearing%mesh%first_unknown)
+      call find_owner(film_end, bearing%mesh%first_unknown(i), owner)
+      global(i) = all_end(owner) + bearing%mesh%first_unknown(i) - film_end(owner) - 1
     end do
     do i = 1, bearing%foil%local_unknowns()
       call find_owner(foil_end, bearing%foil%global_unknown(i), owner)
@@ -190,7 +194,7 @@ contains
     film = film_row + bearing%foil%couplings + shaft
     foil = bearing%foil%row_entries
     allocate (inside(bearing%owned), source=int(film, pint))
-    inside(bearing%mesh%owned_nodes + 1:bearing%mesh%owned_nodes + bearing%foil%owned) = foil
+    inside(bearing%mesh%owned_unknowns + 1:bearing%mesh%owned_unknowns + bearing%foil%owned) = foil
     if (bearing%floats .and. bearing%last_rank) inside(bearing%owned - shaft_unknowns + 1:) = bearing%owned
     outside = inside
     inside = min(inside, int(bearing%owned, pint))

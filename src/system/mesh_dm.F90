@@ -7,19 +7,17 @@ module gfb_mesh_dm
   use petscdmplex
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint, preal
-  use gfb_partition, only: partition_elements
   implicit none (type)
   private
   public :: distribute_mesh
 
   !> One rank's part of a mesh: its elements, and all their nodes.
   type, public :: local_mesh_type
-    integer :: owned_nodes = 0                !! nodes whose unknowns this rank owns
+    integer :: owned_unknowns = 0               !! unknowns this rank owns
     integer, allocatable :: element_nodes(:, :) !! (4, elements of this rank), local nodes
     integer, allocatable :: mesh_node(:)        !! number in the whole mesh of each local node
-    integer, allocatable :: global_node(:)      !! number by owners, contiguous on a rank, from 1
+    integer, allocatable :: first_unknown(:)    !! of each local node: by owners, from 1
     logical, allocatable :: owned(:)            !! whether this rank owns the local node
   end type local_mesh_type
 
@@ -35,16 +33,16 @@ module gfb_mesh_dm
 
 contains
 
-  !> Cuts a mesh into parts and gives each rank its own. Elements and positions count on rank 0 only.
+  !> Gives each rank its part of a mesh, and numbers the unknowns of its nodes.
   !>
-  !> Fails when METIS does.
-  subroutine distribute_mesh(communicator, nodes, element_nodes, position, mesh, error)
+  !> Elements, their parts and positions count on rank 0 only, the nodes' unknowns on all ranks.
+  subroutine distribute_mesh(communicator, element_nodes, element_part, position, node_unknowns, mesh)
     integer, intent(in) :: communicator         !! MPI's
-    integer, intent(in) :: nodes                !! of the whole mesh
     integer, intent(in) :: element_nodes(:, :)  !! (4, elements) of the whole mesh, from 1
-    real(wp), intent(in) :: position(:, :)      !! (2, nodes) [m]
+    integer, intent(in) :: element_part(:)      !! rank of every element, from 1
+    real(wp), intent(in) :: position(:, :)      !! (2 or 3, nodes) [m]
+    integer, intent(in) :: node_unknowns(:)     !! unknowns at every node of the whole mesh
     type(local_mesh_type), intent(out) :: mesh
-    type(error_type), allocatable, intent(out) :: error
 
     DM :: whole, part
     PetscSF :: migration
@@ -52,27 +50,30 @@ contains
     integer :: ranks
 
     call MPI_Comm_size(communicator, ranks, ierr)
-    call create_whole(communicator, nodes, element_nodes, position, whole)
+    call create_whole(communicator, element_nodes, position, whole)
     if (ranks == 1) then
-      call read_local_mesh(whole, whole, .false., mesh)
+      part = whole
     else
-      call set_partition(communicator, whole, nodes, element_nodes, ranks, error)
-      if (allocated(error)) return
-      call add_node_section(whole)
+      call set_partition(whole, element_part, ranks)
+      call set_section(whole)
       PetscCallA(DMSetUseNatural(whole, PETSC_TRUE, ierr))
       PetscCallA(DMPlexDistribute(whole, 0_pint, migration, part, ierr))
       PetscCallA(PetscSFDestroy(migration, ierr))
-      call add_node_section(part)
-      call read_local_mesh(whole, part, .true., mesh)
-      PetscCallA(DMDestroy(part, ierr))
+      call set_section(part)
     end if
-    PetscCallA(DMDestroy(whole, ierr))
+    call read_elements(part, mesh)
+    call number_nodes(part, ranks > 1, mesh)
+    call set_section(part, node_unknowns(mesh%mesh_node))
+    call number_unknowns(part, mesh)
+    PetscCallA(DMDestroy(part, ierr))
+    if (ranks > 1) then
+      PetscCallA(DMDestroy(whole, ierr))
+    end if
   end subroutine distribute_mesh
 
   !> A DMPlex that holds the whole mesh on rank 0: cells and vertices, no edges, as none has unknowns.
-  subroutine create_whole(communicator, nodes, element_nodes, position, whole)
+  subroutine create_whole(communicator, element_nodes, position, whole)
     integer, intent(in) :: communicator
-    integer, intent(in) :: nodes
     integer, intent(in) :: element_nodes(:, :)
     real(wp), intent(in) :: position(:, :)
     DM, intent(out) :: whole
@@ -88,121 +89,77 @@ contains
       cells = int(reshape(element_nodes, [size(element_nodes)]) - 1, pint)
       coordinates = reshape(position, [size(position)])
       cell_count = size(element_nodes, 2)
-      vertex_count = nodes
+      vertex_count = size(position, 2)
     else
       allocate (cells(1), source=0_pint)
       allocate (coordinates(2), source=0.0_preal)
       cell_count = 0
       vertex_count = 0
     end if
-    PetscCallA(DMPlexCreateFromCellListPetsc(communicator, 2_pint, cell_count, vertex_count, 4_pint, PETSC_FALSE, cells, 2_pint, coordinates, whole, ierr))
-    if (rank_count_of(communicator) == 1) call add_node_section(whole)
+    PetscCallA(DMPlexCreateFromCellListPetsc(communicator, 2_pint, cell_count, vertex_count, 4_pint, PETSC_FALSE, cells, int(size(position, 1), pint), coordinates, whole, ierr))
   end subroutine create_whole
 
-  !> Ranks of a communicator.
-  function rank_count_of(communicator) result(ranks)
-    integer, intent(in) :: communicator
-    integer :: ranks
-    PetscErrorCode :: ierr
-    call MPI_Comm_size(communicator, ranks, ierr)
-  end function rank_count_of
-
   !> Tells the DMPlex which rank each element goes to.
-  subroutine set_partition(communicator, whole, nodes, element_nodes, ranks, error)
-    integer, intent(in) :: communicator
+  subroutine set_partition(whole, element_part, ranks)
     DM, intent(in) :: whole
-    integer, intent(in) :: nodes
-    integer, intent(in) :: element_nodes(:, :)
+    integer, intent(in) :: element_part(:)
     integer, intent(in) :: ranks
-    type(error_type), allocatable, intent(out) :: error
 
-    integer, allocatable :: element_part(:)
     PetscInt, allocatable :: sizes(:), cells(:)
-    integer :: rank, part, element, filled
-    PetscErrorCode :: ierr
+    integer :: part, element, filled
 
-    call MPI_Comm_rank(communicator, rank, ierr)
     allocate (sizes(ranks), source=0_pint)
-    allocate (cells(max(1, size(element_nodes, 2))), source=0_pint)
-    if (rank == 0) then
-      call partition_elements(element_nodes, nodes, ranks, element_part, error)
-    end if
-    if (failed_anywhere(communicator, error)) return
-    if (rank == 0) then
-      filled = 0
-      do part = 1, ranks
-        sizes(part) = count(element_part == part)
-        do element = 1, size(element_part)
-          if (element_part(element) /= part) cycle
-          filled = filled + 1
-          cells(filled) = element - 1
-        end do
+    allocate (cells(max(1, size(element_part))), source=0_pint)
+    filled = 0
+    do part = 1, ranks
+      sizes(part) = count(element_part == part)
+      do element = 1, size(element_part)
+        if (element_part(element) /= part) cycle
+        filled = filled + 1
+        cells(filled) = element - 1
       end do
-    end if
+    end do
     if (gfb_set_shell_partition(int(whole%v, c_intptr_t), int(ranks, pint), sizes, cells) /= 0) then
       error stop 'PETSc refused the partition'
     end if
   end subroutine set_partition
 
-  !> Whether any rank has an error; the ranks without one get a copy that says so.
-  function failed_anywhere(communicator, error) result(failed)
-    integer, intent(in) :: communicator
-    type(error_type), allocatable, intent(inout) :: error
-    logical :: failed
-    PetscErrorCode :: ierr
-
-    call MPI_Allreduce(allocated(error), failed, 1, MPI_LOGICAL, MPI_LOR, communicator, ierr)
-    if (failed .and. .not. allocated(error)) then
-      allocate (error)
-      error%message = 'another rank failed'
-    end if
-  end function failed_anywhere
-
-  !> One unknown at every vertex.
-  subroutine add_node_section(plex)
+  !> Unknowns at every vertex, one where not said.
+  subroutine set_section(plex, unknowns)
     DM, intent(in) :: plex
+    integer, intent(in), optional :: unknowns(:) !! of the local nodes
     PetscSection :: section
-    PetscInt :: first, last, vertex
+    PetscInt :: first, last, first_vertex, end_vertex, vertex
     PetscErrorCode :: ierr
 
     PetscCallA(PetscSectionCreate(PETSC_COMM_WORLD, section, ierr))
     PetscCallA(DMPlexGetChart(plex, first, last, ierr))
     PetscCallA(PetscSectionSetChart(section, first, last, ierr))
-    PetscCallA(DMPlexGetDepthStratum(plex, 0_pint, first, last, ierr))
-    do vertex = first, last - 1
-      PetscCallA(PetscSectionSetDof(section, vertex, 1_pint, ierr))
+    PetscCallA(DMPlexGetDepthStratum(plex, 0_pint, first_vertex, end_vertex, ierr))
+    do vertex = first_vertex, end_vertex - 1
+      if (present(unknowns)) then
+        PetscCallA(PetscSectionSetDof(section, vertex, int(unknowns(vertex - first_vertex + 1), pint), ierr))
+      else
+        PetscCallA(PetscSectionSetDof(section, vertex, 1_pint, ierr))
+      end if
     end do
     PetscCallA(PetscSectionSetUp(section, ierr))
     PetscCallA(DMSetLocalSection(plex, section, ierr))
     PetscCallA(PetscSectionDestroy(section, ierr))
-  end subroutine add_node_section
+  end subroutine set_section
 
-  !> Nodes and elements of this rank's part as plain arrays.
-  subroutine read_local_mesh(whole, part, distributed, mesh)
-    DM, intent(in) :: whole        !! before distribution
-    DM, intent(in) :: part         !! after it
-    logical, intent(in) :: distributed
-    type(local_mesh_type), intent(out) :: mesh
+  !> Elements of this rank's part as plain arrays.
+  subroutine read_elements(part, mesh)
+    DM, intent(in) :: part
+    type(local_mesh_type), intent(inout) :: mesh
 
-    PetscSection :: section
-    PetscInt :: first_cell, end_cell, first_vertex, end_vertex, vertex, cell, offset
+    PetscInt :: first_cell, end_cell, first_vertex, end_vertex, cell
     PetscInt, pointer :: corners(:)
     PetscErrorCode :: ierr
-    integer :: k, nodes
 
     PetscCallA(DMPlexGetHeightStratum(part, 0_pint, first_cell, end_cell, ierr))
     PetscCallA(DMPlexGetDepthStratum(part, 0_pint, first_vertex, end_vertex, ierr))
-    nodes = int(end_vertex - first_vertex)
-    allocate (mesh%global_node(nodes), mesh%owned(nodes))
-    PetscCallA(DMGetGlobalSection(part, section, ierr))
-    do vertex = first_vertex, end_vertex - 1
-      PetscCallA(PetscSectionGetOffset(section, vertex, offset, ierr))
-      k = int(vertex - first_vertex) + 1
-      mesh%owned(k) = offset >= 0
-      mesh%global_node(k) = int(merge(offset, -(offset + 1), offset >= 0)) + 1
-    end do
-    mesh%owned_nodes = count(mesh%owned)
-
+    allocate (mesh%mesh_node(end_vertex - first_vertex), source=0)
     allocate (mesh%element_nodes(4, end_cell - first_cell))
     nullify (corners)
     do cell = first_cell, end_cell - 1
@@ -210,8 +167,31 @@ contains
       mesh%element_nodes(:, cell - first_cell + 1) = int(corners - first_vertex) + 1
       PetscCallA(DMPlexRestoreCone(part, cell, corners, ierr))
     end do
-    call number_nodes(part, distributed, mesh)
-  end subroutine read_local_mesh
+  end subroutine read_elements
+
+  !> Global numbers of the unknowns, and who owns the nodes.
+  subroutine number_unknowns(part, mesh)
+    DM, intent(in) :: part
+    type(local_mesh_type), intent(inout) :: mesh
+
+    PetscSection :: section
+    PetscInt :: first_vertex, end_vertex, vertex, offset, unknowns
+    PetscErrorCode :: ierr
+    integer :: node
+
+    PetscCallA(DMPlexGetDepthStratum(part, 0_pint, first_vertex, end_vertex, ierr))
+    allocate (mesh%first_unknown(size(mesh%mesh_node)), mesh%owned(size(mesh%mesh_node)))
+    PetscCallA(DMGetGlobalSection(part, section, ierr))
+    mesh%owned_unknowns = 0
+    do vertex = first_vertex, end_vertex - 1
+      PetscCallA(PetscSectionGetOffset(section, vertex, offset, ierr))
+      PetscCallA(PetscSectionGetDof(section, vertex, unknowns, ierr))
+      node = int(vertex - first_vertex) + 1
+      mesh%owned(node) = offset >= 0
+      mesh%first_unknown(node) = int(merge(offset, -(offset + 1), offset >= 0)) + 1
+      if (mesh%owned(node)) mesh%owned_unknowns = mesh%owned_unknowns + int(max(unknowns, 0_pint))
+    end do
+  end subroutine number_unknowns
 
   !> The whole mesh's number of every local node: the numbers travel as a field of the whole mesh.
   subroutine number_nodes(part, distributed, mesh)
@@ -226,7 +206,7 @@ contains
     integer :: i
 
     if (.not. distributed) then
-      mesh%mesh_node = [(i, i=1, size(mesh%owned))]
+      mesh%mesh_node = [(i, i=1, size(mesh%mesh_node))]
       return
     end if
     PetscCallA(DMPlexCreateNaturalVector(part, natural, ierr))

@@ -3,12 +3,13 @@
 module gfb_petsc_session
   use slepcsys
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail, status_machine
   use gfb_text, only: text
   use gfb_petsc_kinds, only: preal
   implicit none (type)
   private
   public :: start_petsc, stop_petsc, this_rank, rank_count, petsc_version_text, wall_time, &
-            sum_over_ranks, largest_over_ranks, any_rank
+            sum_over_ranks, largest_over_ranks, any_rank, share_failure
 
 contains
 
@@ -86,4 +87,13 @@ contains
     PetscErrorCode :: ierr
     call MPI_Allreduce(truth, any_true, 1, MPI_LOGICAL, MPI_LOR, PETSC_COMM_WORLD, ierr)
   end function any_rank
+
+  !> Makes a failure on one rank a failure on all.
+  subroutine share_failure(error)
+    type(error_type), allocatable, intent(inout) :: error
+
+    if (any_rank(allocated(error)) .and. .not. allocated(error)) then
+      call fail(error, 'another rank failed', status_machine)
+    end if
+  end subroutine share_failure
 end module gfb_petsc_session
