@@ -6,6 +6,8 @@
 #define GFB_VecRestoreArray VecRestoreArrayF90
 #define GFB_VecGetArrayRead VecGetArrayReadF90
 #define GFB_VecRestoreArrayRead VecRestoreArrayReadF90
+#define GFB_MatDenseGetArray MatDenseGetArrayF90
+#define GFB_MatDenseRestoreArray MatDenseRestoreArrayF90
 #define GFB_COMM MPI_Comm
 #define GFB_REASON(r) r
 #else
@@ -13,6 +15,8 @@
 #define GFB_VecRestoreArray VecRestoreArray
 #define GFB_VecGetArrayRead VecGetArrayRead
 #define GFB_VecRestoreArrayRead VecRestoreArrayRead
+#define GFB_MatDenseGetArray MatDenseGetArray
+#define GFB_MatDenseRestoreArray MatDenseRestoreArray
 #define GFB_COMM MPIU_Comm
 #define GFB_REASON(r) r%v
 #endif

@@ -11,7 +11,8 @@ module gfb_bearing_files
   use gfb_bearing_answer, only: film_block, full_rows
   use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
   use gfb_case_file, only: history_row_type, write_case_file, summary_text
-  use gfb_film_file, only: film_field_type, write_film_file, block_bounds
+  use gfb_grid_file, only: grid_type, grid_field_type, write_grid_file, block_bounds
+  use gfb_strip_grid, only: strip_grid
   use gfb_text_file, only: write_text_file
   use gfb_run_log, only: run_log_type
   implicit none (type)
@@ -69,7 +70,8 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-    type(film_field_type), allocatable :: field(:)
+    type(grid_type) :: grid
+    type(grid_field_type), allocatable :: field(:)
     real(wp) :: unknown(bearing%local_size())
     real(wp), allocatable :: position_x(:)
 
@@ -78,6 +80,7 @@ contains
     associate (whole => bearing%whole, nodes => size(bearing%mesh%mesh_node))
       position_x = whole%radius*(whole%station_angle - whole%station_angle(1))
       if (whole%periodic) position_x = [position_x, whole%radius*turn]
+      grid = strip_grid(position_x, full_rows(bearing), this_rank(), rank_count())
       call add_field('theta', 'rad', 'angle around the bearing', bearing%film%angle)
       if (scene%output%pressure) call add_field('pressure', 'Pa', 'absolute pressure', unknown(:nodes))
       if (scene%output%gap) call add_field('gap', 'm', 'film thickness', bearing%gap(unknown))
@@ -85,8 +88,8 @@ contains
         call add_field('deflection', 'm', 'of the foil, away from the shaft', bearing%foil%deflection(unknown))
       end if
     end associate
-    call write_film_file(path, PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank(), rank_count(), position_x, &
-                         full_rows(bearing), field, file, error)
+    call write_grid_file(path, PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank(), rank_count(), grid, field, &
+                         [grid_field_type ::], file, error)
 
   contains
 
@@ -94,14 +97,16 @@ contains
     subroutine add_field(name, unit, meaning, value)
       character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(in) :: value(:) !! at the local nodes
-      type(film_field_type) :: one
+      type(grid_field_type) :: one
+      real(wp), allocatable :: block(:)
       integer :: first, last
 
-      call block_bounds(size(position_x)*size(full_rows(bearing)), this_rank(), rank_count(), first, last)
+      call block_bounds(grid%points, this_rank(), rank_count(), first, last)
       one%name = name
       one%unit = unit
       one%meaning = meaning
-      call film_block(bearing, value, first, last, one%block)
+      call film_block(bearing, value, first, last, block)
+      one%block = reshape(block, [1, size(block)])
       field = [field, one]
     end subroutine add_field
   end subroutine write_film

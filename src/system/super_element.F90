@@ -1,0 +1,150 @@
+#include "gfb_petsc.h"
+!> Static condensation of a substructure onto its retained unknowns.
+!>
+!> $$ \tilde{K} = K_{BB} - K_{BI} K_{II}^{-1} K_{IB}, \qquad q_I = -K_{II}^{-1} K_{IB} q_B $$
+!>
+!> Source: [Gu2020] eqs. 3 to 6, [Guyan1965]. The substructure is held as a MatSchurComplement whose
+!> inner solver is an exact Cholesky factorization; its explicit matrix is formed from that solver and
+!> not by PETSc's own explicit operator, which drops entries below 1e-10. Any symmetric positive
+!> definite stiffness with any retained unknowns will do.
+module gfb_super_element
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  implicit none (type)
+  private
+  public :: condense, destroy_super_element
+
+  !> A condensed substructure.
+  type, public :: super_element_type
+    integer, allocatable :: retained(:)       !! unknowns kept, numbers in the substructure
+    integer, allocatable :: interior(:)       !! unknowns condensed
+    real(wp), allocatable :: stiffness(:, :)  !! (retained, retained)
+    logical, private :: created = .false.
+    Mat, private :: block_ii, block_ib, block_bi, block_bb
+    Mat :: schur                              !! the complement as PETSc holds it
+  contains
+    procedure :: recover
+  end type super_element_type
+
+contains
+
+  !> Condenses a sequential stiffness matrix.
+  subroutine condense(stiffness, is_retained, prefix, super)
+    Mat, intent(in) :: stiffness              !! of the substructure, on this rank alone
+    logical, intent(in) :: is_retained(:)     !! one an unknown
+    character(len=*), intent(in) :: prefix    !! of PETSc's options
+    type(super_element_type), intent(out) :: super
+
+    IS :: retained, interior
+    PetscErrorCode :: ierr
+    integer :: i
+
+    super%retained = pack([(i, i=1, size(is_retained))], is_retained)
+    super%interior = pack([(i, i=1, size(is_retained))], .not. is_retained)
+    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(super%retained), pint), int(super%retained - 1, pint), PETSC_COPY_VALUES, retained, ierr))
+    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(super%interior), pint), int(super%interior - 1, pint), PETSC_COPY_VALUES, interior, ierr))
+    PetscCallA(MatCreateSubMatrix(stiffness, interior, interior, MAT_INITIAL_MATRIX, super%block_ii, ierr))
+    PetscCallA(MatCreateSubMatrix(stiffness, interior, retained, MAT_INITIAL_MATRIX, super%block_ib, ierr))
+    PetscCallA(MatCreateSubMatrix(stiffness, retained, interior, MAT_INITIAL_MATRIX, super%block_bi, ierr))
+    PetscCallA(MatCreateSubMatrix(stiffness, retained, retained, MAT_INITIAL_MATRIX, super%block_bb, ierr))
+    PetscCallA(ISDestroy(retained, ierr))
+    PetscCallA(ISDestroy(interior, ierr))
+    PetscCallA(MatSetOption(super%block_ii, MAT_SPD, PETSC_TRUE, ierr))
+    PetscCallA(MatCreateSchurComplement(super%block_ii, super%block_ii, super%block_ib, super%block_bi, super%block_bb, super%schur, ierr))
+    super%created = .true.
+    call set_inner_solver(super, prefix)
+    call form_explicitly(super)
+  end subroutine condense
+
+  !> Makes the complement's inner solver exact.
+  subroutine set_inner_solver(super, prefix)
+    type(super_element_type), intent(in) :: super
+    character(len=*), intent(in) :: prefix
+    KSP :: inner
+    PC :: factors
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatSchurComplementGetKSP(super%schur, inner, ierr))
+    PetscCallA(KSPSetOptionsPrefix(inner, prefix, ierr))
+    PetscCallA(KSPSetType(inner, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(inner, factors, ierr))
+    PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    PetscCallA(KSPSetFromOptions(inner, ierr))
+    PetscCallA(KSPSetUp(inner, ierr))
+  end subroutine set_inner_solver
+
+  !> The complement as a dense matrix, symmetric to the last digit.
+  subroutine form_explicitly(super)
+    type(super_element_type), intent(inout) :: super
+    KSP :: inner
+    Mat :: coupling, solution, product
+    PetscScalar, pointer :: values(:, :)
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatConvert(super%block_bb, MATSEQDENSE, MAT_INITIAL_MATRIX, product, ierr))
+    PetscCallA(GFB_MatDenseGetArray(product, values, ierr))
+    super%stiffness = values
+    PetscCallA(GFB_MatDenseRestoreArray(product, values, ierr))
+    PetscCallA(MatDestroy(product, ierr))
+    if (size(super%interior) > 0) then
+      PetscCallA(MatSchurComplementGetKSP(super%schur, inner, ierr))
+      PetscCallA(MatConvert(super%block_ib, MATSEQDENSE, MAT_INITIAL_MATRIX, coupling, ierr))
+      PetscCallA(MatDuplicate(coupling, MAT_DO_NOT_COPY_VALUES, solution, ierr))
+      PetscCallA(KSPMatSolve(inner, coupling, solution, ierr))
+      PetscCallA(MatMatMult(super%block_bi, solution, MAT_INITIAL_MATRIX, 1.0_wp, product, ierr))
+      PetscCallA(GFB_MatDenseGetArray(product, values, ierr))
+      super%stiffness = super%stiffness - values
+      PetscCallA(GFB_MatDenseRestoreArray(product, values, ierr))
+      PetscCallA(MatDestroy(product, ierr))
+      PetscCallA(MatDestroy(solution, ierr))
+      PetscCallA(MatDestroy(coupling, ierr))
+    end if
+    super%stiffness = 0.5_wp*(super%stiffness + transpose(super%stiffness))
+  end subroutine form_explicitly
+
+  !> Displacements of all unknowns of the substructure from those of the retained ones.
+  subroutine recover(self, retained, all_unknowns)
+    class(super_element_type), intent(in) :: self
+    real(wp), intent(in) :: retained(:)      !! q_B
+    real(wp), intent(out) :: all_unknowns(:) !! of the substructure
+
+    KSP :: inner
+    Vec :: boundary, force, moved
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    all_unknowns = 0.0_wp
+    all_unknowns(self%retained) = retained
+    if (size(self%interior) == 0) return
+    PetscCallA(MatCreateVecs(self%block_ib, boundary, force, ierr))
+    PetscCallA(VecDuplicate(force, moved, ierr))
+    PetscCallA(GFB_VecGetArray(boundary, values, ierr))
+    values = retained
+    PetscCallA(GFB_VecRestoreArray(boundary, values, ierr))
+    PetscCallA(MatMult(self%block_ib, boundary, force, ierr))
+    PetscCallA(MatSchurComplementGetKSP(self%schur, inner, ierr))
+    PetscCallA(KSPSolve(inner, force, moved, ierr))
+    PetscCallA(GFB_VecGetArrayRead(moved, values, ierr))
+    all_unknowns(self%interior) = -values
+    PetscCallA(GFB_VecRestoreArrayRead(moved, values, ierr))
+    PetscCallA(VecDestroy(moved, ierr))
+    PetscCallA(VecDestroy(force, ierr))
+    PetscCallA(VecDestroy(boundary, ierr))
+  end subroutine recover
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy_super_element(super)
+    type(super_element_type), intent(inout) :: super
+    PetscErrorCode :: ierr
+
+    if (.not. super%created) return
+    PetscCallA(MatDestroy(super%schur, ierr))
+    PetscCallA(MatDestroy(super%block_bb, ierr))
+    PetscCallA(MatDestroy(super%block_bi, ierr))
+    PetscCallA(MatDestroy(super%block_ib, ierr))
+    PetscCallA(MatDestroy(super%block_ii, ierr))
+    super%created = .false.
+  end subroutine destroy_super_element
+end module gfb_super_element
