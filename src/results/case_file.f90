@@ -13,13 +13,19 @@ module gfb_case_file
     type(quantity_type), allocatable :: quantity(:)
   end type history_row_type
 
+  !> A matrix that a scene adds under a path of its own.
+  type, public :: case_array_type
+    character(len=:), allocatable :: path, unit, meaning
+    real(wp), allocatable :: values(:, :) !! (columns, rows) of the file
+  end type case_array_type
+
 contains
 
   !> Writes the file under its temporary name.
   !>
   !> Fails when it cannot be written.
   subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, provenance, &
-                             summary, history, file, error)
+                             summary, history, arrays, file, error)
     character(len=*), intent(in) :: path
     integer, intent(in) :: communicator, information !! MPI's
     logical, intent(in) :: first_rank
@@ -28,6 +34,7 @@ contains
     type(quantity_type), intent(in) :: provenance(:)
     type(quantity_type), intent(in) :: summary(:)
     type(history_row_type), intent(in) :: history(:)
+    type(case_array_type), intent(in) :: arrays(:)   !! their groups are made as needed
     type(result_file_type), intent(out) :: file
     type(error_type), allocatable, intent(out) :: error
 
@@ -39,8 +46,25 @@ contains
     call write_quantities(file, '/provenance', provenance)
     call write_quantities(file, '/summary', summary)
     call write_history(file, history)
+    call write_arrays(file, arrays)
     call close_result_file(file, error)
   end subroutine write_case_file
+
+  !> One dataset an array, in groups one or two levels deep.
+  subroutine write_arrays(file, arrays)
+    type(result_file_type), intent(inout) :: file
+    type(case_array_type), intent(in) :: arrays(:)
+    integer :: i, mine
+
+    do i = 1, size(arrays)
+      associate (one => arrays(i))
+        call file%need_group(one%path(:index(one%path(2:), '/')))
+        call file%need_group(one%path(:index(one%path, '/', back=.true.) - 1))
+        mine = merge(size(one%values, 2), 0, file%first_rank)
+        call file%put_block(one%path, one%values(:, :mine), 0, size(one%values, 2), one%unit, one%meaning)
+      end associate
+    end do
+  end subroutine write_arrays
 
   !> One dataset a quantity.
   subroutine write_quantities(file, group, quantity)

@@ -23,6 +23,7 @@ module gfb_result_file
     integer(hid_t), private :: collective = -1
   contains
     procedure :: group => add_group
+    procedure :: need_group
     procedure :: put_text
     procedure :: put_numbers
     procedure :: put_scalar
@@ -110,6 +111,17 @@ contains
     if (status /= 0) self%failed = .true.
     call h5gclose_f(group, status)
   end subroutine add_group
+
+  !> Adds a group unless it is there.
+  subroutine need_group(self, path)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    logical :: there
+    integer :: status
+
+    call h5lexists_f(self%file, path, there, status)
+    if (.not. there) call self%group(path)
+  end subroutine need_group
 
   !> Adds a text.
   subroutine put_text(self, path, words, meaning)

@@ -21,10 +21,11 @@ module gfb_bearing_analysis
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_cold_start, only: start_bearing
-  use gfb_case_file, only: history_row_type
+  use gfb_case_file, only: history_row_type, case_array_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block
-  use gfb_bearing_files, only: write_bearing_files
+  use gfb_result_set, only: result_grid_type, write_result_set
+  use gfb_film_grid, only: add_film_grid
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -52,6 +53,7 @@ contains
     type(bearing_answer_type) :: answer
     type(history_row_type), allocatable :: history(:)
     type(quantity_type), allocatable :: summary(:)
+    type(result_grid_type), allocatable :: grids(:)
     type(cost_type) :: cost
 
     converged = .false.
@@ -68,8 +70,10 @@ contains
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
                        'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg''')
     end if
-    call write_bearing_files(scene, bearing, folder, converged, provenance(command), summary, history, log, &
-                             error)
+    allocate (grids(0))
+    call add_film_grid(bearing, scene%output, grids)
+    call write_result_set(scene, folder, converged, provenance(command), summary, history, &
+                          [case_array_type ::], grids, log, error)
     call destroy_newton(newton)
     call bearing%destroy()
   end subroutine run_bearing

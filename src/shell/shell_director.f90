@@ -1,8 +1,8 @@
 !> Directors and rotation axes of the nodes of a shell mesh.
 !>
 !> Smooth nodes have one director that all elements around share, and rotation axes at right angles
-!> to it. At a kink each element keeps the mean normal of its own side, and the shared axes, at right
-!> angles to the mean of all sides, turn all of these directors together.
+!> to it. At a kink each element keeps the mean normal of its own side, and the shared axes, at
+!> right angles to the mean of all sides, turn all of these directors together.
 module gfb_shell_director
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
@@ -24,10 +24,10 @@ contains
 
   !> The two rotation axes of a node, unit vectors that form a right-handed system with its normal.
   !>
-  !> \( \mathbf{V}^1 \) is the projection of the global axis that lies nearest to the tangent plane, of
-  !> equal ones the last of x, y, z; \( \mathbf{V}^2 = \mathbf{n} \times \mathbf{V}^1 \). On a foil whose
-  !> normals have no z component \( \mathbf{V}^1 \) is z everywhere. The projected axis is at least 54
-  !> degrees from the normal.
+  !> \( \mathbf{V}^1 \) is the projection of the global axis that lies nearest to the tangent plane,
+  !> of equal ones the last of x, y, z; \( \mathbf{V}^2 = \mathbf{n} \times \mathbf{V}^1 \). On a
+  !> foil whose normals have no z component \( \mathbf{V}^1 \) is z everywhere. The projected axis
+  !> is at least 54 degrees from the normal.
   pure function rotation_axes(normal) result(axis)
     real(wp), intent(in) :: normal(3) !! unit vector [1]
     real(wp) :: axis(3, 2)            !! V1, V2 [1]
@@ -74,8 +74,8 @@ contains
   !> Directors of all elements and rotation axes of all nodes.
   !>
   !> An element's director at a node is the mean of those normals at the node that are within
-  !> `kink_angle` of its own; the axes follow from the mean of all. A node is a kink where any two of
-  !> its normals are further apart; a director there does not turn about the node's mean normal
+  !> `kink_angle` of its own; the axes follow from the mean of all. A node is a kink where any two
+  !> of its normals are further apart; a director there does not turn about the node's mean normal
   !> (`gfb_shell_geometry`).
   !>
   !> Fails where the normals at a node cancel each other (opposite sides of a fold, or neighbours

@@ -1,8 +1,8 @@
 !> MITC4 shell element, linear: stiffness and internal force.
 !>
 !> Source: [DvorkinBathe1984]. Five strains in the lamina, plane stress; membrane and bending from
-!> the displacements, transverse shear tied at the sides (`gfb_shell_shear`). Rule: 2 x 2 Gauss points
-!> in the plane, 2 over the thickness.
+!> the displacements, transverse shear tied at the sides (`gfb_shell_shear`). Rule: 2 x 2 Gauss
+!> points in the plane, 2 over the thickness.
 module gfb_shell_element
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
@@ -25,8 +25,8 @@ contains
   !>
   !> $$ K = \int B^T D B \, dV = \sum_p S_p^T S_p, \qquad S_p = \sqrt{w_p D} \, B_p $$
   !>
-  !> D is diagonal in \( \varepsilon_{11} \pm \varepsilon_{22} \) and the three shears, so its root is
-  !> at hand and the sum is one product of a matrix with its transpose, exactly symmetric.
+  !> D is diagonal in \( \varepsilon_{11} \pm \varepsilon_{22} \) and the three shears, so its root
+  !> is at hand and the sum is one product of a matrix with its transpose, exactly symmetric.
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_stiffness(geometry, section, stiffness, error)
@@ -71,8 +71,8 @@ contains
   end subroutine shell_stiffness
 
   !> Roots of the elastic moduli of the five strains
-  !> \( \varepsilon_{11} + \varepsilon_{22}, \varepsilon_{11} - \varepsilon_{22}, \gamma_{12}, \gamma_{13},
-  !> \gamma_{23} \).
+  !> \( \varepsilon_{11} + \varepsilon_{22}, \varepsilon_{11} - \varepsilon_{22}, \gamma_{12},
+  !> \gamma_{13}, \gamma_{23} \).
   pure function material_root(section) result(root)
     type(shell_section_type), intent(in) :: section
     real(wp) :: root(strains) !! [Pa^(1/2)]
@@ -84,7 +84,8 @@ contains
     root(4:5) = sqrt(shear_factor*shear)
   end function material_root
 
-  !> The five strains at a Gauss point as rows over the unknowns, times the root of modulus and volume.
+  !> The five strains at a Gauss point as rows over the unknowns, times the root of modulus and
+  !> volume.
   pure subroutine strain_rows(base, turn, by_xi, by_eta, zeta, root, shear_xi, shear_eta, rows)
     real(wp), intent(in) :: base(3, 3)                                !! [m]
     type(shell_turn_type), intent(in) :: turn
@@ -117,7 +118,8 @@ contains
     end do
     lamina = shell_lamina(base)
     scale = root*sqrt(lamina%volume)
-    ! dual(1, 2), dual(3, 1) and dual(3, 2) are zero; e_12, shear_xi and shear_eta are doubled strains.
+    ! dual(1, 2), dual(3, 1) and dual(3, 2) are zero; e_12, &
+          shear_xi and shear_eta are doubled strains.
     associate (d => lamina%dual)
       in_11 = d(1, 1)**2*e_11 + d(1, 1)*d(1, 3)*shear_xi
       in_22 = d(2, 1)**2*e_11 + d(2, 2)**2*e_22 + d(2, 1)*d(2, 2)*e_12 &
@@ -212,7 +214,8 @@ contains
     internal_force = shell_generalized(turn, force, couple)
   end subroutine shell_internal_force
 
-  !> Adds a Gauss point's forces on translations and thickness vectors, and the work on tied strains.
+  !> Adds a Gauss point's forces on translations and thickness vectors, and the work on tied
+  !> strains.
   pure subroutine add_point_forces(geometry, section, point, translation, change, tied, force, &
                                    couple, work)
     type(shell_geometry_type), intent(in) :: geometry

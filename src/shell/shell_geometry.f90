@@ -7,10 +7,10 @@
 !>    \boldsymbol{\theta}_a = \alpha_a \mathbf{V}^1_a + \beta_a \mathbf{V}^2_a $$
 !>
 !> Source: [DvorkinBathe1984]. The director \( \mathbf{V}_a \) belongs to the element, the rotation
-!> axes \( \mathbf{V}^1_a, \mathbf{V}^2_a \) to the node. Where the director is the third of the axes,
-!> its change is the usual \( -\alpha \mathbf{V}^2 + \beta \mathbf{V}^1 \). Rotation about the nodal
-!> normal (drilling) has no unknown and no stiffness; at a smooth node it does not turn the director
-!> anyway, at a kink it follows the element's translations (`gfb_shell_turn`).
+!> axes \( \mathbf{V}^1_a, \mathbf{V}^2_a \) to the node. Where the director is the third of the
+!> axes, its change is the usual \( -\alpha \mathbf{V}^2 + \beta \mathbf{V}^1 \). Rotation about the
+!> nodal normal (drilling) has no unknown and no stiffness; at a smooth node it does not turn the
+!> director anyway, at a kink it follows the element's translations (`gfb_shell_turn`).
 !>
 !> Nodes run counter-clockwise seen from the tips of the directors. Unknowns of an element, node by
 !> node: three displacements along the global axes [m], \( \alpha, \beta \) [rad].
@@ -143,10 +143,10 @@ contains
 
   !> Lamina frame, contravariant components and volume from the base vectors.
   !>
-  !> The frame's third vector is the interpolated director, its first the part of \( \mathbf{g}_\xi \)
-  !> at right angles to it. Stress along the director is zero, [DvorkinBathe1984]. With a director that
-  !> is not normal to the surface the transverse strains have a share in the strains of the lamina.
-  !> The base vectors must be independent (`check_shell`).
+  !> The frame's third vector is the interpolated director, its first the part of \( \mathbf{g}_\xi
+  !> \) at right angles to it. Stress along the director is zero, [DvorkinBathe1984]. With a
+  !> director that is not normal to the surface the transverse strains have a share in the strains
+  !> of the lamina. The base vectors must be independent (`check_shell`).
   pure function shell_lamina(base) result(lamina)
     real(wp), intent(in) :: base(3, 3) !! [m]
     type(shell_lamina_type) :: lamina

@@ -14,8 +14,9 @@ contains
   !> $$ f = - \int_{\Omega^e} N^T (p - p_a) \, \mathbf{n} \, d\Omega, \qquad
   !>    \mathbf{n} \, d\Omega = \mathbf{x}_{,\xi} \times \mathbf{x}_{,\eta} \, d\xi \, d\eta $$
   !>
-  !> Source: [Gu2020] eq. 2; the nodal pressures are interpolated bilinearly and the mid-surface as it
-  !> was before deformation is loaded, so there are no couples. 2 x 2 Gauss, exact on any element.
+  !> Source: [Gu2020] eq. 2; the nodal pressures are interpolated bilinearly and the mid-surface as
+  !> it was before deformation is loaded, so there are no couples. 2 x 2 Gauss, exact on any
+  !> element.
   pure subroutine shell_pressure_load(geometry, overpressure, force)
     type(shell_geometry_type), intent(in) :: geometry
     real(wp), intent(in) :: overpressure(shell_nodes) !! p - p_a at the nodes [Pa]

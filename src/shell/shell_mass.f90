@@ -20,10 +20,10 @@ contains
   !>    \mathbf{u} = \sum_a N_a \Bigl( \mathbf{u}_a + \frac{h}{2} \zeta \,
   !>    \boldsymbol\theta_a \times \mathbf{V}_a \Bigr) $$
   !>
-  !> Source: the displacements of [DvorkinBathe1984]. The thickness is integrated exactly (the volume
-  !> is quadratic in \( \zeta \)), the plane by 2 x 2 Gauss points, exact for total mass and, on flat
-  !> elements, for every entry. The terms linear in \( \zeta \) couple translations and rotations of
-  !> curved elements.
+  !> Source: the displacements of [DvorkinBathe1984]. The thickness is integrated exactly (the
+  !> volume is quadratic in \( \zeta \)), the plane by 2 x 2 Gauss points, exact for total mass and,
+  !> on flat elements, for every entry. The terms linear in \( \zeta \) couple translations and
+  !> rotations of curved elements.
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_mass(geometry, section, mass, error)

@@ -7,9 +7,10 @@
 !>    \frac{\mathbf{u}_j - \mathbf{u}_i}{2}, \qquad
 !>    \boldsymbol\varphi = \frac{h}{2} \boldsymbol\theta \times \mathbf{V} $$
 !>
-!> Source: [DvorkinBathe1984]; A is the middle of the side at \( \eta = 1 \), C at \( \eta = -1 \), D at
-!> \( \xi = 1 \), B at \( \xi = -1 \), from node i to node j. The part of the displacement-based strain
-!> that is linear in \( \zeta \) vanishes there, so the tied strains are constant over the thickness.
+!> Source: [DvorkinBathe1984]; A is the middle of the side at \( \eta = 1 \), C at \( \eta = -1 \),
+!> D at \( \xi = 1 \), B at \( \xi = -1 \), from node i to node j. The part of the
+!> displacement-based strain that is linear in \( \zeta \) vanishes there, so the tied strains are
+!> constant over the thickness.
 module gfb_shell_shear
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: shell_geometry_type, shell_nodes, shell_unknowns, node_unknowns

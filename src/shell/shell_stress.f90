@@ -15,7 +15,8 @@ module gfb_shell_stress
 
   !> Stresses at one point of the mid-surface.
   !>
-  !> Components 11, 22, 12 in the lamina frame: 1 along the element's xi, 3 along the director, 2 across.
+  !> Components 11, 22, 12 in the lamina frame: 1 along the element's xi, 3 along the director, 2
+  !> across.
   type, public :: shell_stress_type
     real(wp) :: frame(3, 3)                              !! the lamina's unit vectors in columns [1]
     real(wp) :: membrane(3)                              !! mean of both faces [Pa]
@@ -34,9 +35,9 @@ contains
   !> $$ N = \int \sigma \, dz, \quad M = \int \sigma z \, dz, \quad Q = \int \tau \, dz $$
   !>
   !> with \( \sigma \) linear between the faces (exact up to thickness over radius):
-  !> \( N = h \sigma_m, M = h^2 \sigma_b / 6 \). The transverse shear is the mean one, with the factor
-  !> 5/6. It vanishes at the faces and is left out of their von Mises stress; at the mid-surface it is
-  !> 3/2 of the mean, the top of the parabola, and counts.
+  !> \( N = h \sigma_m, M = h^2 \sigma_b / 6 \). The transverse shear is the mean one, with the
+  !> factor 5/6. It vanishes at the faces and is left out of their von Mises stress; at the
+  !> mid-surface it is 3/2 of the mean, the top of the parabola, and counts.
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_stress(geometry, section, displacement, xi, eta, stress, error)
@@ -94,7 +95,8 @@ contains
 
   !> Equivalent stress of a plane state.
   !>
-  !> $$ \sigma_v = \sqrt{\sigma_{11}^2 - \sigma_{11} \sigma_{22} + \sigma_{22}^2 + 3 \sigma_{12}^2} $$
+  !> $$ \sigma_v = \sqrt{\sigma_{11}^2 - \sigma_{11} \sigma_{22} + \sigma_{22}^2 + 3 \sigma_{12}^2}
+  !> $$
   pure function von_mises(plane) result(equivalent)
     real(wp), intent(in) :: plane(3) !! components 11, 22, 12 [Pa]
     real(wp) :: equivalent           !! [Pa]

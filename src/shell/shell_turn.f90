@@ -4,9 +4,10 @@
 !>    \boldsymbol\theta_a = \alpha_a \mathbf{V}^1_a + \beta_a \mathbf{V}^2_a
 !>    + \gamma_a \mathbf{n}_a, \qquad \mathbf{n}_a = \mathbf{V}^1_a \times \mathbf{V}^2_a $$
 !>
-!> Where the director is the nodal normal, \( \gamma \) (drilling) drops out: [DvorkinBathe1984]'s form.
-!> At a kink it does not, and without it a strip with kinks would resist being turned as a rigid body
-!> about the mean normals of its kinks. It is no unknown but follows the spin of the element itself,
+!> Where the director is the nodal normal, \( \gamma \) (drilling) drops out: [DvorkinBathe1984]'s
+!> form. At a kink it does not, and without it a strip with kinks would resist being turned as a
+!> rigid body about the mean normals of its kinks. It is no unknown but follows the spin of the
+!> element itself,
 !>
 !> $$ \mathbf{m} \cdot \boldsymbol\theta_a = \omega = \frac{1}{2 A} \sum_b \bigl( \mathbf{x}_{,\eta}
 !>    N_{b,\xi} - \mathbf{x}_{,\xi} N_{b,\eta} \bigr) \cdot \mathbf{u}_b, \qquad
@@ -107,8 +108,8 @@ contains
     end do
   end subroutine shell_motion
 
-  !> Forces on the unknowns from forces on translations and half the thickness vectors: the transpose
-  !> of `shell_motion`.
+  !> Forces on the unknowns from forces on translations and half the thickness vectors: the
+  !> transpose of `shell_motion`.
   pure function shell_generalized(turn, force, couple) result(generalized)
     type(shell_turn_type), intent(in) :: turn
     real(wp), intent(in) :: force(3, shell_nodes)   !! [N]

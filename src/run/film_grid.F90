@@ -1,0 +1,59 @@
+!> The film of a bearing as a surface with fields.
+module gfb_film_grid
+  use gfb_kinds, only: wp
+  use gfb_output_case, only: output_case_type
+  use gfb_petsc_session, only: this_rank, rank_count
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: film_block, full_rows
+  use gfb_grid_file, only: block_bounds
+  use gfb_strip_grid, only: strip_grid
+  use gfb_result_set, only: result_grid_type, add_grid_field
+  implicit none (type, external)
+  private
+  public :: add_film_grid
+
+contains
+
+  !> Adds the film with the fields the scene asks for; nothing where it asks for none.
+  subroutine add_film_grid(bearing, output, grids)
+    type(bearing_system_type), intent(in) :: bearing
+    type(output_case_type), intent(in) :: output
+    type(result_grid_type), allocatable, intent(inout) :: grids(:)
+
+    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+    type(result_grid_type) :: film
+    real(wp) :: unknown(bearing%local_size())
+    real(wp), allocatable :: position_x(:)
+
+    if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
+    call bearing%get_unknowns(unknown)
+    film%name = 'film'
+    associate (whole => bearing%whole, nodes => size(bearing%mesh%mesh_node))
+      position_x = whole%radius*(whole%station_angle - whole%station_angle(1))
+      if (whole%periodic) position_x = [position_x, whole%radius*turn]
+      film%grid = strip_grid(position_x, full_rows(bearing), this_rank(), rank_count())
+      call add('theta', 'rad', 'angle around the bearing', bearing%film%angle)
+      if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', unknown(:nodes))
+      if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
+      if (output%deflection) then
+        call add('deflection', 'm', 'of the foil, away from the shaft', bearing%foil%deflection(unknown))
+      end if
+    end associate
+    allocate (film%cell_field(0))
+    grids = [grids, film]
+
+  contains
+
+    !> Adds a nodal field.
+    subroutine add(name, unit, meaning, value)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(in) :: value(:) !! at the local nodes
+      real(wp), allocatable :: block(:)
+      integer :: first, last
+
+      call block_bounds(film%grid%points, this_rank(), rank_count(), first, last)
+      call film_block(bearing, value, first, last, block)
+      call add_grid_field(film%point_field, name, unit, meaning, reshape(block, [1, size(block)]))
+    end subroutine add
+  end subroutine add_film_grid
+end module gfb_film_grid

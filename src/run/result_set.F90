@@ -1,0 +1,106 @@
+#include "gfb_petsc.h"
+!> Writes the files of a scene: all of them, or none.
+module gfb_result_set
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_scene, only: scene_type
+  use gfb_quantity, only: quantity_type
+  use gfb_petsc_session, only: this_rank, rank_count, share_failure
+  use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
+  use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text
+  use gfb_grid_file, only: grid_type, grid_field_type, write_grid_file
+  use gfb_text_file, only: write_text_file
+  use gfb_run_log, only: run_log_type
+  implicit none (type)
+  private
+  public :: write_result_set, add_grid_field
+
+  !> A surface with its fields, `<case>.<name>.vtkhdf`.
+  type, public :: result_grid_type
+    character(len=:), allocatable :: name !! film, top_foil or bump_foil
+    type(grid_type) :: grid
+    type(grid_field_type), allocatable :: point_field(:), cell_field(:)
+  end type result_grid_type
+
+contains
+
+  !> Writes summary, case file, surfaces and echo; what did not converge under a name of its own.
+  !>
+  !> Fails when a file cannot be written; older results are then as they were.
+  subroutine write_result_set(scene, folder, converged, provenance, summary, history, arrays, grids, &
+                              log, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder
+    logical, intent(in) :: converged
+    type(quantity_type), intent(in) :: provenance(:), summary(:)
+    type(history_row_type), intent(in) :: history(:)
+    type(case_array_type), intent(in) :: arrays(:)
+    type(result_grid_type), intent(in) :: grids(:)
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+
+    character(len=:), allocatable :: stem, names
+    type(result_file_type) :: files(size(grids) + 1)
+    integer :: i
+
+    stem = folder//'/'//scene%name
+    if (.not. converged) stem = stem//'.unconverged'
+    names = stem//'.summary, .h5'
+    call write_case_file(stem//'.h5', PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank() == 0, scene%verbatim, &
+                         scene%echo, provenance, summary, history, arrays, files(1), error)
+    call share_failure(error)
+    do i = 1, size(grids)
+      if (allocated(error)) exit
+      names = names//', .'//grids(i)%name//'.vtkhdf'
+      call write_grid_file(stem//'.'//grids(i)%name//'.vtkhdf', PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank(), &
+                           rank_count(), grids(i)%grid, grids(i)%point_field, grids(i)%cell_field, &
+                           files(i + 1), error)
+      call share_failure(error)
+    end do
+    if (.not. allocated(error)) call keep_all(stem, files, summary, scene, error)
+    call share_failure(error)
+    if (allocated(error)) then
+      do i = 1, size(files)
+        call drop_result_file(files(i))
+      end do
+      return
+    end if
+    call log%line('')
+    call log%line('results: '//names//', .used.nml')
+  end subroutine write_result_set
+
+  !> Gives the finished files their names and writes the small ones, the summary last.
+  subroutine keep_all(stem, files, summary, scene, error)
+    character(len=*), intent(in) :: stem
+    type(result_file_type), intent(in) :: files(:)
+    type(quantity_type), intent(in) :: summary(:)
+    type(scene_type), intent(in) :: scene
+    type(error_type), allocatable, intent(out) :: error
+    integer :: i
+
+    if (this_rank() /= 0) return
+    call write_text_file(stem//'.used.nml', scene%echo, error)
+    do i = 1, size(files)
+      if (allocated(error)) return
+      call keep_result_file(files(i), error)
+    end do
+    if (allocated(error)) return
+    call write_text_file(stem//'.summary', summary_text(summary), error)
+  end subroutine keep_all
+
+  !> Puts a field at the end of a list.
+  subroutine add_grid_field(list, name, unit, meaning, block)
+    type(grid_field_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name, unit, meaning
+    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank)
+    type(grid_field_type) :: one
+
+    one%name = name
+    one%unit = unit
+    one%meaning = meaning
+    one%block = block
+    if (.not. allocated(list)) allocate (list(0))
+    list = [list, one]
+  end subroutine add_grid_field
+end module gfb_result_set
