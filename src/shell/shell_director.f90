@@ -7,13 +7,11 @@ module gfb_shell_director
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
-  use gfb_shell_geometry, only: shell_nodes, bilinear, cross
+  use gfb_shell_geometry, only: shell_nodes, node_xi, node_eta, bilinear, cross
   implicit none (type, external)
   private
   public :: rotation_axes, corner_normals, shell_directors
 
-  real(wp), parameter :: corner_xi(shell_nodes) = [-1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
-  real(wp), parameter :: corner_eta(shell_nodes) = [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp]
   !> Global axes whose components along a normal differ by less count as equal, so that round-off
   !> does not choose between them.
   real(wp), parameter :: tie = 1.0e-6_wp
@@ -58,7 +56,7 @@ contains
     integer :: a
 
     do a = 1, shell_nodes
-      call bilinear(corner_xi(a), corner_eta(a), shape, by_xi, by_eta)
+      call bilinear(node_xi(a), node_eta(a), shape, by_xi, by_eta)
       along = matmul(position, by_xi)
       across = matmul(position, by_eta)
       normal(:, a) = cross(along, across)
@@ -75,8 +73,8 @@ contains
   !>
   !> An element's director at a node is the mean of those normals at the node that are within
   !> `kink_angle` of its own; the axes follow from the mean of all. A node is a kink where any two
-  !> of its normals are further apart; a director there does not turn about the node's mean normal
-  !> (`gfb_shell_geometry`).
+  !> of its normals are further apart; how directors turn there is in `gfb_shell_turn`. Nodes
+  !> without elements get no axes (zero).
   !>
   !> Fails where the normals at a node cancel each other (opposite sides of a fold, or neighbours
   !> numbered in opposite senses).

@@ -44,7 +44,7 @@ contains
     integer :: i, j, k, first
 
     stiffness = 0.0_wp
-    call check_shell(geometry, section%thickness, error)
+    call check_shell(geometry, section, error)
     if (allocated(error)) return
     turn = shell_turn(geometry, section%thickness)
     tied = shear_rows(geometry, section%thickness, turn)
@@ -118,8 +118,7 @@ contains
     end do
     lamina = shell_lamina(base)
     scale = root*sqrt(lamina%volume)
-    ! dual(1, 2), dual(3, 1) and dual(3, 2) are zero; e_12, &
-          shear_xi and shear_eta are doubled strains.
+    ! dual(1, 2), dual(3, 1) and dual(3, 2) are zero; e_12 and both shears are doubled strains.
     associate (d => lamina%dual)
       in_11 = d(1, 1)**2*e_11 + d(1, 1)*d(1, 3)*shear_xi
       in_22 = d(2, 1)**2*e_11 + d(2, 2)**2*e_22 + d(2, 1)*d(2, 2)*e_12 &
@@ -194,7 +193,7 @@ contains
     integer :: i, j, k
 
     internal_force = 0.0_wp
-    call check_shell(geometry, section%thickness, error)
+    call check_shell(geometry, section, error)
     if (allocated(error)) return
     turn = shell_turn(geometry, section%thickness)
     call shell_motion(turn, displacement, translation, change)

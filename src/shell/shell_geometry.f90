@@ -24,12 +24,15 @@ module gfb_shell_geometry
   integer, parameter, public :: shell_nodes = 4    !! nodes of an element
   integer, parameter, public :: node_unknowns = 5  !! u, v, w, alpha, beta
   integer, parameter, public :: shell_unknowns = shell_nodes*node_unknowns
-  real(wp), parameter, public :: shell_abscissa = 1.0_wp/sqrt(3.0_wp) !! of two-point Gauss rules [1]
+  real(wp), parameter, public :: shell_abscissa = 1.0_wp/sqrt(3.0_wp) !! of two Gauss points [1]
 
-  real(wp), parameter :: node_xi(shell_nodes) = [-1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
-  real(wp), parameter :: node_eta(shell_nodes) = [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp]
+  real(wp), parameter, public :: node_xi(shell_nodes) = [-1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
+  real(wp), parameter, public :: node_eta(shell_nodes) = [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp]
   !> Sine of a corner's angle below which an element is useless: its stiffness has lost six digits.
   real(wp), parameter :: least_sine = 1.0e-6_wp
+
+  !> Cosine of the angle between director and nodal normal below which a node is folded back.
+  real(wp), parameter :: least_cosine = 0.1_wp
 
   !> Where an element is.
   type, public :: shell_geometry_type
@@ -55,46 +58,87 @@ module gfb_shell_geometry
 
 contains
 
-  !> Refuses elements that have no positive volume.
+  !> Refuses elements that have no positive volume or no positive stiffness.
   !>
-  !> Fails when an edge or a corner's angle vanishes, when the nodes run clockwise about the
-  !> directors, when the element is folded, or when it is too thick for its curvature.
-  pure subroutine check_shell(geometry, thickness, error)
+  !> Fails when thickness or material cannot be, when an edge or a corner's angle vanishes, when the
+  !> nodes run clockwise about the directors, when the element is folded or too thick for its
+  !> curvature, and when a director lies in the plane of its rotation axes.
+  pure subroutine check_shell(geometry, section, error)
     type(shell_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: thickness !! h [m]
+    type(shell_section_type), intent(in) :: section
     type(error_type), allocatable, intent(out) :: error
+    real(wp) :: sine(shell_nodes)
 
-    real(wp) :: edge(3, shell_nodes), length(shell_nodes), sine(shell_nodes), twist, base(3, 3)
-    integer :: a, before, face
-
-    do a = 1, shell_nodes
-      edge(:, a) = geometry%position(:, modulo(a, shell_nodes) + 1) - geometry%position(:, a)
-      length(a) = sqrt(dot_product(edge(:, a), edge(:, a)))
-    end do
-    do a = 1, shell_nodes
-      before = modulo(a - 2, shell_nodes) + 1
-      twist = dot_product(cross(edge(:, before), edge(:, a)), geometry%director(:, a))
-      sine(a) = 0.0_wp
-      if (length(a)*length(before) > 0.0_wp) sine(a) = twist/(length(a)*length(before))
-    end do
-    if (all(sine > least_sine)) then
-      do a = 1, shell_nodes
-        do face = -1, 1, 2
-          base = corner_base(geometry, thickness, a, face)
-          if (.not. dot_product(cross(base(:, 1), base(:, 2)), base(:, 3)) > 0.0_wp) then
-            call fail(error, 'a shell element is too thick for its curvature')
-            return
-          end if
-        end do
-      end do
+    sine = corner_sines(geometry)
+    if (.not. section%thickness > 0.0_wp) then
+      call fail(error, 'the thickness of a shell must be positive')
+    else if (.not. section%youngs_modulus > 0.0_wp) then
+      call fail(error, 'the Young''s modulus of a shell must be positive')
+    else if (.not. (section%poissons_ratio > -1.0_wp .and. section%poissons_ratio < 0.5_wp)) then
+      call fail(error, 'the Poisson''s ratio of a shell must be between -1 and 0.5')
     else if (all(sine < -least_sine)) then
       call fail(error, 'the nodes of a shell element run clockwise about its directors')
     else if (any(sine < -least_sine)) then
       call fail(error, 'a shell element is folded over')
-    else
+    else if (.not. all(sine > least_sine)) then
       call fail(error, 'a shell element is degenerate: an edge or the angle of a corner vanishes')
+    else if (.not. has_volume(geometry, section%thickness)) then
+      call fail(error, 'a shell element is too thick for its curvature')
+    else if (.not. least_turn(geometry) > least_cosine) then
+      call fail(error, 'a director of a shell element lies in the plane of its rotation axes')
     end if
   end subroutine check_shell
+
+  !> Sines of the corners' angles, positive where they run counter-clockwise about the director.
+  pure function corner_sines(geometry) result(sine)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp) :: sine(shell_nodes)
+    real(wp) :: edge(3, shell_nodes), length(shell_nodes)
+    integer, parameter :: after(shell_nodes) = [2, 3, 4, 1], before(shell_nodes) = [4, 1, 2, 3]
+    integer :: a
+
+    do a = 1, shell_nodes
+      edge(:, a) = geometry%position(:, after(a)) - geometry%position(:, a)
+      length(a) = sqrt(dot_product(edge(:, a), edge(:, a)))
+    end do
+    sine = 0.0_wp
+    do a = 1, shell_nodes
+      associate (scale => length(a)*length(before(a)))
+        if (scale > 0.0_wp) sine(a) = &
+          dot_product(cross(edge(:, before(a)), edge(:, a)), geometry%director(:, a))/scale
+      end associate
+    end do
+  end function corner_sines
+
+  !> Whether the Jacobian determinant is positive at the corners of both faces.
+  pure function has_volume(geometry, thickness) result(positive)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness !! h [m]
+    logical :: positive
+    real(wp) :: base(3, 3)
+    integer :: corner, face
+
+    positive = .true.
+    do corner = 1, shell_nodes
+      do face = -1, 1, 2
+        base = corner_base(geometry, thickness, corner, face)
+        positive = positive .and. dot_product(cross(base(:, 1), base(:, 2)), base(:, 3)) > 0.0_wp
+      end do
+    end do
+  end function has_volume
+
+  !> Least cosine of the angles between the directors and the normals of their rotation axes.
+  pure function least_turn(geometry) result(least)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp) :: least
+    integer :: a
+
+    least = 1.0_wp
+    do a = 1, shell_nodes
+      least = min(least, abs(dot_product(geometry%director(:, a), &
+                                         cross(geometry%axis(:, 1, a), geometry%axis(:, 2, a)))))
+    end do
+  end function least_turn
 
   !> Base vectors at a corner of the upper or lower face.
   pure function corner_base(geometry, thickness, corner, face) result(base)

@@ -38,7 +38,7 @@ contains
     integer :: i, j
 
     mass = 0.0_wp
-    call check_shell(geometry, section%thickness, error)
+    call check_shell(geometry, section, error)
     if (allocated(error)) return
     turn = shell_turn(geometry, section%thickness)
     moment = section%density*thickness_moments(geometry, section%thickness)

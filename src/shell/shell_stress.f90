@@ -54,7 +54,7 @@ contains
     type(shell_lamina_type) :: lamina
     integer :: face
 
-    call check_shell(geometry, section%thickness, error)
+    call check_shell(geometry, section, error)
     if (allocated(error)) return
     call shell_motion(shell_turn(geometry, section%thickness), displacement, translation, change)
     tied = shear_strains(geometry, section%thickness, translation, change)

@@ -30,7 +30,7 @@ module gfb_shell_turn
     real(wp) :: rate(3, 2, shell_nodes)             !! by alpha and beta of the node [m]
     logical :: kink(shell_nodes)                    !! the director is not the nodal normal
     real(wp) :: drill_rate(3, shell_nodes)          !! by gamma of the node [m]; zero if smooth
-    real(wp) :: drill(shell_unknowns, shell_nodes)  !! gamma by the unknowns [1/m], [1]; only at kinks
+    real(wp) :: drill(shell_unknowns, shell_nodes)  !! gamma by the unknowns, at kinks [1/m], [1]
   end type shell_turn_type
 
 contains

@@ -85,7 +85,7 @@ def check_film_by_vtk(checks, name, bearing, answer):
     stations, rows = MESH[0] + 1, MESH[1] + 1
     checks.that(f"{name}: points", grid.GetNumberOfPoints() == stations*rows)
     checks.that(f"{name}: cells", grid.GetNumberOfCells() == MESH[0]*MESH[1])
-    checks.that(f"{name}: all quadrilaterals", set(vtk_to_numpy(grid.GetCellTypesArray())) == {VTK_QUAD})
+    checks.that(f"{name}: all quadrilaterals", {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())} == {VTK_QUAD})
     points = vtk_to_numpy(grid.GetPoints().GetData())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     checks.that(f"{name}: every point belongs to a cell", set(corners.flat) == set(range(stations*rows)))
@@ -110,22 +110,14 @@ def check_film_by_vtk(checks, name, bearing, answer):
 def check_choice(checks, folder):
     """`fields` says what the film file holds; with none there is no film file."""
     for wanted, expected in ((("gap",), {"theta", "gap"}), (("pressure", "deflection"), {"theta", "pressure", "deflection"})):
-        path = folder/"fields.nml"
         answer = run(folder, "fields", BEARING, mesh=MESH, number=2.0, eccentricity=(0.0, 5.0e-6),
-                     groups={"output": {"fields": Words(wanted)}})
+                     groups={"output": {"fields": wanted}})
         with h5py.File(f"{answer.stem}.film.vtkhdf", "r") as file:
             checks.that(f"fields = {wanted}", set(file["VTKHDF/PointData"]) == expected)
     run(folder, "nothing", BEARING, mesh=MESH, number=2.0, eccentricity=(0.0, 5.0e-6),
         groups={"output": {"fields": "none"}})
     checks.that("fields = none: no film file", not (folder/"nothing.film.vtkhdf").exists())
-    checks.that("fields = none: the others are there", (folder/"nothing.summary").exists() and path.exists())
-
-
-class Words(tuple):
-    """A list of words as a namelist value."""
-
-    def __repr__(self):
-        return ", ".join(f"'{one}'" for one in self)
+    checks.that("fields = none: the others are there", (folder/"nothing.summary").exists())
 
 
 def main():

@@ -96,7 +96,7 @@ def namelist_value(value):
         return ".true." if value else ".false."
     if isinstance(value, (int, float)):
         return repr(value)
-    return ", ".join(namelist_value(float(one)) for one in value)
+    return ", ".join(namelist_value(one if isinstance(one, str) else float(one)) for one in value)
 
 
 def case_text(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=None, number=None,

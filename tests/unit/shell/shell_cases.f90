@@ -1,54 +1,21 @@
 !> The benchmark problems of shell elements, each as displacement over its reference value.
 !>
-!> Definitions: [MacNealHarder1985], the skew plate after Morley. Lengths, forces and moduli have the
-!> units of the sources.
+!> Definitions: [MacNealHarder1985], the skew plate after Morley. Lengths, forces and moduli have
+!> the units of the sources.
 module shell_cases
   use gfb_kinds, only: wp
-  use gfb_shell_geometry, only: shell_section_type, cross
-  use shell_model, only: surface_type, model_type, new_model, solve_model, clamp_node, &
-    hold_symmetry, hold_unknown, add_area_load
+  use gfb_shell_geometry, only: shell_section_type
+  use shell_model, only: model_type, new_model, solve_model, clamp_node, hold_symmetry, &
+    hold_unknown, add_area_load
+  use shell_surfaces, only: bump_type, cylinder_type, sphere_type, twisted_type, ring_type, &
+    plate_type
   implicit none (type, external)
   private
   public :: scordelis_lo, pinched_cylinder, hemisphere, twisted_beam, curved_beam, square_plate, &
-            skew_plate
+            skew_plate, single_bump
 
   real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: degree = pi/180.0_wp
-
-  !> Part of a cylinder about y, s along the arc from the top, t along the axis.
-  type, extends(surface_type) :: cylinder_type
-    real(wp) :: radius, angle, length
-  contains
-    procedure :: point => cylinder_point
-  end type cylinder_type
-
-  !> Quarter of a sphere about z from the equator up, s along the circles of latitude.
-  type, extends(surface_type) :: sphere_type
-    real(wp) :: radius, latitude
-  contains
-    procedure :: point => sphere_point
-  end type sphere_type
-
-  !> Strip along x twisted by a quarter turn, s across.
-  type, extends(surface_type) :: twisted_type
-    real(wp) :: length, width
-  contains
-    procedure :: point => twisted_point
-  end type twisted_type
-
-  !> Flat quarter ring about z, s along the radius.
-  type, extends(surface_type) :: ring_type
-    real(wp) :: inner, outer
-  contains
-    procedure :: point => ring_point
-  end type ring_type
-
-  !> Flat parallelogram.
-  type, extends(surface_type) :: plate_type
-    real(wp) :: side, angle
-  contains
-    procedure :: point => plate_point
-  end type plate_type
 
 contains
 
@@ -144,8 +111,8 @@ contains
     end do
   end function curved_beam
 
-  !> Displacement in the middle of the last row under a unit load spread over it; with one column that
-  !> of the row's first node.
+  !> Displacement in the middle of the last row under a unit load spread over it; with one column
+  !> that of the row's first node.
   function cantilever(model, direction) result(displacement)
     type(model_type), intent(inout) :: model
     integer, intent(in) :: direction !! of load and displacement
@@ -220,7 +187,8 @@ contains
         shear = shear + term/(m**2 + n**2)
       end do
     end do
-    rigidity = section%youngs_modulus*section%thickness**3/(12.0_wp*(1.0_wp - section%poissons_ratio**2))
+    rigidity = section%youngs_modulus*section%thickness**3/ &
+      (12.0_wp*(1.0_wp - section%poissons_ratio**2))
     shear_stiffness = 5.0_wp/12.0_wp*section%youngs_modulus/(1.0_wp + section%poissons_ratio)* &
       section%thickness
     deflection = 16.0_wp/pi**6*bending/rigidity + 16.0_wp/pi**4*shear/shear_stiffness
@@ -250,56 +218,34 @@ contains
       (12.0_wp*(1.0_wp - section%poissons_ratio**2)*0.000408_wp*100.0_wp**4)
   end function skew_plate
 
-  pure subroutine cylinder_point(self, s, t, position, normal)
-    class(cylinder_type), intent(in) :: self
-    real(wp), intent(in) :: s, t
-    real(wp), intent(out) :: position(3), normal(3)
+  !> One bump of [Gu2020] Table 1 Case 1 without flats, corner lines held in height and, if not free
+  !> to slide, along the strip; mean deflection of the crest line under 1 N/mm [m].
+  function single_bump(along, across, slides) result(deflection)
+    integer, intent(in) :: along, across !! elements of the whole arc and width
+    logical, intent(in) :: slides        !! one corner line is free along the strip
+    real(wp) :: deflection
+    type(model_type) :: model
+    real(wp) :: weight(0:across/2)
+    integer :: i
 
-    normal = [sin(s*self%angle), 0.0_wp, cos(s*self%angle)]
-    position = self%radius*normal + [0.0_wp, t*self%length, 0.0_wp]
-  end subroutine cylinder_point
-
-  pure subroutine sphere_point(self, s, t, position, normal)
-    class(sphere_type), intent(in) :: self
-    real(wp), intent(in) :: s, t
-    real(wp), intent(out) :: position(3), normal(3)
-
-    normal = [cos(t*self%latitude)*cos(0.5_wp*pi*s), cos(t*self%latitude)*sin(0.5_wp*pi*s), &
-              sin(t*self%latitude)]
-    position = self%radius*normal
-  end subroutine sphere_point
-
-  pure subroutine twisted_point(self, s, t, position, normal)
-    class(twisted_type), intent(in) :: self
-    real(wp), intent(in) :: s, t
-    real(wp), intent(out) :: position(3), normal(3)
-    real(wp) :: across(3), along(3), turn, offset
-
-    turn = 0.5_wp*pi*t
-    offset = self%width*(s - 0.5_wp)
-    across = [0.0_wp, cos(turn), sin(turn)]
-    along = [self%length, -0.5_wp*pi*offset*sin(turn), 0.5_wp*pi*offset*cos(turn)]
-    position = [self%length*t, 0.0_wp, 0.0_wp] + offset*across
-    normal = cross(across, along)
-    normal = normal/norm2(normal)
-  end subroutine twisted_point
-
-  pure subroutine ring_point(self, s, t, position, normal)
-    class(ring_type), intent(in) :: self
-    real(wp), intent(in) :: s, t
-    real(wp), intent(out) :: position(3), normal(3)
-
-    position = (self%inner + s*(self%outer - self%inner))* &
-      [cos(0.5_wp*pi*t), sin(0.5_wp*pi*t), 0.0_wp]
-    normal = [0.0_wp, 0.0_wp, 1.0_wp]
-  end subroutine ring_point
-
-  pure subroutine plate_point(self, s, t, position, normal)
-    class(plate_type), intent(in) :: self
-    real(wp), intent(in) :: s, t
-    real(wp), intent(out) :: position(3), normal(3)
-
-    position = self%side*[s + t*cos(self%angle), t*sin(self%angle), 0.0_wp]
-    normal = [0.0_wp, 0.0_wp, 1.0_wp]
-  end subroutine plate_point
+    associate (columns => across/2, rows => along/2)
+      call new_model(bump_type(1.778e-3_wp, 0.508e-3_wp, 19.05e-3_wp), columns, rows, &
+                     shell_section_type(0.102e-3_wp, 214.0e9_wp, 0.29_wp, 8440.0_wp), model)
+      weight = 1.0_wp/columns
+      weight([0, columns]) = 0.5_wp/columns
+      do i = 0, columns
+        ! Seen from the crest both corners slide when one does.
+        call hold_symmetry(model, model%node(i, 0), 1)
+        call hold_unknown(model, model%node(i, rows), 2)
+        if (.not. slides) call hold_unknown(model, model%node(i, rows), 1)
+      end do
+      do i = 0, rows
+        call hold_symmetry(model, model%node(0, i), 3)
+      end do
+      ! A half of 1 N/mm on 19.05 mm.
+      model%load(2, model%node(:, 0)) = -0.5_wp*19.05_wp*weight
+      call solve_model(model)
+      deflection = -dot_product(weight, model%displacement(2, model%node(:, 0)))
+    end associate
+  end function single_bump
 end module shell_cases

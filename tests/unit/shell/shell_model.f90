@@ -230,7 +230,8 @@ contains
       do k = 2, last
         multiplier = band(k, j)
         if (.not. abs(multiplier) > 0.0_wp) cycle
-        band(1:last - k + 1, j + k - 1) = band(1:last - k + 1, j + k - 1) - multiplier*band(k:last, j)
+        band(1:last - k + 1, j + k - 1) = band(1:last - k + 1, &
+              j + k - 1) - multiplier*band(k:last, j)
       end do
     end do
   end subroutine factor_band

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""gfb as a user meets it: options, folders, exit status, reruns, and results that survive a kill."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+from gfb_run import (GFB, MPIEXEC, Bearing, Checks, case_text, natural_sizes, run, run_file,  # noqa: E402
+                     summary_difference)
+
+BEARING = Bearing()
+GOOD = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-20.0, 0.0))
+SECONDS = 120
+
+
+def call(*words, folder, ranks=1):
+    """Status, output and error stream."""
+    command = [GFB, *map(str, words)]
+    if ranks > 1:
+        command = [MPIEXEC, "-n", str(ranks), *command]
+    done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS,
+                          check=False)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def check_options(checks, folder):
+    """Options that compute nothing, and options that are none."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    status, words, wrong = call("--help", folder=folder)
+    checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
+    checks.that("--help: names every option and the exit status", all(part in words for part in (
+        "--check", "--output", "--quiet", "--keys", "--version", "--petsc", "exit status", "CASE.nml")))
+    status, words, wrong = call("--version", folder=folder)
+    checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
+    status, words, wrong = call("--keys", folder=folder)
+    checks.that("--keys: a table with each group", status == 0 and all(f"{group}" in words for group in (
+        "bearing", "gas", "operation", "sweep", "bump_foil", "model", "mesh", "solver", "output")))
+    checks.that("--keys: with units", "| m |" in words and "speed_rpm" in words)
+    status, words, wrong = call("--check", "good.nml", folder=folder)
+    checks.that("--check: says what the scene needs", status == 0 and "48 x 8" in words and "in order" in words)
+    checks.that("--check: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
+    mistakes = {
+        ("--chekc", "good.nml"): "did you mean --check",
+        ("-x", "good.nml"): "unknown option -x",
+        (): "no case file given",
+        ("good.nml", "other.nml"): "one case file at a time",
+        ("good.nml", "--output"): "--output needs a folder",
+        ("nowhere.nml",): "does not exist",
+    }
+    for words_given, expected in mistakes.items():
+        status, words, wrong = call(*words_given, folder=folder)
+        checks.that(f"gfb {' '.join(words_given)}: {expected}", status == 1 and expected in wrong)
+    checks.that("mistakes leave nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
+
+
+def check_folders(checks, folder):
+    """Results go where they are wanted, and nothing is computed where they cannot."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    expected = {f"good.{ending}" for ending in ("summary", "h5", "film.vtkhdf", "used.nml")}
+    for option in (["--output", "new/and/nested"], ["--output=with space/here"]):
+        status, _, wrong = call(*option, "good.nml", folder=folder)
+        place = folder/option[-1].removeprefix("--output=")
+        checks.that(f"{' '.join(option)}: made and filled", status == 0 and set(os.listdir(place)) == expected)
+    status, _, wrong = call("good.nml", folder=folder)
+    checks.that("without --output: here", status == 0 and expected <= set(os.listdir(folder)))
+    (folder/"a_file").write_text("not a folder", encoding="utf-8")
+    for place in ("a_file", "a_file/below", "/proc/gfb"):
+        status, words, wrong = call("--output", place, "good.nml", folder=folder)
+        checks.that(f"--output {place}: refused before computing",
+                    status == 1 and place in wrong and "iteration" not in words)
+    if os.geteuid() != 0:  # root writes everywhere
+        closed = folder/"closed"
+        closed.mkdir(mode=0o555)
+        status, _, wrong = call("--output", "closed", "good.nml", folder=folder)
+        checks.that("--output closed: refused", status == 1 and "closed" in wrong)
+
+
+def check_quiet(checks, folder):
+    """--quiet drops the iterations and nothing else."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    loud, quiet = (call(*words, "good.nml", folder=folder)[1] for words in ([], ["--quiet"]))
+    checks.that("a line per iteration", "residual" in loud and "new" in loud)
+    checks.that("--quiet: none", "residual" not in quiet)
+    for part in ("what the scene needs", "eccentricity", "minimum gap", "um", "friction torque", "results: "):
+        checks.that(f"the log has: {part}", part in loud and part in quiet)
+
+
+def check_rerun(checks, folder):
+    """The echo computes the same again, and echoes itself."""
+    cases = {
+        "pad": {"load": (-20.0, 3.0)},
+        "held": {"eccentricity": (1.0e-6, 5.0e-6), "tilt": (1.0e-4, 0.0), "groups": {"model": {"film_scheme": "supg"}}},
+        "bumps": {"load": (-10.0, 0.0), "foil": "elastic_foundation", "groups": {"bump_foil": {
+            "thickness": 0.1e-3, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3, "half_length": 1.8e-3,
+            "height": 0.5e-3, "pitch": 4.5e-3}, "scene": {"title": "it''s a 'title', with ! and / and &"}}},
+        "sweep": {"load": (-20.0, 3.0), "groups": {"sweep": {"parameter": "load", "values": (5.0, 1.0/3.0)}}},
+    }
+    for name, case in cases.items():
+        first = run(folder, name, BEARING, mesh=(48, 8), number=2.0, **case)
+        echo = folder/f"{name}.used.nml"
+        again = folder/"again"
+        again.mkdir(exist_ok=True)
+        shutil.copy(echo, again/f"{name}.nml")
+        second = run_file(again/f"{name}.nml", again)
+        difference, worst = summary_difference(first, second, natural_sizes(BEARING))
+        checks.below(f"{name}: rerun of the echo ({worst})", difference, 0.0)
+        keys = [[line.split("!")[0].split() for line in path.read_text(encoding="utf-8").splitlines()
+                 if "title" not in line and line.split("!")[0].strip()] for path in (echo, again/f"{name}.used.nml")]
+        checks.that(f"{name}: the echo of the echo has the same keys and values", keys[0] == keys[1])
+
+
+def check_kill(checks, folder):
+    """A run that is killed leaves the older result whole, to the last byte."""
+    (folder/"case.nml").write_text(GOOD, encoding="utf-8")
+    run_file(folder/"case.nml", folder)
+    endings = ("summary", "h5", "film.vtkhdf", "used.nml")
+    before = {ending: (folder/f"case.{ending}").read_bytes() for ending in endings}
+    values = tuple(float(1 + i % 50) for i in range(600))
+    (folder/"case.nml").write_text(case_text(BEARING, mesh=(256, 32), number=2.0, load=(-20.0, 0.0), groups={
+        "sweep": {"parameter": "load", "values": values}}), encoding="utf-8")
+    for wait in (0.1, 0.8, 1.6):
+        with open(os.devnull, "wb") as nowhere:
+            process = subprocess.Popen([GFB, "--output", str(folder), str(folder/"case.nml")],
+                                       stdin=subprocess.DEVNULL, stdout=nowhere, stderr=nowhere)
+            time.sleep(wait)
+            alive = process.poll() is None
+            process.send_signal(signal.SIGKILL)
+            process.wait(timeout=SECONDS)
+        checks.that(f"killed after {wait} s: it still ran", alive)
+        checks.that(f"killed after {wait} s: older result as it was", all(
+            (folder/f"case.{ending}").read_bytes() == content for ending, content in before.items()))
+    checks.that("killed: a later run is not disturbed", run_small(folder))
+
+
+def run_small(folder):
+    """Whether the good case runs over what killed runs left, and leaves no temporary file."""
+    (folder/"case.nml").write_text(GOOD, encoding="utf-8")
+    run_file(folder/"case.nml", folder)
+    return not list(folder.glob("*.part"))
+
+
+def check_full_disk(checks, folder):
+    """Where a file cannot be put in its place: status 3, a sentence, the older results as they were."""
+    (folder/"case.nml").write_text(GOOD, encoding="utf-8")
+    run_file(folder/"case.nml", folder)
+    before = {ending: (folder/f"case.{ending}").read_bytes() for ending in ("summary", "film.vtkhdf", "used.nml")}
+    (folder/"case.h5").unlink()
+    (folder/"case.h5.part").mkdir()
+    status, _, wrong = call("case.nml", folder=folder)
+    checks.that("a folder in the way: status 3 and its name", status == 3 and "case.h5" in wrong)
+    checks.that("a folder in the way: no crash", "Backtrace" not in wrong and "MPI_ABORT" not in wrong)
+    checks.that("a folder in the way: older results as they were", all(
+        (folder/f"case.{ending}").read_bytes() == content for ending, content in before.items()))
+
+
+def check_ranks(checks, folder):
+    """Under mpiexec one rank speaks for all, and the status is the program's."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    (folder/"wrong.nml").write_text(GOOD.replace("clearance", "clearence"), encoding="utf-8")
+    status, words, wrong = call("wrong.nml", folder=folder, ranks=2)
+    checks.that("wrong input on 2 ranks: status 1", status == 1)
+    checks.that("wrong input on 2 ranks: said once", (words + wrong).count("clearence") == 1)
+    status, words, _ = call("good.nml", folder=folder, ranks=2)
+    checks.that("2 ranks: status 0, one log", status == 0 and words.count("results: ") == 1)
+    status, words, _ = call("--check", "good.nml", folder=folder, ranks=2)
+    checks.that("--check on 2 ranks: said once", status == 0 and words.count("in order") == 1)
+    heavy = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-1.0e9, 0.0))
+    (folder/"heavy.nml").write_text(heavy, encoding="utf-8")
+    status, words, _ = call("heavy.nml", folder=folder, ranks=2)
+    checks.that("no equilibrium on 2 ranks: status 2, said once", status == 2 and words.count("no equilibrium") == 1)
+    (folder/"a_file").write_text("not a folder", encoding="utf-8")
+    status, _, wrong = call("--output", "a_file", "good.nml", folder=folder, ranks=2)
+    checks.that("no folder on 2 ranks: status 1, said once", status == 1 and wrong.count("a_file") == 1)
+
+
+def main():
+    checks = Checks()
+    for check in (check_options, check_folders, check_quiet, check_rerun, check_kill, check_full_disk, check_ranks):
+        with tempfile.TemporaryDirectory() as folder:
+            check(checks, pathlib.Path(folder).resolve())
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
