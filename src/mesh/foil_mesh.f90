@@ -1,0 +1,306 @@
+!> Meshes of the bump strip and the top foil, unrolled.
+!>
+!> Stations follow each other along x, rows along z; node (station i, row j) is number
+!> (i - 1)*rows + j, wherever the strip is fixed.
+module gfb_foil_mesh
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_quad_mesh, only: quad_mesh_type, add_node_set
+  use gfb_bump_profile, only: arc_point, arc_normal
+  use gfb_substructures, only: substructure_type, substructure
+  implicit none (type, external)
+  private
+  public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
+
+  integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, begins_with_half_flat = 3
+
+  !> One bump: an arc and the flat that follows it.
+  type, public :: bump_type
+    real(wp) :: half_length = 0.0_wp !! half the chord of the arc [m]
+    real(wp) :: height = 0.0_wp      !! of the crest above the flats' mid-surface [m]
+    real(wp) :: pitch = 0.0_wp       !! arc and flat [m]
+  end type bump_type
+
+  !> A strip: its bumps from the fixed edge on, how it begins there, how finely it is meshed.
+  type, public :: strip_shape_type
+    type(bump_type), allocatable :: bump(:)  !! in order from the fixed edge
+    integer :: begins = begins_with_corner
+    logical :: mirrored = .false.            !! the fixed edge is the one at the largest x
+    real(wp) :: edge = 0.0_wp                !! x of the fixed edge [m]
+    integer :: arc_elements = 12             !! even, so that a node lies on the crest
+    integer :: flat_elements = 3
+  end type strip_shape_type
+
+  !> What happens at a station, from the fixed edge on.
+  type :: station_type
+    real(wp) :: along = 0.0_wp       !! distance from the fixed edge [m]
+    real(wp) :: height = 0.0_wp      !! v [m]
+    real(wp) :: normal(2, 2) = 0.0_wp !! of the element before and the one after, (x, v) each [1]
+    integer :: crest = 0             !! bump whose crest it is, from the fixed edge; 0: none
+    integer :: corner = 0            !! bump whose corner it is; 0: none
+    logical :: divides = .false.     !! substructures meet or end here
+  end type station_type
+
+contains
+
+  !> Rows of equal elements along the axis, symmetric about z = 0 to the last digit.
+  pure function axial_rows(width, axial, half) result(rows)
+    real(wp), intent(in) :: width   !! whole width [m]
+    integer, intent(in) :: axial    !! elements over the whole width
+    logical, intent(in) :: half     !! z >= 0 only; axial is even then
+    real(wp), allocatable :: rows(:)
+    integer :: i
+
+    rows = [(0.5_wp*width*real(2*i - axial, wp)/real(axial, wp), i=merge(axial/2, 0, half), axial)]
+  end function axial_rows
+
+  !> The strip's mesh with the sets crest_<n>, crests, corners, free_edge, fixed_edge, midplane; bump 1
+  !> is the one at the smallest x.
+  pure function bump_strip_mesh(shape, rows, half) result(mesh)
+    type(strip_shape_type), intent(in) :: shape
+    real(wp), intent(in) :: rows(:) !! z [m]
+    logical, intent(in) :: half     !! rows begin at z = 0
+    type(quad_mesh_type) :: mesh
+    type(station_type), allocatable :: station(:)
+
+    station = strip_stations(shape)
+    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half)
+    call name_sets(mesh, station, shape)
+  end function bump_strip_mesh
+
+  !> The strip's pieces between its corners and crests, from the smallest x on.
+  pure function strip_substructures(shape, mesh) result(pieces)
+    type(strip_shape_type), intent(in) :: shape
+    type(quad_mesh_type), intent(in) :: mesh
+    type(substructure_type), allocatable :: pieces(:)
+
+    type(station_type), allocatable :: station(:)
+    logical :: is_retained(size(mesh%position, 2))
+    integer, allocatable :: divide(:)
+    integer :: i, columns
+
+    station = strip_stations(shape)
+    divide = pack([(i, i=1, size(station))], station%divides)
+    if (shape%mirrored) divide = size(station) + 1 - divide(size(divide):1:-1)
+    is_retained = .false.
+    do i = 1, size(divide)
+      is_retained((divide(i) - 1)*mesh%rows + 1:divide(i)*mesh%rows) = .true.
+    end do
+    columns = mesh%rows - 1
+    allocate (pieces(size(divide) - 1))
+    do i = 1, size(pieces)
+      pieces(i) = substructure(mesh, numbers((divide(i) - 1)*columns + 1, (divide(i + 1) - 1)*columns), &
+                               is_retained)
+    end do
+  end function strip_substructures
+
+  !> A flat plate with given stations; sets leading_edge, trailing_edge, midplane.
+  pure function top_foil_mesh(position_x, height, rows, half) result(mesh)
+    real(wp), intent(in) :: position_x(:) !! of the stations [m]
+    real(wp), intent(in) :: height        !! v of the mid-surface [m]
+    real(wp), intent(in) :: rows(:)       !! z [m]
+    logical, intent(in) :: half           !! rows begin at z = 0
+    type(quad_mesh_type) :: mesh
+    type(station_type) :: station(size(position_x))
+    integer :: i
+
+    do i = 1, size(station)
+      station(i)%along = position_x(i) - position_x(1)
+      station(i)%height = height
+      station(i)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+    end do
+    mesh = station_mesh(station, position_x(1), .false., rows, half)
+    call add_node_set(mesh, 'leading_edge', numbers(1, mesh%rows))
+    call add_node_set(mesh, 'trailing_edge', numbers((size(station) - 1)*mesh%rows + 1, &
+                                                     size(station)*mesh%rows))
+    call add_midplane(mesh)
+  end function top_foil_mesh
+
+  !> Stations of a strip from its fixed edge on.
+  pure function strip_stations(shape) result(station)
+    type(strip_shape_type), intent(in) :: shape
+    type(station_type), allocatable :: station(:)
+    type(station_type) :: longest(2 + size(shape%bump)*(shape%arc_elements + shape%flat_elements + 2))
+    integer :: n, i, half_flat
+    real(wp) :: flat
+
+    n = 1
+    longest(1)%divides = .true.
+    longest(1)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+    half_flat = (shape%flat_elements + 1)/2
+    do i = 1, size(shape%bump)
+      associate (bump => shape%bump(i))
+        flat = bump%pitch - 2.0_wp*bump%half_length
+        if (shape%begins == begins_with_half_flat) then
+          call add_flat(longest, n, 0.5_wp*flat, half_flat, i == 1)
+          call add_arc(longest, n, bump, shape%arc_elements, i)
+          call add_flat(longest, n, 0.5_wp*flat, half_flat, i == size(shape%bump))
+        else if (shape%begins == begins_with_flat) then
+          call add_flat(longest, n, flat, shape%flat_elements, .true.)
+          call add_arc(longest, n, bump, shape%arc_elements, i)
+        else
+          call add_arc(longest, n, bump, shape%arc_elements, i)
+          call add_flat(longest, n, flat, shape%flat_elements, .true.)
+        end if
+      end associate
+    end do
+    longest(n)%divides = .true.
+    station = longest(:n)
+  end function strip_stations
+
+  !> Adds the stations of an arc.
+  pure subroutine add_arc(station, n, bump, elements, number)
+    type(station_type), intent(inout) :: station(:)
+    integer, intent(inout) :: n          !! stations so far
+    type(bump_type), intent(in) :: bump
+    integer, intent(in) :: elements, number
+    real(wp) :: point(2), begin, fraction
+    integer :: k
+
+    begin = station(n)%along
+    station(n)%corner = number
+    station(n)%divides = .true.
+    station(n)%normal(:, 2) = arc_normal(bump%half_length, bump%height, 0.0_wp)
+    if (n == 1) station(n)%normal(:, 1) = station(n)%normal(:, 2)
+    do k = 1, elements
+      n = n + 1
+      fraction = real(k, wp)/real(elements, wp)
+      point = arc_point(bump%half_length, bump%height, fraction)
+      station(n)%along = begin + point(1)
+      station(n)%height = point(2)
+      station(n)%normal = spread(arc_normal(bump%half_length, bump%height, fraction), 2, 2)
+      if (2*k == elements) station(n)%crest = number
+      station(n)%divides = 2*k == elements .or. k == elements
+    end do
+    station(n)%corner = number
+  end subroutine add_arc
+
+  !> Adds the stations of a flat; none where it has no length.
+  pure subroutine add_flat(station, n, length, elements, divides)
+    type(station_type), intent(inout) :: station(:)
+    integer, intent(inout) :: n       !! stations so far
+    real(wp), intent(in) :: length    !! [m]
+    integer, intent(in) :: elements
+    logical, intent(in) :: divides    !! a substructure ends where it ends
+    real(wp), parameter :: up(2) = [0.0_wp, 1.0_wp]
+    real(wp) :: begin
+    integer :: k
+
+    if (.not. length > 0.0_wp) return
+    begin = station(n)%along
+    station(n)%normal(:, 2) = up
+    do k = 1, elements
+      n = n + 1
+      station(n)%along = begin + length*real(k, wp)/real(elements, wp)
+      station(n)%height = 0.0_wp
+      station(n)%normal = spread(up, 2, 2)
+      station(n)%divides = divides .and. k == elements
+    end do
+  end subroutine add_flat
+
+  !> Nodes, elements and directors over stations and rows.
+  pure function station_mesh(station, edge, mirrored, rows, half) result(mesh)
+    type(station_type), intent(in) :: station(:)
+    real(wp), intent(in) :: edge     !! x of the first station [m]
+    logical, intent(in) :: mirrored  !! stations run towards smaller x
+    real(wp), intent(in) :: rows(:)  !! z [m]
+    logical, intent(in) :: half
+    type(quad_mesh_type) :: mesh
+    real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2)
+    integer :: i, j, node, element, here
+
+    v = station%height
+    do i = 1, size(station)
+      normal(:, :, i) = station(i)%normal
+    end do
+    x = edge + merge(-1.0_wp, 1.0_wp, mirrored)*station%along
+    if (mirrored) then
+      x = x(size(x):1:-1)
+      v = v(size(v):1:-1)
+      normal = normal(:, 2:1:-1, size(x):1:-1)
+      normal(1, :, :) = -normal(1, :, :)
+    end if
+    mesh%rows = size(rows)
+    mesh%half = half
+    allocate (mesh%position(3, size(x)*size(rows)), mesh%axis_1(3, size(x)*size(rows)))
+    allocate (mesh%axis_2(3, size(x)*size(rows)))
+    node = 0
+    do i = 1, size(x)
+      mean = sum(normal(:, :, i), 2)/norm2(sum(normal(:, :, i), 2))
+      do j = 1, size(rows)
+        node = node + 1
+        mesh%position(:, node) = [x(i), v(i), rows(j)]
+        mesh%axis_1(:, node) = [0.0_wp, 0.0_wp, 1.0_wp]
+        mesh%axis_2(:, node) = [mean(2), -mean(1), 0.0_wp] ! normal x axis_1
+      end do
+    end do
+    allocate (mesh%element_nodes(4, (size(x) - 1)*(size(rows) - 1)))
+    allocate (mesh%director(3, 4, size(mesh%element_nodes, 2)), source=0.0_wp)
+    element = 0
+    do i = 1, size(x) - 1
+      do j = 1, size(rows) - 1
+        element = element + 1
+        here = (i - 1)*size(rows) + j
+        ! Seen from the shaft, with x to the right, z points down the page.
+        mesh%element_nodes(:, element) = [here, here + 1, here + size(rows) + 1, here + size(rows)]
+        mesh%director(:2, 1:2, element) = spread(normal(:, 2, i), 2, 2)
+        mesh%director(:2, 3:4, element) = spread(normal(:, 1, i + 1), 2, 2)
+      end do
+    end do
+  end function station_mesh
+
+  !> Names the lines of a strip.
+  pure subroutine name_sets(mesh, station, shape)
+    type(quad_mesh_type), intent(inout) :: mesh
+    type(station_type), intent(in) :: station(:)
+    type(strip_shape_type), intent(in) :: shape
+    integer, allocatable :: crests(:), corners(:), line(:)
+    integer :: i, stations, bumps, bump
+
+    stations = size(station)
+    bumps = size(shape%bump)
+    allocate (crests(0), corners(0))
+    do i = 1, stations
+      line = line_at(i)
+      bump = station(i)%crest
+      if (shape%mirrored) bump = bumps + 1 - bump
+      if (station(i)%crest > 0) call add_node_set(mesh, 'crest_'//text(bump), line)
+      if (station(i)%crest > 0) crests = [crests, line]
+      if (station(i)%corner > 0) corners = [corners, line]
+    end do
+    call add_node_set(mesh, 'crests', crests)
+    call add_node_set(mesh, 'corners', corners)
+    call add_node_set(mesh, 'fixed_edge', line_at(1))
+    call add_node_set(mesh, 'free_edge', line_at(stations))
+    call add_midplane(mesh)
+
+  contains
+
+    !> Nodes of a station, counted from the fixed edge.
+    pure function line_at(i) result(nodes)
+      integer, intent(in) :: i
+      integer :: nodes(mesh%rows)
+      integer :: place
+
+      place = merge(stations + 1 - i, i, shape%mirrored)
+      nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
+    end function line_at
+  end subroutine name_sets
+
+  !> Names the nodes at z = 0; none where no row lies there.
+  pure subroutine add_midplane(mesh)
+    type(quad_mesh_type), intent(inout) :: mesh
+    integer :: i
+
+    call add_node_set(mesh, 'midplane', pack([(i, i=1, size(mesh%position, 2))], &
+                                             abs(mesh%position(3, :)) <= 0.0_wp))
+  end subroutine add_midplane
+
+  !> Whole numbers from one to another.
+  pure function numbers(first, last) result(list)
+    integer, intent(in) :: first, last
+    integer :: list(max(0, last - first + 1))
+    integer :: i
+    list = [(i, i=first, last)]
+  end function numbers
+end module gfb_foil_mesh

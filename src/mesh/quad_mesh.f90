@@ -1,0 +1,89 @@
+!> A surface of quadrilaterals in space: nodes, elements, directors, named sets of nodes.
+module gfb_quad_mesh
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: node_set, add_node_set, sub_mesh
+
+  !> Nodes that have a name, such as a line of crests.
+  type, public :: node_set_type
+    character(len=:), allocatable :: name
+    integer, allocatable :: nodes(:)
+  end type node_set_type
+
+  !> A surface mesh. Positions are (x, v, z): along the shaft's motion, towards the shaft, along the axis.
+  type, public :: quad_mesh_type
+    real(wp), allocatable :: position(:, :)      !! (3, nodes) on the mid-surface [m]
+    integer, allocatable :: element_nodes(:, :)  !! (4, elements), counter-clockwise seen from the shaft
+    real(wp), allocatable :: director(:, :, :)   !! (3, 4, elements) unit normals; an element's own at kinks
+    real(wp), allocatable :: axis_1(:, :)        !! (3, nodes) unit rotation axis along the bearing's axis
+    real(wp), allocatable :: axis_2(:, :)        !! (3, nodes) unit rotation axis across it
+    type(node_set_type), allocatable :: sets(:)
+    integer :: rows = 0                          !! nodes of a station; numbers run along stations first
+    logical :: half = .false.                    !! z >= 0 only
+  end type quad_mesh_type
+
+contains
+
+  !> Nodes of a set; stops the program where there is no such set.
+  pure function node_set(mesh, name) result(nodes)
+    type(quad_mesh_type), intent(in) :: mesh
+    character(len=*), intent(in) :: name
+    integer, allocatable :: nodes(:)
+    integer :: i
+
+    do i = 1, size(mesh%sets)
+      if (mesh%sets(i)%name /= name) cycle
+      nodes = mesh%sets(i)%nodes
+      return
+    end do
+    error stop 'a mesh was asked for a node set it does not have'
+  end function node_set
+
+  !> Adds a set of nodes.
+  pure subroutine add_node_set(mesh, name, nodes)
+    type(quad_mesh_type), intent(inout) :: mesh
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: nodes(:)
+    type(node_set_type), allocatable :: longer(:)
+    integer :: sets
+
+    sets = 0
+    if (allocated(mesh%sets)) sets = size(mesh%sets)
+    allocate (longer(sets + 1))
+    if (sets > 0) longer(:sets) = mesh%sets
+    longer(sets + 1)%name = name
+    longer(sets + 1)%nodes = nodes
+    call move_alloc(longer, mesh%sets)
+  end subroutine add_node_set
+
+  !> The mesh of some elements alone, nodes in the same order; it has no sets.
+  pure function sub_mesh(mesh, elements) result(part)
+    type(quad_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: elements(:)
+    type(quad_mesh_type) :: part
+    integer :: number(size(mesh%position, 2)), i, corner
+    integer, allocatable :: nodes(:)
+
+    number = 0
+    do i = 1, size(elements)
+      number(mesh%element_nodes(:, elements(i))) = 1
+    end do
+    nodes = pack([(i, i=1, size(number))], number == 1)
+    do i = 1, size(nodes)
+      number(nodes(i)) = i
+    end do
+    part%position = mesh%position(:, nodes)
+    part%axis_1 = mesh%axis_1(:, nodes)
+    part%axis_2 = mesh%axis_2(:, nodes)
+    part%director = mesh%director(:, :, elements)
+    part%rows = mesh%rows
+    part%half = mesh%half
+    allocate (part%element_nodes(4, size(elements)), part%sets(0))
+    do i = 1, size(elements)
+      do corner = 1, 4
+        part%element_nodes(corner, i) = number(mesh%element_nodes(corner, elements(i)))
+      end do
+    end do
+  end function sub_mesh
+end module gfb_quad_mesh
