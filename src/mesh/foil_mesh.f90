@@ -207,9 +207,11 @@ contains
     logical, intent(in) :: half
     type(quad_mesh_type) :: mesh
     real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2)
+    logical :: kink(size(station))
     integer :: i, j, node, element, here
 
     v = station%height
+    kink = station%corner > 0
     do i = 1, size(station)
       normal(:, :, i) = station(i)%normal
     end do
@@ -217,6 +219,7 @@ contains
     if (mirrored) then
       x = x(size(x):1:-1)
       v = v(size(v):1:-1)
+      kink = kink(size(kink):1:-1)
       normal = normal(:, 2:1:-1, size(x):1:-1)
       normal(1, :, :) = -normal(1, :, :)
     end if
@@ -226,7 +229,8 @@ contains
     allocate (mesh%axis_2(3, size(x)*size(rows)))
     node = 0
     do i = 1, size(x)
-      mean = sum(normal(:, :, i), 2)/norm2(sum(normal(:, :, i), 2))
+      mean = normal(:, 1, i)
+      if (kink(i)) mean = [0.0_wp, 1.0_wp] ! the flat's, also at an end without a flat: pieces stay congruent
       do j = 1, size(rows)
         node = node + 1
         mesh%position(:, node) = [x(i), v(i), rows(j)]
