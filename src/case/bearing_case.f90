@@ -25,15 +25,16 @@ module gfb_bearing_case
 contains
 
   !> Reads the group.
-  subroutine read_bearing_case(keys, bearing)
+  subroutine read_bearing_case(keys, bearing, needed)
     type(case_keys_type), intent(inout) :: keys
     type(bearing_case_type), intent(out) :: bearing
+    logical, intent(in) :: needed !! the scene has a bearing
 
-    call keys%start_group('bearing', required=.true.)
-    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, .true.)
-    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, .true.)
+    call keys%start_group('bearing', required=needed, optional=.not. needed)
+    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, needed)
+    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, needed)
     call keys%real_key('clearance', bearing%clearance, 'm', &
-                       'radial clearance, shaft to top foil at rest', positive, .true.)
+                       'radial clearance, shaft to top foil at rest', positive, needed)
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
                        'where the pad begins; it ends at 2 pi', from_below(0.0_wp, full_turn))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &

@@ -41,26 +41,29 @@ module gfb_bump_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_bump_foil_case(keys, foil, bearing)
+  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(out) :: foil
     type(bearing_case_type), intent(in) :: bearing
+    logical, intent(in) :: as_shell  !! the strip is meshed: its shape must be known
+    logical, intent(in) :: with_mass !! and its density too
 
-    call keys%start_group('bump_foil', optional=.true., present_in_file=foil%present)
+    call keys%start_group('bump_foil', required=as_shell, optional=.true., present_in_file=foil%present)
     call length_key('thickness', foil%thickness, 'thickness of the foil')
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
-                       default=no_default)
+                       as_shell, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
-                       between(-1.0_wp, 0.5_wp), default=no_default, &
+                       between(-1.0_wp, 0.5_wp), as_shell, default=no_default, &
                        given=foil%poissons_ratio_given)
-    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, default=no_default)
+    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
+                       default=no_default)
     call length_key('half_length', foil%half_length, "half the chord of a bump's arc")
     call length_key('height', foil%height, 'height of a bump')
     call keys%integer_key('bumps', foil%bumps, 'number of bumps', at_least(1.0_wp), &
-                          default=no_default)
+                          as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       default='length of the pad / `bumps`')
+                       as_shell, default='length of the pad / `bumps`')
     call length_key('width', foil%width, 'width of the strip, along the axis')
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
@@ -74,7 +77,7 @@ contains
     subroutine length_key(name, value, meaning)
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(inout) :: value !! [m]
-      call keys%real_key(name, value, 'm', meaning, positive, default=no_default)
+      call keys%real_key(name, value, 'm', meaning, positive, as_shell, default=no_default)
     end subroutine length_key
   end subroutine read_bump_foil_case
 

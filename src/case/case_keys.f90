@@ -77,19 +77,24 @@ contains
     call self%end_key(value_list(values), any(abs(values) > 0.0_wp))
   end subroutine real_vector_key
 
-  !> A list of real numbers that must be given; empty where the group is absent.
-  subroutine real_list_key(self, name, values, most, unit, meaning, rule)
+  !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
+  subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default)
     class(case_keys_type), intent(inout) :: self
     character(len=*), intent(in) :: name
     real(wp), allocatable, intent(out) :: values(:)
     integer, intent(in) :: most                 !! values at most
     character(len=*), intent(in) :: unit, meaning
     type(rule_type), intent(in), optional :: rule
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
     integer, allocatable :: elements(:)
     integer :: i
+    logical :: must
 
+    must = .true.
+    if (present(required)) must = required
     call self%describe(name, 'list of reals', unit, meaning)
-    call self%begin_key('', most, elements, required=.true.)
+    call self%begin_key('', most, elements, required=must, default=default)
     allocate (values(size(elements)), source=0.0_wp)
     do i = 1, size(values)
       call self%take_real(elements(i), i, values(i), rule)

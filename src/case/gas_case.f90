@@ -16,14 +16,15 @@ module gfb_gas_case
 contains
 
   !> Reads the group.
-  subroutine read_gas_case(keys, gas)
+  subroutine read_gas_case(keys, gas, needed)
     type(case_keys_type), intent(inout) :: keys
     type(gas_case_type), intent(out) :: gas
+    logical, intent(in) :: needed !! the scene has a film
 
-    call keys%start_group('gas', required=.true.)
-    call keys%real_key('viscosity', gas%viscosity, 'Pa s', 'dynamic viscosity', positive, .true.)
+    call keys%start_group('gas', required=needed, optional=.not. needed)
+    call keys%real_key('viscosity', gas%viscosity, 'Pa s', 'dynamic viscosity', positive, needed)
     call keys%real_key('ambient_pressure', gas%ambient_pressure, 'Pa', &
-                       'absolute pressure at the edges of the pad', positive, .true.)
+                       'absolute pressure at the edges of the pad', positive, needed)
     call keys%finish_group()
   end subroutine read_gas_case
 end module gfb_gas_case

@@ -19,6 +19,8 @@ module gfb_mesh_case
   type :: mesh_case_type
     integer :: circumferential_elements = elements_around
     integer :: axial_elements = 32 !! of the whole width, also where one half is solved
+    integer :: arc_elements = 12   !! of a bump's arc
+    integer :: flat_elements = 3   !! of the flat between two bumps
   end type mesh_case_type
 
 contains
@@ -43,6 +45,13 @@ contains
     call keys%integer_key('axial_elements', mesh%axial_elements, &
                           'elements of the whole width, also where one half is solved', &
                           from_to(2.0_wp, real(most_a_side, wp)))
+    call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
+                          from_to(2.0_wp, 1000.0_wp))
+    if (modulo(mesh%arc_elements, 2) /= 0) then
+      call keys%complain('mesh', 'arc_elements', 'must be even: a node lies on the crest')
+    end if
+    call keys%integer_key('flat_elements', mesh%flat_elements, &
+                          'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
     if (int(mesh%circumferential_elements, long)*mesh%axial_elements > most_in_all) then
       call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &
                          text(mesh%axial_elements)//' elements are more than '//text(most_in_all))

@@ -2,6 +2,7 @@
 module gfb_model_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_scene_case, only: is_bearing, is_structure
   use gfb_value_rules, only: positive
   implicit none (type, external)
   private
@@ -9,6 +10,10 @@ module gfb_model_case
 
   integer, parameter, public :: foil_rigid = 1
   integer, parameter, public :: foil_elastic_foundation = 2 !! independent bump springs
+  integer, parameter, public :: foil_shell = 3              !! both foils as shells
+
+  integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto the lines that can be loaded
+  integer, parameter, public :: reduction_none = 2
 
   integer, parameter, public :: half_width_auto = 1
   integer, parameter, public :: half_width_yes = 2
@@ -22,7 +27,8 @@ module gfb_model_case
   integer, parameter, public :: foundation_pressure_axial_mean = 2
 
   character(len=*), parameter :: foil_words(*) = [character(len=18) :: &
-                                                  'rigid', 'elastic_foundation']
+                                                  'rigid', 'elastic_foundation', 'shell']
+  character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
   character(len=*), parameter :: pressure_words(*) = [character(len=10) :: 'local', 'axial_mean']
@@ -30,6 +36,7 @@ module gfb_model_case
   !> The model.
   type :: model_case_type
     integer :: foil = 0                          !! `foil_rigid`, ...
+    integer :: reduction = reduction_guyan
     integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
     integer :: film_scheme = film_scheme_auto
     real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
@@ -39,12 +46,22 @@ module gfb_model_case
 contains
 
   !> Reads the group.
-  subroutine read_model_case(keys, model)
+  subroutine read_model_case(keys, model, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(model_case_type), intent(out) :: model
+    integer, intent(in) :: analysis !! 0 where it is not known
 
-    call keys%start_group('model', required=.true.)
-    call keys%choice_key('foil', model%foil, foil_words, 'model of the foils', .true.)
+    call keys%start_group('model', required=is_bearing(analysis))
+    if (is_structure(analysis)) model%foil = foil_shell
+    call keys%choice_key('foil', model%foil, foil_words, 'model of the foils', is_bearing(analysis))
+    if (is_bearing(analysis) .and. model%foil == foil_shell) then
+      call keys%complain('model', 'foil', 'is for strips and modes; a bearing needs '// &
+                         "'rigid' or 'elastic_foundation'")
+    else if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
+      call keys%complain('model', 'foil', "must be 'shell' for strips and modes")
+    end if
+    call keys%choice_key('reduction', model%reduction, reduction_words, &
+                         'condense the bumps of shells onto the lines that can be loaded')
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane')
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &

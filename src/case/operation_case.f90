@@ -2,7 +2,8 @@
 module gfb_operation_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
+                            is_bearing, is_structure
   use gfb_value_rules, only: not_negative
   implicit none (type, external)
   private
@@ -28,9 +29,9 @@ contains
     type(operation_case_type), intent(out) :: operation
     integer, intent(in) :: analysis  !! 0 where it is not known
 
-    call keys%start_group('operation', required=.true.)
+    call keys%start_group('operation', required=is_bearing(analysis), optional=is_structure(analysis))
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
-                       not_negative, .true.)
+                       not_negative, is_bearing(analysis))
     if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &
         .not. operation%speed_rpm > 0.0_wp) then
       call keys%complain('operation', 'speed_rpm', 'must be positive: a film without speed '// &

@@ -10,10 +10,14 @@ module gfb_scene
   use gfb_model_case, only: model_case_type, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case
   use gfb_output_case, only: output_case_type, read_output_case
-  use gfb_scene_case, only: scene_case_type, read_scene_case
+  use gfb_modes_case, only: modes_case_type, read_modes_case, part_top_foil
+  use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, is_structure, &
+                            analysis_strip, analysis_modes
   use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, check_rigid_position
   use gfb_solver_case, only: solver_case_type, read_solver_case
+  use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
+  use gfb_top_foil_case, only: top_foil_case_type, read_top_foil_case
   implicit none (type, external)
   private
   public :: scene_type, read_scene, read_scene_text, key_table
@@ -31,7 +35,10 @@ module gfb_scene
     type(gas_case_type) :: gas
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
+    type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil
+    type(strip_load_case_type) :: strip_load
+    type(modes_case_type) :: modes
     type(model_case_type) :: model
     type(mesh_case_type) :: mesh
     type(solver_case_type) :: solver
@@ -91,14 +98,24 @@ contains
   subroutine read_groups(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(inout) :: scene
+    logical :: plate !! the modes of the top foil are asked for
 
     call read_scene_case(keys, scene%general)
-    call read_bearing_case(keys, scene%bearing)
-    call read_gas_case(keys, scene%gas)
-    call read_operation_case(keys, scene%operation, scene%general%analysis)
-    call read_sweep_case(keys, scene%sweep)
-    call read_bump_foil_case(keys, scene%bump_foil, scene%bearing)
-    call read_model_case(keys, scene%model)
+    call read_modes_case(keys, scene%modes)
+    associate (analysis => scene%general%analysis)
+      plate = analysis == analysis_modes .and. scene%modes%part == part_top_foil
+      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate)
+      call read_gas_case(keys, scene%gas, is_bearing(analysis))
+      call read_operation_case(keys, scene%operation, analysis)
+      call read_sweep_case(keys, scene%sweep)
+      call read_top_foil_case(keys, scene%top_foil, plate)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, &
+                               is_structure(analysis) .and. .not. plate, &
+                               analysis == analysis_modes .and. .not. plate)
+      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, &
+                                analysis == analysis_strip)
+      call read_model_case(keys, scene%model, analysis)
+    end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil)
     call read_solver_case(keys, scene%solver, scene%bearing)
     call read_output_case(keys, scene%output)

@@ -3,13 +3,15 @@ module gfb_scene_case
   use gfb_case_keys, only: case_keys_type
   implicit none (type, external)
   private
-  public :: scene_case_type, read_scene_case
+  public :: scene_case_type, read_scene_case, is_bearing, is_structure
 
   integer, parameter, public :: analysis_equilibrium = 1    !! the load is given
   integer, parameter, public :: analysis_fixed_position = 2 !! the eccentricity is given
+  integer, parameter, public :: analysis_strip = 3          !! a bump strip under crest loads
+  integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or a part of it
 
-  character(len=*), parameter :: analysis_words(*) = [character(len=14) :: &
-                                                      'equilibrium', 'fixed_position']
+  character(len=*), parameter :: analysis_words(*) = [character(len=14) :: 'equilibrium', &
+                                                      'fixed_position', 'strip', 'modes']
 
   !> What is asked for.
   type :: scene_case_type
@@ -28,7 +30,22 @@ contains
     call keys%start_group('scene')
     call keys%string_key('title', scene%title, 'free text, copied into the results')
     call keys%choice_key('analysis', scene%analysis, analysis_words, &
-                         'find the position that carries the load, or hold a given position')
+                         'position that carries the load, film of a given position, bump '// &
+                         'strip under loads, natural modes')
     call keys%finish_group()
   end subroutine read_scene_case
+
+  !> Whether an analysis has a shaft and a film.
+  pure function is_bearing(analysis) result(bearing)
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: bearing
+    bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position
+  end function is_bearing
+
+  !> Whether an analysis is of foils alone.
+  pure function is_structure(analysis) result(structure)
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: structure
+    structure = analysis == analysis_strip .or. analysis == analysis_modes
+  end function is_structure
 end module gfb_scene_case

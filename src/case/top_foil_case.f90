@@ -1,0 +1,45 @@
+!> `&top_foil`: the smooth foil under the film.
+module gfb_top_foil_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_value_rules, only: between, positive
+  implicit none (type, external)
+  private
+  public :: top_foil_case_type, read_top_foil_case
+
+  integer, parameter, public :: top_foil_leading = 1  !! fixed at its leading edge
+  integer, parameter, public :: top_foil_trailing = 2 !! fixed at its trailing edge
+
+  character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'leading', 'trailing']
+
+  !> The top foil. A number that is not given is zero.
+  type :: top_foil_case_type
+    logical :: present = .false.        !! the group stands in the file
+    real(wp) :: thickness = 0.0_wp      !! [m]
+    real(wp) :: youngs_modulus = 0.0_wp !! [Pa]
+    real(wp) :: poissons_ratio = 0.0_wp !! [1]
+    real(wp) :: density = 0.0_wp        !! [kg/m^3]
+    integer :: fixed_edge = top_foil_trailing
+  end type top_foil_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_top_foil_case(keys, foil, needed)
+    type(case_keys_type), intent(inout) :: keys
+    type(top_foil_case_type), intent(out) :: foil
+    logical, intent(in) :: needed !! the scene has the foil as a structure with mass
+
+    call keys%start_group('top_foil', required=needed, optional=.true., present_in_file=foil%present)
+    call keys%real_key('thickness', foil%thickness, 'm', 'thickness of the foil', positive, needed, &
+                       default=no_default)
+    call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
+                       needed, default=no_default)
+    call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
+                       between(-1.0_wp, 0.5_wp), needed, default=no_default)
+    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needed, &
+                       default=no_default)
+    call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the foil is fixed')
+    call keys%finish_group()
+  end subroutine read_top_foil_case
+end module gfb_top_foil_case
