@@ -10,7 +10,12 @@ module gfb_run_case
   use gfb_text, only: text
   use gfb_bearing_builder, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
+  use gfb_foil_builder, only: foil_plan_type
+  use gfb_foil_plan, only: plan_foil
+  use gfb_scene_case, only: analysis_strip, analysis_modes, is_bearing
   use gfb_bearing_analysis, only: run_bearing
+  use gfb_strip_analysis, only: run_strip
+  use gfb_modes_analysis, only: run_modes
   use gfb_command_line, only: command_line_type
   use gfb_provenance, only: version_text
   implicit none (type, external)
@@ -29,6 +34,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: scene
     type(bearing_plan_type) :: plan
+    type(foil_plan_type) :: foil_plan
     real(wp) :: start_time
 
     converged = .true.
@@ -39,12 +45,23 @@ contains
     call log%line(version_text())
     call log%line(scene%file//': '//scene%general%title)
     if (line%check) then
-      call plan_bearing(scene, log, plan)
+      if (is_bearing(scene%general%analysis)) then
+        call plan_bearing(scene, log, plan)
+      else
+        call plan_foil(scene, log, foil_plan)
+      end if
       call log%line('')
       call log%line(scene%file//' is in order')
     else
       call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
-      call run_bearing(scene, line%folder, line%words, start_time, log, converged, error)
+      select case (scene%general%analysis)
+      case (analysis_strip)
+        call run_strip(scene, line%folder, line%words, start_time, log, error)
+      case (analysis_modes)
+        call run_modes(scene, line%folder, line%words, start_time, log, converged, error)
+      case default
+        call run_bearing(scene, line%folder, line%words, start_time, log, converged, error)
+      end select
     end if
   end subroutine run_case
 

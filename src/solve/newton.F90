@@ -134,7 +134,10 @@ contains
     newton%length = 1.0_wp
     newton%past = 0.0_wp
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
+    ! PETSc marks what it cannot evaluate or solve with one over zero.
+    call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     PetscCallA(SNESSolve(newton%snes, PETSC_NULL_VEC, newton%system%state, ierr))
+    call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     PetscCallA(SNESGetConvergedReason(newton%snes, reason, ierr))
     PetscCallA(SNESGetIterationNumber(newton%snes, iterations, ierr))
     PetscCallA(SNESGetFunctionNorm(newton%snes, norm, ierr))
@@ -181,10 +184,9 @@ contains
 
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%evaluate(x, f, valid)
+    call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     ierr = 0
     if (.not. valid) then
-      ! PETSc will mark the residual with one over zero.
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
       PetscCall(SNESSetFunctionDomainError(snes, ierr))
     end if
   end subroutine form_residual
@@ -200,7 +202,9 @@ contains
     ierr = 0
     newton%fresh = .not. newton%keep
     if (newton%keep) return
+    call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%linearise(x)
+    call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     newton%factorizations = newton%factorizations + 1
   end subroutine form_jacobian
 

@@ -20,7 +20,8 @@ module gfb_foil_structure
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
   implicit none (type)
   private
-  public :: create_foil_structure, destroy_foil_structure, element_geometry
+  public :: create_foil_structure, destroy_foil_structure, element_geometry, assemble_piece, &
+            retained_in_piece, add_symmetric_block
 
   !> One foil and this rank's part of it.
   type, public :: foil_structure_type
@@ -167,40 +168,67 @@ contains
     type(substructure_type), intent(in) :: substructure
     type(super_element_type), intent(out) :: super
     type(error_type), allocatable, intent(out) :: error
+    Mat :: stiffness
+    PetscErrorCode :: ierr
+
+    call assemble_piece(structure, substructure, .false., stiffness, error)
+    if (allocated(error)) return
+    call condense(stiffness, retained_in_piece(structure, substructure), 'super_', super)
+    PetscCallA(MatDestroy(stiffness, ierr))
+  end subroutine condense_substructure
+
+  !> Stiffness or mass of a substructure on this rank alone, all of its unknowns.
+  !>
+  !> Fails where an element is clockwise or degenerate.
+  subroutine assemble_piece(structure, substructure, mass, matrix, error)
+    type(foil_structure_type), intent(in) :: structure
+    type(substructure_type), intent(in) :: substructure
+    logical, intent(in) :: mass !! instead of stiffness
+    Mat, intent(out) :: matrix
+    type(error_type), allocatable, intent(out) :: error
 
     integer, parameter :: row_entries = 9*node_unknowns ! a node and its neighbours
     integer, allocatable :: number(:, :)
-    logical, allocatable :: is_retained(:), present_unknown(:, :)
-    Mat :: stiffness
+    logical, allocatable :: has(:, :)
     real(wp) :: block(shell_unknowns, shell_unknowns)
     PetscErrorCode :: ierr
     integer :: i, component, unknowns
 
     unknowns = 0
     allocate (number(node_unknowns, size(structure%mesh%position, 2)), source=0)
-    present_unknown = piece_unknowns(structure, substructure)
-    allocate (is_retained(count(present_unknown)))
+    has = piece_unknowns(structure, substructure)
     do i = 1, size(substructure%nodes)
       do component = 1, node_unknowns
-        if (.not. present_unknown(component, i)) cycle
+        if (.not. has(component, i)) cycle
         unknowns = unknowns + 1
         number(component, substructure%nodes(i)) = unknowns
-        is_retained(unknowns) = substructure%retained(i)
       end do
     end do
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(row_entries, pint), PETSC_NULL_INTEGER, stiffness, ierr))
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(row_entries, pint), PETSC_NULL_INTEGER, matrix, ierr))
     do i = 1, size(substructure%elements)
-      associate (nodes => structure%mesh%element_nodes(:, substructure%elements(i)))
-        call shell_stiffness(element_geometry(structure%mesh, substructure%elements(i)), structure%section, block, error)
+      associate (nodes => structure%mesh%element_nodes(:, substructure%elements(i)), &
+                 geometry => element_geometry(structure%mesh, substructure%elements(i)))
+        if (mass) then
+          call shell_mass(geometry, structure%section, block, error)
+        else
+          call shell_stiffness(geometry, structure%section, block, error)
+        end if
         if (allocated(error)) return
-        call add_symmetric_block(stiffness, reshape(number(:, nodes), [shell_unknowns]) - 1, block)
+        call add_symmetric_block(matrix, reshape(number(:, nodes), [shell_unknowns]) - 1, block)
       end associate
     end do
-    PetscCallA(MatAssemblyBegin(stiffness, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(stiffness, MAT_FINAL_ASSEMBLY, ierr))
-    call condense(stiffness, is_retained, 'super_', super)
-    PetscCallA(MatDestroy(stiffness, ierr))
-  end subroutine condense_substructure
+    PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine assemble_piece
+
+  !> Which of a substructure's unknowns are kept.
+  pure function retained_in_piece(structure, substructure) result(is_retained)
+    type(foil_structure_type), intent(in) :: structure
+    type(substructure_type), intent(in) :: substructure
+    logical, allocatable :: is_retained(:)
+
+    is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(structure, substructure))
+  end function retained_in_piece
 
   !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there does
   !> not make it another kind, and the free ones inside.

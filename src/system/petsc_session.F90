@@ -2,14 +2,15 @@
 !> Start and end of PETSc, SLEPc and MPI, and what they say of themselves.
 module gfb_petsc_session
   use slepcsys
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
   use gfb_text, only: text
-  use gfb_petsc_kinds, only: preal
+  use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
   public :: start_petsc, stop_petsc, this_rank, rank_count, petsc_version_text, wall_time, &
-            sum_over_ranks, largest_over_ranks, any_rank, share_failure
+            sum_over_ranks, largest_over_ranks, any_rank, share_failure, fetch_entries
 
 contains
 
@@ -96,4 +97,52 @@ contains
       call fail(error, 'another rank failed', status_machine)
     end if
   end subroutine share_failure
+
+  !> Entries of a field that is spread over the ranks, by the entries' numbers in the whole.
+  function fetch_entries(total, number, value, wanted) result(fetched)
+    integer, intent(in) :: total         !! entries of all ranks
+    integer, intent(in) :: number(:)     !! of the entries this rank gives, from 1
+    real(wp), intent(in) :: value(:, :)  !! (components, entries given)
+    integer, intent(in) :: wanted(:)     !! numbers of the entries this rank gets, from 1
+    real(wp) :: fetched(size(value, 1), size(wanted))
+
+    Vec :: ordered, part
+    IS :: from
+    VecScatter :: fetch
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: components
+
+    components = size(value, 1)
+    PetscCallA(VecCreate(PETSC_COMM_WORLD, ordered, ierr))
+    PetscCallA(VecSetSizes(ordered, PETSC_DECIDE, int(components*total, pint), ierr))
+    PetscCallA(VecSetType(ordered, VECSTANDARD, ierr))
+    PetscCallA(VecSetValues(ordered, int(size(value), pint), spread_numbers(number, components), reshape(value, [size(value)]), INSERT_VALUES, ierr))
+    PetscCallA(VecAssemblyBegin(ordered, ierr))
+    PetscCallA(VecAssemblyEnd(ordered, ierr))
+    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(size(fetched), pint), part, ierr))
+    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(fetched), pint), spread_numbers(wanted, components), PETSC_COPY_VALUES, from, ierr))
+    PetscCallA(VecScatterCreate(ordered, from, part, PETSC_NULL_IS, fetch, ierr))
+    PetscCallA(VecScatterBegin(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(VecScatterEnd(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(GFB_VecGetArrayRead(part, values, ierr))
+    fetched = reshape(values, shape(fetched))
+    PetscCallA(GFB_VecRestoreArrayRead(part, values, ierr))
+    PetscCallA(VecScatterDestroy(fetch, ierr))
+    PetscCallA(ISDestroy(from, ierr))
+    PetscCallA(VecDestroy(part, ierr))
+    PetscCallA(VecDestroy(ordered, ierr))
+  end function fetch_entries
+
+  !> Numbers, from 0, of the components of entries that are numbered from 1.
+  pure function spread_numbers(number, components) result(list)
+    integer, intent(in) :: number(:)
+    integer, intent(in) :: components
+    PetscInt :: list(components*size(number))
+    integer :: i, k
+
+    do i = 1, size(number)
+      list((i - 1)*components + 1:i*components) = [((number(i) - 1)*components + k - 1, k=1, components)]
+    end do
+  end function spread_numbers
 end module gfb_petsc_session

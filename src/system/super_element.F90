@@ -25,6 +25,8 @@ module gfb_super_element
     Mat :: schur                              !! the complement as PETSc holds it
   contains
     procedure :: recover
+    procedure :: constraint_modes
+    procedure :: interior_stiffness
   end type super_element_type
 
 contains
@@ -133,6 +135,34 @@ contains
     PetscCallA(VecDestroy(force, ierr))
     PetscCallA(VecDestroy(boundary, ierr))
   end subroutine recover
+
+  !> Stiffness of the interior; a borrowed handle, not to be destroyed.
+  subroutine interior_stiffness(self, matrix)
+    class(super_element_type), intent(in) :: self
+    Mat, intent(out) :: matrix
+    matrix = self%block_ii
+  end subroutine interior_stiffness
+
+  !> Interior displacements for a unit of each retained unknown, \( -K_{II}^{-1} K_{IB} \), [Gu2020] eq. 4.
+  function constraint_modes(self) result(modes)
+    class(super_element_type), intent(in) :: self
+    real(wp) :: modes(size(self%interior), size(self%retained))
+    KSP :: inner
+    Mat :: coupling, solution
+    PetscScalar, pointer :: values(:, :)
+    PetscErrorCode :: ierr
+
+    if (size(modes) == 0) return
+    PetscCallA(MatSchurComplementGetKSP(self%schur, inner, ierr))
+    PetscCallA(MatConvert(self%block_ib, MATSEQDENSE, MAT_INITIAL_MATRIX, coupling, ierr))
+    PetscCallA(MatDuplicate(coupling, MAT_DO_NOT_COPY_VALUES, solution, ierr))
+    PetscCallA(KSPMatSolve(inner, coupling, solution, ierr))
+    PetscCallA(GFB_MatDenseGetArray(solution, values, ierr))
+    modes = -values
+    PetscCallA(GFB_MatDenseRestoreArray(solution, values, ierr))
+    PetscCallA(MatDestroy(solution, ierr))
+    PetscCallA(MatDestroy(coupling, ierr))
+  end function constraint_modes
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_super_element(super)

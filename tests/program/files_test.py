@@ -57,7 +57,8 @@ def check_case_file(checks, name, answer, case_path):
         verbatim = word(file["scene/case_file"][()])
         checks.that(f"{name}: the case file verbatim", verbatim == case_path.read_text(encoding="utf-8"))
         used = word(file["scene/used"][()])
-        checks.that(f"{name}: the echo too", used == pathlib.Path(f"{answer.stem}.used.nml").read_text(encoding="utf-8"))
+        echo = pathlib.Path(f"{answer.stem}.used.nml").read_text(encoding="utf-8")
+        checks.that(f"{name}: the echo too", used == echo)
         summary = file["summary"]
         checks.that(f"{name}: names of the summary", set(summary) == set(answer.summary))
         same = all(summary[key][()] == value for key, value in answer.summary.items() if isinstance(value, float))
@@ -85,7 +86,8 @@ def check_film_by_vtk(checks, name, bearing, answer):
     stations, rows = MESH[0] + 1, MESH[1] + 1
     checks.that(f"{name}: points", grid.GetNumberOfPoints() == stations*rows)
     checks.that(f"{name}: cells", grid.GetNumberOfCells() == MESH[0]*MESH[1])
-    checks.that(f"{name}: all quadrilaterals", {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())} == {VTK_QUAD})
+    kinds = {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}
+    checks.that(f"{name}: all quadrilaterals", kinds == {VTK_QUAD})
     points = vtk_to_numpy(grid.GetPoints().GetData())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     checks.that(f"{name}: every point belongs to a cell", set(corners.flat) == set(range(stations*rows)))
@@ -104,12 +106,14 @@ def check_film_by_vtk(checks, name, bearing, answer):
                 and fields["pressure"].min() == answer["minimum_pressure"])
     checks.below(f"{name}: smallest gap", fields["gap"].min()/answer["minimum_gap"] - 1.0, 1.0e-14)
     edge = numpy.abs(points[:, 2]) == points[:, 2].max()
-    checks.that(f"{name}: ambient pressure at the bearing edges", (fields["pressure"][edge] == bearing.ambient_pressure).all())
+    checks.that(f"{name}: ambient pressure at the bearing edges",
+                (fields["pressure"][edge] == bearing.ambient_pressure).all())
 
 
 def check_choice(checks, folder):
     """`fields` says what the film file holds; with none there is no film file."""
-    for wanted, expected in ((("gap",), {"theta", "gap"}), (("pressure", "deflection"), {"theta", "pressure", "deflection"})):
+    cases = ((("gap",), {"theta", "gap"}), (("pressure", "deflection"), {"theta", "pressure", "deflection"}))
+    for wanted, expected in cases:
         answer = run(folder, "fields", BEARING, mesh=MESH, number=2.0, eccentricity=(0.0, 5.0e-6),
                      groups={"output": {"fields": wanted}})
         with h5py.File(f"{answer.stem}.film.vtkhdf", "r") as file:

@@ -43,9 +43,11 @@ def check_branches(checks, folder):
     cold = run(folder, "cold", BEARING, load=load, **case)
     near = run(folder, "near", BEARING, load=load, eccentricity=tuple(0.97*wanted), **case)
     again = run(folder, "held", BEARING, eccentricity=tuple(cold.eccentricity), **case)
-    checks.below("two equilibria: the start value's", numpy.abs(near.eccentricity - wanted).max()/BEARING.clearance, POSITION)
+    checks.below("two equilibria: the start value's",
+                 numpy.abs(near.eccentricity - wanted).max()/BEARING.clearance, POSITION)
     checks.that("two equilibria: another one", numpy.abs(cold.eccentricity - wanted).max() > 0.1*BEARING.clearance)
-    checks.below("two equilibria: with the same force", numpy.abs(again.force - load).max()/numpy.hypot(*load), POSITION)
+    checks.below("two equilibria: with the same force",
+                 numpy.abs(again.force - load).max()/numpy.hypot(*load), POSITION)
 
 
 def check_loads(checks, folder):
@@ -80,7 +82,8 @@ def check_sweeps(checks, folder):
         swept = run(folder, "sweep", BEARING, groups={"sweep": {"parameter": parameter, "values": values}},
                     **base, **point)
         rows = swept.history()
-        checks.that(f"sweep of {parameter}: {len(values)} rows", all(len(column) == len(values) for column in rows.values()))
+        checks.that(f"sweep of {parameter}: {len(values)} rows",
+                    all(len(column) == len(values) for column in rows.values()))
         checks.that(f"sweep of {parameter}: its values are in the history", numpy.array_equal(rows[parameter], values))
         for i, value in enumerate(values):
             if parameter == "load":

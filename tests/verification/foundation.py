@@ -36,7 +36,8 @@ def check_table(checks, folder):
             forces.append(math.hypot(*answer.force)/(RING.ambient_pressure*RING.radius**2))
         checks.below(f"a = 1, eps {eps:g}: force", forces[-1]/force - 1.0, FORCE)
         checks.below(f"a = 1, eps {eps:g}: attitude angle", answer["attitude_angle"] - attitude, ATTITUDE)
-        checks.within(f"a = 1, eps {eps:g}: order", observed_order(forces[0] - forces[1], forces[1] - forces[2]), *ORDER)
+        checks.within(f"a = 1, eps {eps:g}: order",
+                      observed_order(forces[0] - forces[1], forces[1] - forces[2]), *ORDER)
 
 
 def check_film_file(checks, folder):

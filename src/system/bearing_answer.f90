@@ -1,13 +1,10 @@
-#include "gfb_petsc.h"
 !> What an engineer reads off the bearing's state, over all ranks.
 module gfb_bearing_answer
-  use petscvec
   use gfb_kinds, only: wp
-  use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, fetch_entries
   use gfb_film_load, only: film_forces
   use gfb_bearing_system, only: bearing_system_type
-  implicit none (type)
+  implicit none (type, external)
   private
   public :: bearing_answer, film_block, full_rows
 
@@ -91,42 +88,21 @@ contains
     integer, intent(in) :: first, last !! nodes of the pad this rank takes, from 1
     real(wp), allocatable, intent(out) :: block(:)
 
-    Vec :: ordered, part
-    IS :: from
-    VecScatter :: fetch
-    PetscScalar, pointer :: values(:)
-    PetscInt, allocatable :: number(:)
-    PetscErrorCode :: ierr
-    integer :: i, rows, row, station, node
+    integer, allocatable :: wanted(:)
+    real(wp), allocatable :: column(:, :)
+    integer :: i, rows, row, station
 
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, int(bearing%whole%nodes(), pint), ordered, ierr))
-    number = int(pack(bearing%mesh%mesh_node, bearing%mesh%owned) - 1, pint)
-    PetscCallA(VecSetValues(ordered, int(size(number), pint), number, pack(value, bearing%mesh%owned), INSERT_VALUES, ierr))
-    PetscCallA(VecAssemblyBegin(ordered, ierr))
-    PetscCallA(VecAssemblyEnd(ordered, ierr))
-
-    rows = bearing%whole%rows()
-    if (bearing%whole%half) rows = 2*rows - 1
-    deallocate (number)
-    allocate (number(last - first + 1))
+    rows = size(full_rows(bearing))
+    allocate (wanted(last - first + 1))
     do i = first, last
       station = modulo((i - 1)/rows, bearing%whole%stations())
       row = modulo(i - 1, rows) + 1
       if (bearing%whole%half) row = abs(row - bearing%whole%rows()) + 1
-      node = station*bearing%whole%rows() + row
-      number(i - first + 1) = node - 1
+      wanted(i - first + 1) = station*bearing%whole%rows() + row
     end do
-    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(size(number), pint), part, ierr))
-    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(number), pint), number, PETSC_COPY_VALUES, from, ierr))
-    PetscCallA(VecScatterCreate(ordered, from, part, PETSC_NULL_IS, fetch, ierr))
-    PetscCallA(VecScatterBegin(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(VecScatterEnd(fetch, ordered, part, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(GFB_VecGetArrayRead(part, values, ierr))
-    block = values
-    PetscCallA(GFB_VecRestoreArrayRead(part, values, ierr))
-    PetscCallA(VecScatterDestroy(fetch, ierr))
-    PetscCallA(ISDestroy(from, ierr))
-    PetscCallA(VecDestroy(part, ierr))
-    PetscCallA(VecDestroy(ordered, ierr))
+    column = reshape(pack(value, bearing%mesh%owned), [1, count(bearing%mesh%owned)])
+    column = fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, bearing%mesh%owned), &
+                           column, wanted)
+    block = column(1, :)
   end subroutine film_block
 end module gfb_bearing_answer

@@ -1,0 +1,158 @@
+!> A foil as a surface with fields, over its whole width.
+module gfb_foil_grid
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
+  use gfb_shell_geometry, only: shell_unknowns
+  use gfb_shell_stress, only: shell_stress_type, shell_stress, lower_face, upper_face
+  use gfb_foil_structure, only: foil_structure_type, element_geometry
+  use gfb_grid_file, only: grid_field_type, block_bounds
+  use gfb_result_set, only: result_grid_type, add_grid_field
+  implicit none (type, external)
+  private
+  public :: create_foil_grid, add_displacement, add_stress
+
+  real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp] !! sign of (u, v, w) in the other half
+
+contains
+
+  !> Points and cells of a foil; station by station, rows of the whole width, whatever was solved.
+  subroutine create_foil_grid(foil, name, grid)
+    type(foil_structure_type), intent(in) :: foil
+    character(len=*), intent(in) :: name
+    type(result_grid_type), intent(out) :: grid
+    integer :: rows, stations, first, last, i, node, corner
+    logical :: mirrored
+
+    rows = full_rows(foil)
+    stations = size(foil%mesh%position, 2)/foil%mesh%rows
+    grid%name = name
+    grid%grid%points = stations*rows
+    grid%grid%cells = (stations - 1)*(rows - 1)
+    call block_bounds(grid%grid%points, this_rank(), rank_count(), first, last)
+    allocate (grid%grid%point(3, last - first + 1))
+    do i = first, last
+      call solved_node(foil, i, node, mirrored)
+      grid%grid%point(:, i - first + 1) = foil%mesh%position(:, node)
+      if (mirrored) grid%grid%point(3, i - first + 1) = -foil%mesh%position(3, node)
+    end do
+    call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
+    allocate (grid%grid%cell(4, last - first + 1))
+    do i = first, last
+      corner = (i - 1)/(rows - 1)*rows + modulo(i - 1, rows - 1) + 1
+      grid%grid%cell(:, i - first + 1) = [corner, corner + 1, corner + rows + 1, corner + rows]
+    end do
+    allocate (grid%point_field(0), grid%cell_field(0))
+  end subroutine create_foil_grid
+
+  !> Adds the displacement vectors of this rank's nodes.
+  subroutine add_displacement(foil, name, meaning, moved, grid)
+    type(foil_structure_type), intent(in) :: foil
+    character(len=*), intent(in) :: name, meaning
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
+    type(result_grid_type), intent(inout) :: grid
+
+    real(wp), allocatable :: block(:, :)
+    integer, allocatable :: wanted(:)
+    integer :: first, last, i
+    logical, allocatable :: mirrored(:)
+
+    call block_bounds(grid%grid%points, this_rank(), rank_count(), first, last)
+    allocate (wanted(last - first + 1), mirrored(last - first + 1))
+    do i = first, last
+      call solved_node(foil, i, wanted(i - first + 1), mirrored(i - first + 1))
+    end do
+    block = fetch_entries(size(foil%mesh%position, 2), pack(foil%part%mesh_node, foil%part%owned), &
+                          own_columns(moved(:3, :), foil%part%owned), wanted)
+    do i = 1, size(wanted)
+      if (mirrored(i)) block(:, i) = block(:, i)*mirror
+    end do
+    call add_grid_field(grid%point_field, name, 'm', meaning, block)
+  end subroutine add_displacement
+
+  !> Adds the stresses at the elements' centres.
+  subroutine add_stress(foil, moved, grid)
+    type(foil_structure_type), intent(in) :: foil
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
+    type(result_grid_type), intent(inout) :: grid
+
+    type(shell_stress_type) :: stress
+    type(error_type), allocatable :: error
+    real(wp) :: value(8, size(foil%my_elements)), displacement(shell_unknowns)
+    real(wp), allocatable :: block(:, :)
+    integer, allocatable :: wanted(:)
+    integer :: first, last, i
+
+    do i = 1, size(foil%my_elements)
+      displacement = reshape(moved(:, foil%local_node(foil%mesh%element_nodes(:, foil%my_elements(i)))), &
+                             [shell_unknowns])
+      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), foil%section, displacement, &
+                        0.0_wp, 0.0_wp, stress, error)
+      value(:, i) = [stress%membrane, stress%bending, stress%von_mises(lower_face), &
+                     stress%von_mises(upper_face)]
+    end do
+    call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
+    wanted = [(solved_cell(foil, i), i=first, last)]
+    block = fetch_entries(size(foil%mesh%element_nodes, 2), foil%my_elements, value, wanted)
+    call add_grid_field(grid%cell_field, 'membrane_stress', 'Pa', &
+                        'at the centre: along the axis, across it, shear', block(1:3, :))
+    call add_grid_field(grid%cell_field, 'bending_stress', 'Pa', &
+                        'half of upper less lower face: along the axis, across it, shear', block(4:6, :))
+    call add_grid_field(grid%cell_field, 'von_mises_lower', 'Pa', 'von Mises stress, sleeve side', &
+                        block(7:7, :))
+    call add_grid_field(grid%cell_field, 'von_mises_upper', 'Pa', 'von Mises stress, shaft side', &
+                        block(8:8, :))
+  end subroutine add_stress
+
+  !> Columns of a matrix that a mask picks.
+  pure function own_columns(values, mask) result(picked)
+    real(wp), intent(in) :: values(:, :)
+    logical, intent(in) :: mask(:)
+    real(wp) :: picked(size(values, 1), count(mask))
+    integer :: i, n
+
+    n = 0
+    do i = 1, size(mask)
+      if (.not. mask(i)) cycle
+      n = n + 1
+      picked(:, n) = values(:, i)
+    end do
+  end function own_columns
+
+  !> Rows of the whole width.
+  pure function full_rows(foil) result(rows)
+    type(foil_structure_type), intent(in) :: foil
+    integer :: rows
+    rows = foil%mesh%rows
+    if (foil%mesh%half) rows = 2*rows - 1
+  end function full_rows
+
+  !> The solved node that a point of the whole width is, or mirrors.
+  pure subroutine solved_node(foil, point, node, mirrored)
+    type(foil_structure_type), intent(in) :: foil
+    integer, intent(in) :: point !! from 1
+    integer, intent(out) :: node
+    logical, intent(out) :: mirrored
+    integer :: rows, row
+
+    rows = full_rows(foil)
+    row = modulo(point - 1, rows) + 1
+    mirrored = foil%mesh%half .and. row < foil%mesh%rows
+    if (foil%mesh%half) row = abs(row - foil%mesh%rows) + 1
+    node = (point - 1)/rows*foil%mesh%rows + row
+  end subroutine solved_node
+
+  !> The solved element that a cell of the whole width is, or mirrors.
+  pure function solved_cell(foil, cell) result(element)
+    type(foil_structure_type), intent(in) :: foil
+    integer, intent(in) :: cell !! from 1
+    integer :: element
+    integer :: columns, half, column
+
+    columns = full_rows(foil) - 1
+    half = foil%mesh%rows - 1
+    column = modulo(cell - 1, columns) + 1
+    if (foil%mesh%half) column = merge(column - half, half + 1 - column, column > half)
+    element = (cell - 1)/columns*half + column
+  end function solved_cell
+end module gfb_foil_grid

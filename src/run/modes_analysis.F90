@@ -1,0 +1,189 @@
+#include "gfb_petsc.h"
+!> Natural modes of a foil or a part of it.
+module gfb_modes_analysis
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
+                          truth_quantity
+  use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
+  use gfb_c_library, only: peak_memory
+  use gfb_scene, only: scene_type
+  use gfb_modes_case, only: part_words, part_top_foil, part_strip
+  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_builder, only: foil_plan_type, build_part
+  use gfb_foil_plan, only: plan_foil
+  use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
+  use gfb_craig_bampton, only: craig_bampton_type, craig_bampton, assembled_eigenvalues
+  use gfb_case_file, only: history_row_type, case_array_type
+  use gfb_result_set, only: result_grid_type, write_result_set
+  use gfb_foil_grid, only: create_foil_grid, add_displacement
+  use gfb_provenance, only: provenance, blas_in_use
+  implicit none (type)
+  private
+  public :: run_modes
+
+  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+  real(wp), parameter :: rigid = 1.0e-3_wp !! eigenvalues below this share of the plate's are rigid [1]
+
+contains
+
+  !> Computes the modes and writes the results.
+  !>
+  !> `converged` is false where fewer modes than wanted were found. Fails when a file cannot be written.
+  subroutine run_modes(scene, folder, command, start_time, log, converged, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder   !! where the results go
+    character(len=*), intent(in) :: command  !! the whole command line
+    real(wp), intent(in) :: start_time       !! of the run [s]
+    type(run_log_type), intent(in) :: log
+    logical, intent(out) :: converged
+    type(error_type), allocatable, intent(out) :: error
+
+    type(foil_plan_type) :: plan
+    type(foil_structure_type) :: part
+    type(modes_type) :: modes
+    type(history_row_type), allocatable :: history(:)
+    type(quantity_type), allocatable :: summary(:)
+    type(case_array_type), allocatable :: arrays(:)
+    type(result_grid_type) :: grid
+    real(wp), allocatable :: moved(:, :)
+    real(wp) :: shift
+    Mat :: mass
+    PetscErrorCode :: ierr
+    integer :: i
+
+    call plan_foil(scene, log, plan)
+    call log%heading('solution')
+    call build_part(scene, plan, part, error)
+    if (allocated(error)) return
+    call part%assemble_mass(mass, error)
+    if (allocated(error)) return
+    shift = plate_eigenvalue(part)
+    call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes)
+    converged = size(modes%eigenvalue) >= min(scene%modes%count, part%unknowns)
+    summary = [mode_quantities(converged, modes, shift), cost_quantities(part, start_time)]
+    call show_closing_block(log, scene, modes, part)
+    allocate (history(1))
+    history(1)%quantity = summary
+    call create_foil_grid(part, trim(merge('top_foil ', 'bump_foil', scene%modes%part == part_top_foil)), grid)
+    allocate (moved(node_unknowns, size(part%part%mesh_node)))
+    do i = 1, size(modes%shape)
+      call part%displacements(modes%shape(i), moved)
+      call add_displacement(part, 'mode_'//text(i), 'shape of unit modal mass', moved, grid)
+    end do
+    PetscCallA(MatDestroy(mass, ierr))
+    allocate (arrays(0))
+    if (scene%modes%part == part_strip) then
+      call reduce_strip(part, scene%modes%substructure_modes, size(modes%eigenvalue), shift, log, arrays, &
+                        summary, error)
+      if (allocated(error)) return
+    end if
+    call destroy_modes(modes)
+    call write_result_set(scene, folder, converged, provenance(command), summary, history, arrays, [grid], &
+                          log, error)
+    call destroy_foil_structure(part)
+  end subroutine run_modes
+
+  !> Craig-Bampton matrices of the strip for the result file, and the frequencies they give.
+  subroutine reduce_strip(strip, modes_kept, wanted, shift, log, arrays, summary, error)
+    type(foil_structure_type), intent(in) :: strip
+    integer, intent(in) :: modes_kept !! of every super-element
+    integer, intent(in) :: wanted     !! frequencies
+    real(wp), intent(in) :: shift     !! [1/s2]
+    type(run_log_type), intent(in) :: log
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(quantity_type), allocatable, intent(inout) :: summary(:)
+    type(error_type), allocatable, intent(out) :: error
+
+    type(craig_bampton_type), allocatable :: kinds(:)
+    real(wp), allocatable :: eigenvalue(:)
+    character(len=:), allocatable :: group
+    integer :: i
+
+    call craig_bampton(strip, modes_kept, kinds, error)
+    if (allocated(error)) return
+    do i = 1, size(kinds)
+      group = '/craig_bampton/kind_'//text(i)
+      arrays = [arrays, &
+                case_array_type(group//'/stiffness', 'mixed SI', 'retained unknowns, then modes', kinds(i)%stiffness), &
+                case_array_type(group//'/mass', 'mixed SI', 'retained unknowns, then modes', kinds(i)%mass)]
+    end do
+    arrays = [arrays, case_array_type('/craig_bampton/kind_of_substructure', '1', &
+                                      'kind of each super-element, from the smallest x on', &
+                                      reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)]))]
+    eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
+    do i = 1, size(eigenvalue)
+      summary = [summary, number_quantity('craig_bampton_frequency_'//text(i), &
+                                          sqrt(max(eigenvalue(i), 0.0_wp))/turn, 'Hz', &
+                                          'natural frequency of the reduced strip')]
+    end do
+    call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
+                  ' modes each, written to /craig_bampton')
+  end subroutine reduce_strip
+
+  !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
+  pure function plate_eigenvalue(part) result(eigenvalue)
+    type(foil_structure_type), intent(in) :: part
+    real(wp) :: eigenvalue
+    real(wp) :: length
+
+    associate (position => part%mesh%position, foil => part%section)
+      length = max(maxval(position(1, :)) - minval(position(1, :)), maxval(position(3, :)) - minval(position(3, :)))
+      eigenvalue = foil%youngs_modulus*foil%thickness**2/(12.0_wp*(1.0_wp - foil%poissons_ratio**2)* &
+                                                          foil%density*length**4)
+    end associate
+  end function plate_eigenvalue
+
+  !> Quantities of the answer.
+  function mode_quantities(converged, modes, shift) result(list)
+    logical, intent(in) :: converged
+    type(modes_type), intent(in) :: modes
+    real(wp), intent(in) :: shift !! [1/s2]
+    type(quantity_type), allocatable :: list(:)
+    integer :: i
+
+    list = [word_quantity('analysis', 'modes', 'kind of analysis'), &
+            truth_quantity('converged', converged, 'whether all modes asked for were found')]
+    do i = 1, size(modes%eigenvalue)
+      list = [list, number_quantity('frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, &
+                                    'Hz', 'natural frequency')]
+    end do
+    list = [list, count_quantity('rigid_modes', count(abs(modes%eigenvalue) < rigid*shift), &
+                                 'modes without strain among those found')]
+  end function mode_quantities
+
+  !> Quantities of what it cost.
+  function cost_quantities(part, start_time) result(list)
+    type(foil_structure_type), intent(in) :: part
+    real(wp), intent(in) :: start_time !! [s]
+    type(quantity_type), allocatable :: list(:)
+    real(wp) :: memory(1)
+
+    memory = sum_over_ranks([peak_memory()])
+    list = [count_quantity('unknowns', part%unknowns, 'unknowns of the equations'), &
+            count_quantity('factorizations', 1, 'of the shifted stiffness'), &
+            number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
+            number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
+  end function cost_quantities
+
+  !> The answer in the units an engineer reads.
+  subroutine show_closing_block(log, scene, modes, part)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    type(modes_type), intent(in) :: modes
+    type(foil_structure_type), intent(in) :: part
+    integer :: i
+
+    call log%heading('answer')
+    do i = 1, size(modes%eigenvalue)
+      call log%line('mode '//text(i)//'  '//text(sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, 6)//' Hz')
+    end do
+    call log%line(trim(part_words(scene%modes%part))//' of '//text(part%unknowns)//' unknowns, '// &
+                  text(rank_count())//' rank(s), BLAS '//blas_in_use())
+  end subroutine show_closing_block
+end module gfb_modes_analysis
