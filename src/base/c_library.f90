@@ -13,6 +13,7 @@ module gfb_c_library
   interface
     function c_mkdir(path, mode) result(status) bind(c, name='mkdir')
       import :: c_char, c_int
+      implicit none (type, external)
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int), value :: mode
       integer(c_int) :: status
@@ -20,23 +21,27 @@ module gfb_c_library
 
     function c_rename(old, new) result(status) bind(c, name='rename')
       import :: c_char, c_int
+      implicit none (type, external)
       character(kind=c_char), intent(in) :: old(*), new(*)
       integer(c_int) :: status
     end function c_rename
 
     function c_remove(path) result(status) bind(c, name='remove')
       import :: c_char, c_int
+      implicit none (type, external)
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int) :: status
     end function c_remove
 
     subroutine c_exit(status) bind(c, name='exit')
       import :: c_int
+      implicit none (type, external)
       integer(c_int), value :: status
     end subroutine c_exit
 
     function c_getrusage(who, usage) result(status) bind(c, name='getrusage')
       import :: c_int, c_long
+      implicit none (type, external)
       integer(c_int), value :: who
       integer(c_long), intent(out) :: usage(*)
       integer(c_int) :: status
@@ -44,6 +49,7 @@ module gfb_c_library
 
     function c_gethostname(name, length) result(status) bind(c, name='gethostname')
       import :: c_char, c_int, c_long
+      implicit none (type, external)
       character(kind=c_char), intent(out) :: name(*)
       integer(c_long), value :: length
       integer(c_int) :: status

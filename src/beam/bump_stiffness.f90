@@ -12,7 +12,8 @@ contains
   !> $$ K = \frac{E t^3}{2 (1 - \nu^2) l^3 s} $$
   !>
   !> Source: [WalowitAnno1975], as used by [Heshmat1983].
-  elemental function walowit_anno_stiffness(youngs_modulus, poissons_ratio, thickness, half_length, &
+  elemental function walowit_anno_stiffness(youngs_modulus, poissons_ratio, thickness, &
+    half_length, &
                                             pitch) result(stiffness)
     real(wp), intent(in) :: youngs_modulus !! E [Pa]
     real(wp), intent(in) :: poissons_ratio !! nu [1]

@@ -1,9 +1,10 @@
 !> Film thickness between a tilted shaft and an undeformed sleeve.
 module gfb_film_gap
   use gfb_kinds, only: wp
+  use gfb_film_geometry, only: film_shape, film_nodes, film_points
   implicit none (type, external)
   private
-  public :: rigid_gap
+  public :: rigid_gap, rigid_gap_excess
 
 contains
 
@@ -28,4 +29,33 @@ contains
     gap = clearance + (eccentricity_x + axial*tilt_y)*cos(angle) &
       + (eccentricity_y - axial*tilt_x)*sin(angle)
   end function rigid_gap
+
+  !> What the rigid gap at an element's Gauss points has beyond the bilinear one of its nodal
+  !> values.
+  !>
+  !> The gap is linear in eccentricity and tilt, so this gives the excess of
+  !> \( \cos\theta, \sin\theta, z\cos\theta, z\sin\theta \), to be multiplied with
+  !> \( e_x, e_y, \phi_y, -\phi_x \).
+  pure function rigid_gap_excess(angle, axial) result(excess)
+    real(wp), intent(in) :: angle(film_nodes) !! theta of the nodes [rad]
+    real(wp), intent(in) :: axial(film_nodes) !! z of the nodes [m]
+    real(wp) :: excess(4, film_points)        !! [1], [1], [m], [m]
+    integer :: point
+
+    do point = 1, film_points
+      associate (shape => film_shape(:, point))
+        excess(:, point) = terms(dot_product(shape, angle), dot_product(shape, axial)) - &
+          matmul(reshape([terms(angle(1), axial(1)), terms(angle(2), axial(2)), &
+                          terms(angle(3), axial(3)), terms(angle(4), axial(4))], [4, 4]), shape)
+      end associate
+    end do
+  end function rigid_gap_excess
+
+  !> What eccentricity and tilt are multiplied with in the gap.
+  pure function terms(angle, axial) result(term)
+    real(wp), intent(in) :: angle !! theta [rad]
+    real(wp), intent(in) :: axial !! z [m]
+    real(wp) :: term(4)
+    term = [cos(angle), sin(angle), axial*cos(angle), axial*sin(angle)]
+  end function terms
 end module gfb_film_gap

@@ -53,24 +53,27 @@ contains
 
   !> Drag of the film on the shaft's surface, Couette and pressure parts.
   !>
-  !> $$ D = \int \Bigl( \frac{2 \mu U}{h} + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr) d\Omega $$
+  !> $$ D = \int \Bigl( \frac{2 \mu U}{h} + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr)
+  !> d\Omega $$
   !>
   !> It is the shear at \( y = h \) of the velocity between a resting surface and one that moves
   !> with \( 2 U \); positive against the motion.
-  pure function film_friction(geometry, flow, pressure, gap) result(drag)
+  pure function film_friction(geometry, flow, pressure, gap, excess) result(drag)
     type(film_geometry_type), intent(in) :: geometry
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: pressure(film_nodes) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(film_nodes)      !! at the nodes [m]
+    real(wp), intent(in) :: excess(film_points)  !! of the gap over the bilinear one [m]
     real(wp) :: drag                             !! [N]
     real(wp) :: h
     integer :: point
 
     drag = 0.0_wp
     do point = 1, film_points
-      h = dot_product(film_shape(:, point), gap)
+      h = dot_product(film_shape(:, point), gap) + excess(point)
       drag = drag + geometry%area(point)*(2.0_wp*flow%viscosity*flow%entraining_speed/h &
-                                          + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), pressure))
+                                          + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), &
+                                          pressure))
     end do
   end function film_friction
 

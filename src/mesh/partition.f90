@@ -14,6 +14,7 @@ module gfb_partition
                               part_weight, options, cut, element_part, node_part) result(status) &
       bind(c, name='METIS_PartMeshDual')
       import :: c_int, c_ptr
+      implicit none (type, external)
       integer(c_int), intent(in) :: elements, nodes, common, parts
       integer(c_int), intent(in) :: pointer(*), node(*)
       type(c_ptr), value :: weight, node_size, part_weight, options

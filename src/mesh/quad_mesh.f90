@@ -11,15 +11,20 @@ module gfb_quad_mesh
     integer, allocatable :: nodes(:)
   end type node_set_type
 
-  !> A surface mesh. Positions are (x, v, z): along the shaft's motion, towards the shaft, along the axis.
+  !> A surface mesh. Positions are (x, v, z): along the shaft's motion, towards the shaft, along
+  !> the axis.
   type, public :: quad_mesh_type
     real(wp), allocatable :: position(:, :)      !! (3, nodes) on the mid-surface [m]
-    integer, allocatable :: element_nodes(:, :)  !! (4, elements), counter-clockwise seen from the shaft
-    real(wp), allocatable :: director(:, :, :)   !! (3, 4, elements) unit normals; an element's own at kinks
-    real(wp), allocatable :: axis_1(:, :)        !! (3, nodes) unit rotation axis along the bearing's axis
+    !> (4, elements), counter-clockwise seen from the shaft
+    integer, allocatable :: element_nodes(:, :)
+    !> (3, 4, elements) unit normals; an element's own at kinks
+    real(wp), allocatable :: director(:, :, :)
+    !> (3, nodes) unit rotation axis along the bearing's axis
+    real(wp), allocatable :: axis_1(:, :)
     real(wp), allocatable :: axis_2(:, :)        !! (3, nodes) unit rotation axis across it
     type(node_set_type), allocatable :: sets(:)
-    integer :: rows = 0                          !! nodes of a station; numbers run along stations first
+    !> nodes of a station; numbers run along stations first
+    integer :: rows = 0
     logical :: half = .false.                    !! z >= 0 only
   end type quad_mesh_type
 

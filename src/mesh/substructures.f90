@@ -36,7 +36,8 @@ contains
     piece%retained = is_retained(piece%nodes)
   end function substructure
 
-  !> Numbers the kinds of pieces: those that a translation makes the same, with the same supports inside.
+  !> Numbers the kinds of pieces: those that a translation makes the same, with the same supports
+  !> inside.
   !> Supports at retained nodes do not count.
   pure subroutine find_kinds(mesh, fixed, pieces)
     type(quad_mesh_type), intent(in) :: mesh
@@ -77,7 +78,8 @@ contains
     real(wp) :: shift(3), extent
     integer :: i
 
-    congruent = size(one%nodes) == size(other%nodes) .and. size(one%elements) == size(other%elements)
+    congruent = size(one%nodes) == size(other%nodes) .and. &
+      size(one%elements) == size(other%elements)
     if (.not. congruent) return
     congruent = all(one%retained .eqv. other%retained)
     if (.not. congruent) return
@@ -87,9 +89,11 @@ contains
     shift = mesh%position(:, other%nodes(1)) - mesh%position(:, one%nodes(1))
     extent = maxval(maxval(mesh%position(:, one%nodes), 2) - minval(mesh%position(:, one%nodes), 2))
     do i = 1, size(one%nodes)
-      congruent = all(abs(mesh%position(:, other%nodes(i)) - mesh%position(:, one%nodes(i)) - shift) &
+      congruent = all(abs(mesh%position(:, other%nodes(i)) - mesh%position(:, one%nodes(i)) &
+        - shift) &
                       <= congruence*extent) .and. &
-        all(abs(mesh%axis_1(:, other%nodes(i)) - mesh%axis_1(:, one%nodes(i))) <= congruence) .and. &
+        all(abs(mesh%axis_1(:, other%nodes(i)) - mesh%axis_1(:, &
+        one%nodes(i))) <= congruence) .and. &
         all(abs(mesh%axis_2(:, other%nodes(i)) - mesh%axis_2(:, one%nodes(i))) <= congruence)
       if (.not. congruent) return
     end do

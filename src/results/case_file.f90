@@ -24,7 +24,8 @@ contains
   !> Writes the file under its temporary name.
   !>
   !> Fails when it cannot be written.
-  subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, provenance, &
+  subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, &
+    provenance, &
                              summary, history, arrays, file, error)
     character(len=*), intent(in) :: path
     integer, intent(in) :: communicator, information !! MPI's
@@ -61,7 +62,8 @@ contains
         call file%need_group(one%path(:index(one%path(2:), '/')))
         call file%need_group(one%path(:index(one%path, '/', back=.true.) - 1))
         mine = merge(size(one%values, 2), 0, file%first_rank)
-        call file%put_block(one%path, one%values(:, :mine), 0, size(one%values, 2), one%unit, one%meaning)
+        call file%put_block(one%path, one%values(:, :mine), 0, size(one%values, 2), one%unit, &
+          one%meaning)
       end associate
     end do
   end subroutine write_arrays

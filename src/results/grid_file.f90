@@ -1,4 +1,5 @@
-!> A surface of quadrilaterals with fields as a VTKHDF unstructured grid, which ParaView opens as it is.
+!> A surface of quadrilaterals with fields as a VTKHDF unstructured grid, which ParaView opens as
+!> it is.
 !>
 !> The grid is one piece with global numbers, whatever the ranks: each rank hands in consecutive
 !> points and cells.
@@ -106,7 +107,8 @@ contains
     call file%put_byte_block(group//'/Types', types, first - 1, grid%cells, &
                              'VTK cell types, 9: quadrilateral')
     offsets_end = merge(last + 1, last, rank == ranks - 1)
-    call file%put_long_block(group//'/Offsets', [(int(corners, long)*(i - 1), i=first, offsets_end)], &
+    call file%put_long_block(group//'/Offsets', [(int(corners, long)*(i - 1), i=first, &
+      offsets_end)], &
                              first - 1, grid%cells + 1, 'where each cell begins in Connectivity')
   end subroutine write_grid
 

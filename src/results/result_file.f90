@@ -192,7 +192,8 @@ contains
     real(wp), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = reshape(block, [size(block)])
-    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), size(block, 1), &
+    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), size(block, &
+      1), &
                          size(block, 2), offset, total, unit, meaning)
   end subroutine put_block
 
@@ -209,7 +210,8 @@ contains
 
     buffer(:size(block)) = block
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
-    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, total, '1', meaning)
+    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, total, '1', &
+      meaning)
   end subroutine put_long_block
 
   !> Adds unsigned bytes of which each rank has consecutive entries.
@@ -228,7 +230,8 @@ contains
   end subroutine put_byte_block
 
   !> Creates a dataset and writes each rank's part of it.
-  subroutine write_part(self, path, stored, held, buffer, components, entries, offset, total, unit, &
+  subroutine write_part(self, path, stored, held, buffer, components, entries, offset, total, &
+    unit, &
                         meaning)
     class(result_file_type), intent(inout) :: self
     character(len=*), intent(in) :: path

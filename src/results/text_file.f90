@@ -7,7 +7,8 @@ module gfb_text_file
   public :: write_text_file, folder_is_writable
 
   character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
-  character(len=*), parameter :: trial = '.gfb-trial' !! a file that is written to see whether one can
+  !> a file that is written to see whether one can
+  character(len=*), parameter :: trial = '.gfb-trial'
 
 contains
 
@@ -18,16 +19,19 @@ contains
     character(len=*), intent(in) :: path
     character(len=*), intent(in) :: words !! with its line ends
     type(error_type), allocatable, intent(out) :: error
-    integer :: unit, status, closed
+    integer :: unit, status
+    logical :: done
 
     open (newunit=unit, file=path//unfinished, access='stream', form='unformatted', &
           status='replace', action='write', iostat=status)
-    if (status == 0) then
+    done = status == 0
+    if (done) then
       write (unit, iostat=status) words
-      close (unit, iostat=closed)
-      status = max(abs(status), abs(closed))
+      done = status == 0
+      close (unit, iostat=status)
+      done = done .and. status == 0
     end if
-    if (status /= 0) then
+    if (.not. done) then
       call fail(error, path//': the file cannot be written', status_machine)
     else if (.not. rename_file(path//unfinished, path)) then
       call fail(error, path//': the file cannot be put in its place', status_machine)
@@ -42,6 +46,8 @@ contains
 
     open (newunit=unit, file=folder//'/'//trial, status='replace', action='write', iostat=status)
     writable = status == 0
-    if (writable) close (unit, status='delete', iostat=status)
+    if (.not. writable) return
+    close (unit, status='delete', iostat=status)
+    writable = status == 0
   end function folder_is_writable
 end module gfb_text_file

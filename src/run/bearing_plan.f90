@@ -17,8 +17,10 @@ module gfb_bearing_plan
   private
   public :: plan_bearing
 
-  !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings, Lambda 0.1
-  !> to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error; above it both
+  !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
+  !> Lambda 0.1
+  !> to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error; above it
+  !> both
   !> have the same error in the force, but Galerkin misses the smallest pressure by percents.
   real(wp), parameter :: galerkin_limit = 2.0_wp
   real(wp), parameter :: bytes_a_film_node = 4.0e3_wp !! measured with MUMPS on film meshes [B]
@@ -64,7 +66,9 @@ contains
       source = 'by Walowit-Anno from &bump_foil'
       if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
       pressure = 'local pressure'
-      if (scene%model%foundation_pressure == foundation_pressure_axial_mean) pressure = 'axial mean pressure'
+      if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
+        pressure = 'axial mean pressure'
+      end if
       call log%line('foil: elastic foundation, '// &
                     text(foundation_stiffness(scene%model, scene%bump_foil)*1.0e-9_wp, 5)// &
                     ' N/mm^3 '//source//', '//pressure)
@@ -105,13 +109,16 @@ contains
     plan%upwind = scene%model%film_scheme == film_scheme_supg
     plan%may_upwind = scene%model%film_scheme == film_scheme_auto
     if (.not. plan%may_upwind) then
-      call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))//', as film_scheme asks')
+      call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', &
+        plan%upwind))//', as film_scheme asks')
       return
     end if
     peclet = concentric_peclet(scene, plan)
     plan%upwind = peclet > galerkin_limit
-    call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))//', because the cell Peclet '// &
-                  'number of the concentric film is '//text(peclet, 3)//trim(merge(' > ', ' < ', plan%upwind))// &
+    call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', &
+      plan%upwind))//', because the cell Peclet '// &
+                  'number of the concentric film is '//text(peclet, 3)//trim(merge(' > ', ' < ', &
+                  plan%upwind))// &
                   ' '//text(galerkin_limit))
   end subroutine choose_scheme
 

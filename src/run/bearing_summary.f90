@@ -41,14 +41,17 @@ contains
                             'e_y, of the sleeve relative to the shaft')]
     if (norm2(answer%eccentricity) > no_direction*clearance .and. &
         norm2(answer%force(1:2)) > no_direction*force_scale) then
-      call add_quantity(list, number_quantity('attitude_angle', attitude_angle(answer)*degrees, 'deg', &
-                                              'from the load to the thinnest film, positive in +theta'))
+      call add_quantity(list, number_quantity('attitude_angle', attitude_angle(answer)*degrees, &
+        'deg', &
+                              'from the load to the thinnest film, positive in +theta'))
     end if
     list = [list, &
             number_quantity('force_x', answer%force(1), 'N', 'film force on the sleeve, x'), &
             number_quantity('force_y', answer%force(2), 'N', 'film force on the sleeve, y'), &
-            number_quantity('torque_x', answer%force(3), 'N m', 'film torque on the shaft about x'), &
-            number_quantity('torque_y', answer%force(4), 'N m', 'film torque on the shaft about y'), &
+            number_quantity('torque_x', answer%force(3), 'N m', &
+            'film torque on the shaft about x'), &
+            number_quantity('torque_y', answer%force(4), 'N m', &
+            'film torque on the shaft about y'), &
             number_quantity('torque_x_without_suction', answer%force_without_suction(3), 'N m', &
                             'torque_x of the pressure above ambient'), &
             number_quantity('torque_y_without_suction', answer%force_without_suction(4), 'N m', &
@@ -62,8 +65,10 @@ contains
                             'smallest film thickness at z = 0'), &
             number_quantity('minimum_gap_edge', answer%minimum_gap_edge, 'm', &
                             'smallest film thickness at the bearing edges'), &
-            number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', 'largest absolute pressure'), &
-            number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', 'smallest absolute pressure'), &
+            number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', &
+            'largest absolute pressure'), &
+            number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', &
+            'smallest absolute pressure'), &
             number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
                             'largest cell Peclet number of the film')]
   end function answer_quantities
@@ -74,10 +79,13 @@ contains
     type(quantity_type), allocatable :: list(:)
 
     list = [count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'), &
-            count_quantity('newton_iterations', cost%newton_iterations, 'iterations of all solves'), &
-            count_quantity('factorizations', cost%factorizations, 'matrix factorizations of all solves'), &
+            count_quantity('newton_iterations', cost%newton_iterations, &
+            'iterations of all solves'), &
+            count_quantity('factorizations', cost%factorizations, &
+            'matrix factorizations of all solves'), &
             number_quantity('wall_time', cost%wall_time, 's', 'from start to answer'), &
-            number_quantity('peak_memory', cost%peak_memory, 'B', 'sum over ranks of the largest held')]
+            number_quantity('peak_memory', cost%peak_memory, 'B', &
+            'sum over ranks of the largest held')]
   end function cost_quantities
 
   !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
@@ -110,12 +118,14 @@ contains
                   text(answer%eccentricity(2)/clearance, 5))
     call log%line('attitude angle   '//engineering_text(attitude_angle(answer), 'deg', degrees))
     call log%line('film force       '//pair(answer%force(1:2), 'N', 1.0_wp))
-    call log%line('film torque      '//pair(answer%force(3:4), 'N m', 1.0_wp)//'   without suction '// &
+    call log%line('film torque      '//pair(answer%force(3:4), 'N m', &
+      1.0_wp)//'   without suction '// &
                   pair(answer%force_without_suction(3:4), 'N m', 1.0_wp))
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                   '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
                   ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
-    call log%line('pressure         '//engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
+    call log%line('pressure         '//engineering_text(answer%minimum_pressure, 'to', &
+      1.0e-6_wp)//' '// &
                   engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
     call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
                   '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
@@ -123,7 +133,8 @@ contains
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
                   ' factorizations, '//text(cost%wall_time, 3)//' s, '// &
-                  text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '//text(ranks)//' rank(s), BLAS '//blas)
+                  text(cost%peak_memory*1.0e-6_wp, &
+                  3)//' MB, '//text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
 
   !> Two numbers with their unit.

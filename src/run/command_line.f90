@@ -18,7 +18,8 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=9), parameter :: options(7) = [character(len=9) :: '--check', '--output', '--help', &
+  character(len=9), parameter :: options(7) = [character(len=9) :: '--check', '--output', &
+    '--help', &
                                                '--version', '--keys', '--quiet', '--petsc']
 
 contains
@@ -109,9 +110,9 @@ contains
     character(len=:), allocatable :: words
     character(len=1), parameter :: next = new_line('a')
 
-    words = 'usage: gfb [options] CASE.nml          (or: mpiexec -n RANKS gfb [options] CASE.nml)'//next// &
+    words = 'usage: gfb [options] CASE.nml   (or: mpiexec -n RANKS gfb ...)'//next// &
       next// &
-      'Computes a bump-type gas foil bearing: shaft position, film, foil deflection, torque.'//next// &
+      'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
@@ -121,8 +122,9 @@ contains
       '  --help          this text'//next// &
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
       next// &
-      'results: CASE.summary, CASE.h5, CASE.film.vtkhdf, CASE.used.nml; CASE.unconverged.* where no'//next// &
-      'answer was found'//next// &
-      'exit status: 0 done, 1 the input is wrong, 2 did not converge, 3 a file or the machine failed'
+      'results: CASE.summary, .h5, .used.nml, and surfaces as .<part>.vtkhdf;'//next// &
+      'CASE.unconverged.* where no answer was found'//next// &
+      'exit status: 0 done, 1 the input is wrong, 2 did not converge,'//next// &
+      '             3 a file or the machine failed'
   end function help_text
 end module gfb_command_line

@@ -12,7 +12,8 @@ module gfb_foil_grid
   private
   public :: create_foil_grid, add_displacement, add_stress
 
-  real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp] !! sign of (u, v, w) in the other half
+  !> sign of (u, v, w) in the other half
+  real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp]
 
 contains
 
@@ -84,9 +85,11 @@ contains
     integer :: first, last, i
 
     do i = 1, size(foil%my_elements)
-      displacement = reshape(moved(:, foil%local_node(foil%mesh%element_nodes(:, foil%my_elements(i)))), &
+      displacement = reshape(moved(:, foil%local_node(foil%mesh%element_nodes(:, &
+        foil%my_elements(i)))), &
                              [shell_unknowns])
-      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), foil%section, displacement, &
+      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), foil%section, &
+        displacement, &
                         0.0_wp, 0.0_wp, stress, error)
       value(:, i) = [stress%membrane, stress%bending, stress%von_mises(lower_face), &
                      stress%von_mises(upper_face)]
@@ -97,7 +100,8 @@ contains
     call add_grid_field(grid%cell_field, 'membrane_stress', 'Pa', &
                         'at the centre: along the axis, across it, shear', block(1:3, :))
     call add_grid_field(grid%cell_field, 'bending_stress', 'Pa', &
-                        'half of upper less lower face: along the axis, across it, shear', block(4:6, :))
+                        'half of upper less lower face: along the axis, across it, shear', &
+                        block(4:6, :))
     call add_grid_field(grid%cell_field, 'von_mises_lower', 'Pa', 'von Mises stress, sleeve side', &
                         block(7:7, :))
     call add_grid_field(grid%cell_field, 'von_mises_upper', 'Pa', 'von Mises stress, shaft side', &

@@ -25,7 +25,8 @@ contains
     strip = scene%general%analysis == analysis_strip
     call log%heading('what the scene needs')
     if (strip) then
-      call log%line('bump strip of '//text(scene%bump_foil%bumps)//' bumps as shells, corner lines held in v')
+      call log%line('bump strip of '//text(scene%bump_foil%bumps)// &
+                    ' bumps as shells, corner lines held in v')
     else
       call log%line('modes of the '//trim(part_words(scene%modes%part))//' as shells')
     end if

@@ -17,8 +17,8 @@ module gfb_eigenmodes
 
   !> Modes in rising order.
   type, public :: modes_type
-    real(wp), allocatable :: eigenvalue(:) !! omega squared [1/s2]
     Vec, allocatable :: shape(:)           !! normalised by the mass
+    real(wp), allocatable :: eigenvalue(:) !! omega squared [1/s2]
   end type modes_type
 
 contains

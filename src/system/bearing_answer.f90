@@ -8,7 +8,8 @@ module gfb_bearing_answer
   private
   public :: bearing_answer, film_block, full_rows
 
-  real(wp), parameter :: rough_step = 0.1_wp !! change of the gap along a cell that counts as rough [1]
+  !> change of the gap along a cell that counts as rough [1]
+  real(wp), parameter :: rough_step = 0.1_wp
 
   !> Numbers of one state.
   type, public :: bearing_answer_type
@@ -42,7 +43,7 @@ contains
     pressure = unknown(:size(gap))
     associate (film => bearing%film, whole => bearing%whole)
       total = sum_over_ranks([film%force(pressure), film%force_without_suction(pressure), &
-                              film%drag(pressure, gap)])
+                              film%drag(pressure, gap, bearing%position(unknown))])
       largest(1) = -minval(gap)
       largest(2) = -film%midplane_gap(gap)
       largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
@@ -101,7 +102,8 @@ contains
       wanted(i - first + 1) = station*bearing%whole%rows() + row
     end do
     column = reshape(pack(value, bearing%mesh%owned), [1, count(bearing%mesh%owned)])
-    column = fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, bearing%mesh%owned), &
+    column = fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, &
+      bearing%mesh%owned), &
                            column, wanted)
     block = column(1, :)
   end subroutine film_block

@@ -51,6 +51,7 @@ module gfb_bearing_system
     procedure :: set_unknowns
     procedure :: local_size
     procedure :: gap => bearing_gap
+    procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
     procedure :: smallest_gap
     procedure :: reaction
@@ -263,7 +264,8 @@ contains
     logical, intent(out) :: valid
 
     real(wp) :: unknown(self%local_size()), value(self%local_size())
-    real(wp) :: gap(size(self%mesh%mesh_node)), force(4)
+    real(wp) :: gap(size(self%mesh%mesh_node)), force(film_forces)
+    type(operating_point_type) :: point
     integer :: nodes, shaft
     PetscErrorCode :: ierr
 
@@ -272,9 +274,10 @@ contains
     call get_local(self, state, unknown)
     gap = self%gap(unknown)
     value = 0.0_wp
-    valid = positive(gap) .and. positive(unknown(:nodes))
+    point = self%position(unknown)
+    valid = self%film%is_open(unknown(:nodes), gap, point)
     if (valid) then
-      call self%film%add_residual(unknown(:nodes), gap, value)
+      call self%film%add_residual(unknown(:nodes), gap, point, value)
       where (self%film%fixed .and. self%mesh%owned)
         value(:nodes) = unknown(:nodes) - self%film%ambient_pressure
       end where
@@ -308,7 +311,7 @@ contains
     call get_local(self, state, unknown)
     gap = self%gap(unknown)
     PetscCallA(MatZeroEntries(self%jacobian, ierr))
-    call add_film_jacobian(self, unknown(:size(gap)), gap)
+    call add_film_jacobian(self, unknown(:size(gap)), gap, self%position(unknown))
     call self%foil%add_jacobian(unknown, self%jacobian)
     if (self%floats) call add_shaft_jacobian(self)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -317,13 +320,15 @@ contains
   end subroutine linearise_bearing
 
   !> Film rows: pressures, what moves the foil, and the shaft.
-  subroutine add_film_jacobian(self, pressure, gap)
+  subroutine add_film_jacobian(self, pressure, gap, point)
     class(bearing_system_type), intent(inout) :: self
     real(wp), intent(in) :: pressure(:) !! at this rank's nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at this rank's nodes [m]
+    type(operating_point_type), intent(in) :: point
 
     integer, parameter :: columns = 2*film_nodes + shaft_unknowns
     real(wp) :: by_pressure(film_nodes, film_nodes), by_gap(film_nodes, film_nodes)
+    real(wp) :: by_eccentricity(film_nodes, shaft_unknowns)
     real(wp) :: block(columns, film_nodes) ! a row of the matrix in each column, as PETSc reads it
     PetscInt :: row(film_nodes), column(columns)
     integer :: element, b, node
@@ -332,7 +337,8 @@ contains
     if (self%floats) column(2*film_nodes + 1:) = [(int(self%first_shaft + b, pint), b=0, 1)]
     do element = 1, size(self%film%element_nodes, 2)
       associate (nodes => self%film%element_nodes(:, element))
-        call self%film%element_jacobian(element, pressure, gap, by_pressure, by_gap)
+        call self%film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
+                                        by_eccentricity)
         block = 0.0_wp
         do b = 1, film_nodes
           node = nodes(b)
@@ -346,8 +352,7 @@ contains
             block(film_nodes + b, :) = self%foil%rate(node)*by_gap(:, b)
           end if
         end do
-        block(2*film_nodes + 1, :) = matmul(by_gap, cos(self%film%angle(nodes)))
-        block(2*film_nodes + 2, :) = matmul(by_gap, sin(self%film%angle(nodes)))
+        block(2*film_nodes + 1:, :) = transpose(by_eccentricity)
       end associate
       call add_block(self%jacobian, row, column, block)
     end do
@@ -398,12 +403,19 @@ contains
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp) :: gap(size(self%mesh%mesh_node))
+
+    gap = self%film%gap(self%position(unknown), self%foil%deflection(unknown))
+  end function bearing_gap
+
+  !> The operating point with the eccentricity that is found or held.
+  pure function bearing_position(self, unknown) result(point)
+    class(bearing_system_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! local, in SI
     type(operating_point_type) :: point
 
     point = self%point
     if (self%floats) point%eccentricity = unknown(self%first_shaft + 1:self%first_shaft + 2)
-    gap = self%film%gap(point, self%foil%deflection(unknown))
-  end function bearing_gap
+  end function bearing_position
 
   !> Eccentricity at the present state, found or held [m].
   function bearing_eccentricity(self) result(eccentricity)
@@ -523,13 +535,6 @@ contains
     values = value
     PetscCallA(GFB_VecRestoreArray(self%local, values, ierr))
   end subroutine fill_local
-
-  !> Whether all numbers are greater than zero; not so for NaN.
-  pure function positive(numbers) result(all_positive)
-    real(wp), intent(in) :: numbers(:)
-    logical :: all_positive
-    all_positive = all(numbers > 0.0_wp)
-  end function positive
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_bearing(self)

@@ -4,7 +4,7 @@ module gfb_gas_film
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_nodes, film_points, &
                                film_shape
-  use gfb_film_gap, only: rigid_gap
+  use gfb_film_gap, only: rigid_gap, rigid_gap_excess
   use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
   use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
   use gfb_film_mesh, only: film_mesh_type
@@ -27,8 +27,11 @@ module gfb_gas_film
     real(wp), allocatable :: corner_angle(:, :)   !! theta of the elements' nodes, unwound [rad]
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
+    real(wp), allocatable :: gap_excess(:, :, :)  !! (4, points, elements) see `rigid_gap_excess`
   contains
     procedure :: gap => film_node_gap
+    procedure :: excess => film_excess
+    procedure :: is_open
     procedure :: add_residual => film_residual
     procedure :: element_jacobian => film_element_jacobian
     procedure :: force => film_node_force
@@ -87,6 +90,7 @@ contains
     allocate (film%corner_angle(film_nodes, size(film%element_nodes, 2)))
     allocate (film%geometry(size(film%element_nodes, 2)))
     allocate (film%force_weight(film_forces, size(film%angle)), source=0.0_wp)
+    allocate (film%gap_excess(4, film_points, size(film%element_nodes, 2)))
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element), angle => film%corner_angle(:, element))
         angle = film%angle(nodes)
@@ -97,6 +101,7 @@ contains
         call film_geometry(position, film%geometry(element), error)
         if (allocated(error)) return
         call film_force_weights(film%geometry(element), angle, film%axial(nodes), weight)
+        film%gap_excess(:, :, element) = rigid_gap_excess(angle, film%axial(nodes))
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
@@ -114,11 +119,40 @@ contains
                                  point%eccentricity(2), point%tilt(1), point%tilt(2))
   end function film_node_gap
 
+  !> What the rigid gap at an element's Gauss points has beyond the bilinear one [m].
+  pure function film_excess(self, element, point) result(excess)
+    class(gas_film_type), intent(in) :: self
+    integer, intent(in) :: element
+    type(operating_point_type), intent(in) :: point
+    real(wp) :: excess(film_points)
+
+    excess = matmul([point%eccentricity, point%tilt(2), -point%tilt(1)], self%gap_excess(:, :, &
+      element))
+  end function film_excess
+
+  !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.
+  pure function is_open(self, pressure, gap, point) result(open)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point
+    logical :: open
+    integer :: element
+
+    open = all(pressure > 0.0_wp) .and. all(gap > 0.0_wp)
+    do element = 1, size(self%element_nodes, 2)
+      if (.not. open) exit
+      open = all(matmul(gap(self%element_nodes(:, element)), film_shape) + self%excess(element, &
+        point) > 0.0_wp)
+    end do
+  end function is_open
+
   !> Adds the film's equations of this rank's elements; none at nodes of given pressure.
-  pure subroutine film_residual(self, pressure, gap, residual)
+  pure subroutine film_residual(self, pressure, gap, point, residual)
     class(gas_film_type), intent(in) :: self
     real(wp), intent(in) :: pressure(:)    !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)         !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point
     real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
     real(wp), parameter :: no_source(film_nodes) = 0.0_wp
     real(wp) :: element_residual(film_nodes)
@@ -127,26 +161,34 @@ contains
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
         call reynolds_residual(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
-                               no_source, element_residual)
+                               self%excess(element, point), no_source, element_residual)
         residual(nodes) = residual(nodes) + element_residual
       end associate
     end do
     where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
   end subroutine film_residual
 
-  !> Derivatives of one element's equations by pressure and gap.
-  pure subroutine film_element_jacobian(self, element, pressure, gap, by_pressure, by_gap)
+  !> Derivatives of one element's equations by nodal pressures and deflections, and by (e_x, e_y).
+  pure subroutine film_element_jacobian(self, element, pressure, gap, point, by_pressure, by_gap, &
+                                        by_eccentricity)
     class(gas_film_type), intent(in) :: self
     integer, intent(in) :: element
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
+    type(operating_point_type), intent(in) :: point
     real(wp), intent(out) :: by_pressure(film_nodes, film_nodes) !! [m3/s]
     real(wp), intent(out) :: by_gap(film_nodes, film_nodes)      !! [Pa m2/s]
+    real(wp), intent(out) :: by_eccentricity(film_nodes, 2)      !! [Pa m2/s]
     real(wp), parameter :: no_source(film_nodes) = 0.0_wp
+    real(wp) :: by_excess(film_nodes, film_points)
 
     associate (nodes => self%element_nodes(:, element))
       call reynolds_jacobian(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
-                             no_source, by_pressure, by_gap)
+                             self%excess(element, point), no_source, by_pressure, by_gap, by_excess)
+      by_eccentricity(:, 1) = matmul(by_gap, cos(self%angle(nodes)))
+      by_eccentricity(:, 2) = matmul(by_gap, sin(self%angle(nodes)))
+      by_eccentricity = by_eccentricity + matmul(by_excess, transpose(self%gap_excess(1:2, :, &
+        element)))
     end associate
   end subroutine film_element_jacobian
 
@@ -169,18 +211,21 @@ contains
     force = 0.0_wp
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
-        force = force + self%copies*film_force(self%geometry(element), self%corner_angle(:, element), &
-                                               self%axial(nodes), pressure(nodes) - self%ambient_pressure)
+        force = force + self%copies*film_force(self%geometry(element), self%corner_angle(:, &
+          element), &
+                                               self%axial(nodes), pressure(nodes) &
+                                               - self%ambient_pressure)
       end associate
     end do
     if (self%copies > 1.0_wp) force(3:4) = 0.0_wp
   end function force_without_suction
 
   !> This rank's share of the drag on the shaft [N].
-  pure function film_drag(self, pressure, gap) result(drag)
+  pure function film_drag(self, pressure, gap, point) result(drag)
     class(gas_film_type), intent(in) :: self
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point
     real(wp) :: drag
     integer :: element
 
@@ -188,7 +233,8 @@ contains
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
         drag = drag + self%copies* &
-          film_friction(self%geometry(element), self%flow, pressure(nodes), gap(nodes))
+          film_friction(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
+                        self%excess(element, point))
       end associate
     end do
   end function film_drag
