@@ -104,12 +104,12 @@ contains
       operation = operation_at(scene%operation, scene%sweep, 1)
       first = 2
     end if
-    begun = wall_time()
     call start_bearing(scene, plan, operating_point(operation), &
                        newton_settings_type(scene%solver%residual_tolerance, scene%solver%step_tolerance, &
                                             scene%solver%maximum_iterations), &
                        path, log, bearing, newton, report, error)
     if (allocated(error)) return
+    begun = wall_time()
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
@@ -129,7 +129,8 @@ contains
       converged = report%converged
       if (.not. converged) call explain(log, scene, bearing, report)
       if (converged) call add_row(scene, bearing, point, converged, history)
-      call show_progress(log, scene%sweep, point, begun)
+      if (converged) call show_progress(log, scene%sweep, point, begun)
+      if (point == 1) begun = wall_time()
     end do
   end subroutine solve_scene
 
@@ -197,18 +198,22 @@ contains
     history = [history, row]
   end subroutine add_row
 
-  !> A line a point, with the time that is left.
+  !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
   subroutine show_progress(log, sweep, point, begun)
     type(run_log_type), intent(in) :: log
     type(sweep_case_type), intent(in) :: sweep
     integer, intent(in) :: point
-    real(wp), intent(in) :: begun !! when the sweep began [s]
-    real(wp) :: gone
+    real(wp), intent(in) :: begun !! when the first point was there [s]
+    character(len=:), allocatable :: line
+    integer :: left
 
-    gone = wall_time() - begun
-    call log%line('point '//text(point)//' of '//text(size(sweep%values))//': '//sweep_name(sweep)//' = '// &
-                  text(sweep%values(point))//' '//sweep_unit(sweep)//', '//text(gone, 3)//' s gone, about '// &
-                  text(gone/real(point, wp)*real(size(sweep%values) - point, wp), 2)//' s left')
+    line = 'point '//text(point)//' of '//text(size(sweep%values))//': '//sweep_name(sweep)//' = '// &
+      text(sweep%values(point))//' '//sweep_unit(sweep)
+    left = size(sweep%values) - point
+    if (point > 1 .and. left > 0) then
+      line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'
+    end if
+    call log%line(line)
   end subroutine show_progress
 
   !> What a scene cost so far.
