@@ -13,6 +13,7 @@ module gfb_continuation
   public :: follow_path
 
   integer, parameter :: easy_iterations = 6          !! a step that took no more of them is doubled
+  real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
   real(wp), parameter :: closing_gap = 0.02_wp       !! a gap this small ends paths, over the clearance [1]
   real(wp), parameter :: micrometres = 1.0e6_wp      !! in a metre
 
@@ -51,7 +52,7 @@ contains
     type(operating_point_type) :: start
     type(newton_report_type) :: solved
     Vec :: here, before
-    real(wp) :: step, at_before, trial
+    real(wp) :: step, smallest, at_before, trial
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -59,7 +60,9 @@ contains
     PetscCallA(VecCopy(bearing%state, here, ierr))
     start = bearing%point
     report%reached = start
-    step = min(1.0_wp, max(first_step, settings%smallest_step))
+    ! A way that is long against its beginning needs steps that are small against the way.
+    smallest = min(settings%smallest_step, shortest_first*first_step)
+    step = min(1.0_wp, max(first_step, smallest))
     at_before = -1.0_wp
     do while (report%fraction < 1.0_wp)
       if (report%steps + report%cuts >= settings%maximum_steps) then
@@ -77,7 +80,7 @@ contains
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
         step = 0.5_wp*step
-        if (step < settings%smallest_step) exit
+        if (step < smallest) exit
         cycle
       end if
       PetscCallA(VecCopy(here, before, ierr))
