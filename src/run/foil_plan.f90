@@ -13,6 +13,11 @@ module gfb_foil_plan
   private
   public :: plan_foil
 
+  ! Memory measured with MUMPS on strips of 50 to 200 elements over the width.
+  real(wp), parameter :: bytes_an_unknown = 3.0e3_wp !! of a full strip [B]
+  real(wp), parameter :: bytes_an_entry = 35.0_wp    !! of a condensed strip's matrix [B]
+  integer, parameter :: node_unknowns = 5
+
 contains
 
   !> Chooses width and reduction, and tells the log why.
@@ -59,5 +64,37 @@ contains
         call log%line('strip: free; it has six rigid motions')
       end if
     end if
+    if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
   end subroutine plan_foil
+
+  !> Sizes of a strip and the memory they take.
+  subroutine show_sizes(scene, plan, log)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(run_log_type), intent(in) :: log
+    real(wp), parameter :: rounding = 1.0e-9_wp !! a flat shorter than this is none, relative
+    integer :: flats, lines, stations, rows
+    real(wp) :: unknowns, bytes
+
+    associate (foil => scene%bump_foil, mesh => scene%mesh)
+      flats = mesh%flat_elements
+      lines = 3*foil%bumps + 1
+      if (foil%pitch <= 2.0_wp*foil%half_length*(1.0_wp + rounding)) then
+        flats = 0
+        lines = 2*foil%bumps + 1
+      end if
+      stations = foil%bumps*(mesh%arc_elements + flats) + 1
+      rows = merge(mesh%axial_elements/2, mesh%axial_elements, plan%half) + 1
+    end associate
+    if (plan%reduced) then
+      unknowns = real(node_unknowns*lines, wp)*rows
+      bytes = unknowns*(3*node_unknowns*rows)*bytes_an_entry ! a line, and the two beside it
+    else
+      unknowns = real(node_unknowns*stations, wp)*rows
+      bytes = unknowns*bytes_an_unknown
+    end if
+    call log%line('strip mesh: '//text(stations)//' x '//text(rows)//' nodes solved, about '// &
+                  text(nint(unknowns))//' unknowns before supports, about '// &
+                  text(bytes*1.0e-6_wp, 2)//' MB')
+  end subroutine show_sizes
 end module gfb_foil_plan

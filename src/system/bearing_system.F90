@@ -19,11 +19,12 @@ module gfb_bearing_system
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_unknown_layout, only: unknown_layout_type, shaft_unknowns, create_layout, &
+                                create_coupled_matrix
+  use gfb_local_exchange, only: local_exchange_type, create_exchange
   implicit none (type)
   private
   public :: create_film_part, create_bearing_system, film_on_all_ranks
-
-  integer, parameter :: shaft_unknowns = 2
 
   !> The bearing at one operating point.
   type, extends(nonlinear_system_type), public :: bearing_system_type
@@ -38,12 +39,10 @@ module gfb_bearing_system
     integer :: first_shaft = 0             !! local unknowns before e_x
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp) :: force_scale = 1.0_wp       !! size of a force [N]
-    integer, private :: owned = 0          !! unknowns this rank owns
     real(wp), allocatable, private :: unknown_scale(:)  !! of the local unknowns, in SI
     real(wp), allocatable, private :: equation_scale(:) !! of the local equations, in SI
-    Vec, private :: local
-    Vec, private :: left, right
-    VecScatter, private :: ghosts
+    Vec, private :: left, right !! sizes of equations, inverted, and of unknowns
+    type(local_exchange_type), private :: exchange
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
@@ -103,116 +102,24 @@ contains
     class(foil_model_type), allocatable, intent(inout) :: foil
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
 
-    PetscInt, allocatable :: global(:)
+    type(unknown_layout_type) :: layout
+    PetscErrorCode :: ierr
 
     call move_alloc(foil, bearing%foil)
     call bearing%foil%place(size(bearing%mesh%mesh_node))
     bearing%floats = floats
     bearing%dense_rows = floats
     bearing%first_shaft = size(bearing%mesh%mesh_node) + bearing%foil%local_unknowns()
-    call number_unknowns(bearing, global)
-    call create_vectors(bearing, global)
-    call create_matrix(bearing, global)
-    call scale_unknowns(bearing)
-  end subroutine create_bearing_system
-
-  !> Global number, from 0, of every local unknown: on each rank film, foil, and last the shaft.
-  subroutine number_unknowns(bearing, global)
-    type(bearing_system_type), intent(inout) :: bearing
-    PetscInt, allocatable, intent(out) :: global(:)
-
-    integer, allocatable :: film_end(:), foil_end(:), all_end(:), both(:, :)
-    integer :: ranks, rank, owner, i
-    PetscErrorCode :: ierr
-
-    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
-    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
-    bearing%last_rank = rank == ranks - 1
-    bearing%owned = bearing%mesh%owned_unknowns + bearing%foil%owned
-    if (bearing%floats .and. bearing%last_rank) bearing%owned = bearing%owned + shaft_unknowns
-    allocate (both(2, ranks))
-    call MPI_Allgather([bearing%mesh%owned_unknowns, bearing%foil%owned], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
-    film_end = [(sum(both(1, :i)), i=0, ranks)]
-    foil_end = [(sum(both(2, :i)), i=0, ranks)]
-    all_end = film_end + foil_end
-    bearing%unknowns = all_end(ranks + 1) + merge(shaft_unknowns, 0, bearing%floats)
-
-    allocate (global(bearing%local_size()))
-    owner = 1
-    do i = 1, size(bearing%mesh%first_unknown)
-      call find_owner(film_end, bearing%mesh%first_unknown(i), owner)
-      global(i) = all_end(owner) + bearing%mesh%first_unknown(i) - film_end(owner) - 1
-    end do
-    do i = 1, bearing%foil%local_unknowns()
-      call find_owner(foil_end, bearing%foil%global_unknown(i), owner)
-      global(bearing%foil%first + i) = film_end(owner + 1) + bearing%foil%global_unknown(i) - 1
-    end do
-    if (bearing%floats) then
-      global(bearing%first_shaft + 1:) = [(int(all_end(ranks + 1) + i - 1, pint), i=1, shaft_unknowns)]
-    end if
-  end subroutine number_unknowns
-
-  !> Moves `owner` to the rank, from 1, in whose range a number lies.
-  pure subroutine find_owner(range_end, number, owner)
-    integer, intent(in) :: range_end(0:)
-    integer, intent(in) :: number   !! from 1
-    integer, intent(inout) :: owner !! where the search begins
-
-    if (number <= range_end(owner - 1)) owner = 1
-    do while (number > range_end(owner))
-      owner = owner + 1
-    end do
-  end subroutine find_owner
-
-  !> State, ghost exchange and scaling vectors.
-  subroutine create_vectors(bearing, global)
-    type(bearing_system_type), intent(inout) :: bearing
-    PetscInt, intent(in) :: global(:)
-    IS :: from
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
-    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(size(global), pint), bearing%local, ierr))
-    PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, int(size(global), pint), global, PETSC_COPY_VALUES, from, ierr))
-    PetscCallA(VecScatterCreate(bearing%state, from, bearing%local, PETSC_NULL_IS, bearing%ghosts, ierr))
-    PetscCallA(ISDestroy(from, ierr))
+    call create_layout(bearing%mesh, bearing%foil, floats, layout)
+    bearing%unknowns = layout%unknowns
+    bearing%last_rank = layout%last_rank
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(layout%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%right, ierr))
-  end subroutine create_vectors
-
-  !> Matrix with room for what each row couples: film nodes around, foil, shaft.
-  subroutine create_matrix(bearing, global)
-    type(bearing_system_type), intent(inout) :: bearing
-    PetscInt, intent(in) :: global(:)
-
-    integer, parameter :: film_row = 9 ! a node and its neighbours
-    ISLocalToGlobalMapping :: map
-    PetscInt, allocatable :: inside(:), outside(:)
-    PetscErrorCode :: ierr
-    integer :: film, foil, shaft
-
-    shaft = merge(shaft_unknowns, 0, bearing%floats)
-    film = film_row + bearing%foil%couplings + shaft
-    foil = bearing%foil%row_entries
-    allocate (inside(bearing%owned), source=int(film, pint))
-    inside(bearing%mesh%owned_unknowns + 1:bearing%mesh%owned_unknowns + bearing%foil%owned) = foil
-    if (bearing%floats .and. bearing%last_rank) inside(bearing%owned - shaft_unknowns + 1:) = bearing%owned
-    outside = inside
-    inside = min(inside, int(bearing%owned, pint))
-    if (bearing%floats .and. bearing%last_rank) then
-      outside(bearing%owned - shaft_unknowns + 1:) = bearing%unknowns - bearing%owned
-    end if
-    outside = min(outside, int(bearing%unknowns - bearing%owned, pint))
-
-    PetscCallA(MatCreate(PETSC_COMM_WORLD, bearing%jacobian, ierr))
-    PetscCallA(MatSetSizes(bearing%jacobian, int(bearing%owned, pint), int(bearing%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(bearing%jacobian, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(bearing%jacobian, 0_pint, inside, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(bearing%jacobian, 0_pint, inside, 0_pint, outside, ierr))
-    PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, int(size(global), pint), global, PETSC_COPY_VALUES, map, ierr))
-    PetscCallA(MatSetLocalToGlobalMapping(bearing%jacobian, map, map, ierr))
-    PetscCallA(ISLocalToGlobalMappingDestroy(map, ierr))
-  end subroutine create_matrix
+    call create_exchange(layout%global, bearing%state, bearing%exchange)
+    call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%jacobian)
+    call scale_unknowns(bearing)
+  end subroutine create_bearing_system
 
   !> Sizes of unknowns and equations.
   subroutine scale_unknowns(bearing)
@@ -252,8 +159,8 @@ contains
         film%copies*(whole%row_axial(whole%rows()) - whole%row_axial(1))
     end associate
     self%equation_scale(self%first_shaft + 1:) = self%force_scale
-    call put_owned(self, 1.0_wp/self%equation_scale, self%left)
-    call put_owned(self, self%unknown_scale, self%right)
+    call self%exchange%put(1.0_wp/self%equation_scale, self%left)
+    call self%exchange%put(self%unknown_scale, self%right)
   end subroutine apply_point
 
   !> Residual of all equations.
@@ -271,7 +178,8 @@ contains
 
     nodes = size(gap)
     shaft = self%first_shaft
-    call get_local(self, state, unknown)
+    call self%exchange%get(state, unknown)
+    unknown = unknown*self%unknown_scale
     gap = self%gap(unknown)
     value = 0.0_wp
     point = self%position(unknown)
@@ -297,7 +205,7 @@ contains
       value = value/self%equation_scale
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
-    call add_local(self, value, residual)
+    call self%exchange%add(value, residual)
   end subroutine evaluate_bearing
 
   !> Derivative of all equations.
@@ -308,7 +216,8 @@ contains
     real(wp) :: unknown(self%local_size()), gap(size(self%mesh%mesh_node))
     PetscErrorCode :: ierr
 
-    call get_local(self, state, unknown)
+    call self%exchange%get(state, unknown)
+    unknown = unknown*self%unknown_scale
     gap = self%gap(unknown)
     PetscCallA(MatZeroEntries(self%jacobian, ierr))
     call add_film_jacobian(self, unknown(:size(gap)), gap, self%position(unknown))
@@ -468,14 +377,15 @@ contains
   subroutine get_unknowns(self, unknown)
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(out) :: unknown(:)
-    call get_local(self, self%state, unknown)
+    call self%exchange%get(self%state, unknown)
+    unknown = unknown*self%unknown_scale
   end subroutine get_unknowns
 
   !> Makes local unknowns, in SI, the present state.
   subroutine set_unknowns(self, unknown)
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:)
-    call put_owned(self, unknown/self%unknown_scale, self%state)
+    call self%exchange%put(unknown/self%unknown_scale, self%state)
   end subroutine set_unknowns
 
   !> Local unknowns of this rank.
@@ -485,57 +395,6 @@ contains
     unknowns = self%first_shaft + merge(shaft_unknowns, 0, self%floats)
   end function local_size
 
-  !> Local unknowns, in SI, of a scaled vector.
-  subroutine get_local(self, state, unknown)
-    class(bearing_system_type), intent(in) :: self
-    Vec, intent(in) :: state
-    real(wp), intent(out) :: unknown(:)
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecScatterBegin(self%ghosts, state, self%local, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(VecScatterEnd(self%ghosts, state, self%local, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(GFB_VecGetArrayRead(self%local, values, ierr))
-    unknown = values*self%unknown_scale
-    PetscCallA(GFB_VecRestoreArrayRead(self%local, values, ierr))
-  end subroutine get_local
-
-  !> Writes local values into a vector; where ranks share an unknown their values must agree.
-  subroutine put_owned(self, value, vector)
-    class(bearing_system_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
-    Vec, intent(in) :: vector
-    PetscErrorCode :: ierr
-
-    call fill_local(self, value)
-    PetscCallA(VecScatterBegin(self%ghosts, self%local, vector, INSERT_VALUES, SCATTER_REVERSE, ierr))
-    PetscCallA(VecScatterEnd(self%ghosts, self%local, vector, INSERT_VALUES, SCATTER_REVERSE, ierr))
-  end subroutine put_owned
-
-  !> Adds every rank's local values to a vector.
-  subroutine add_local(self, value, vector)
-    class(bearing_system_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
-    Vec, intent(in) :: vector
-    PetscErrorCode :: ierr
-
-    call fill_local(self, value)
-    PetscCallA(VecScatterBegin(self%ghosts, self%local, vector, ADD_VALUES, SCATTER_REVERSE, ierr))
-    PetscCallA(VecScatterEnd(self%ghosts, self%local, vector, ADD_VALUES, SCATTER_REVERSE, ierr))
-  end subroutine add_local
-
-  !> Fills the local vector.
-  subroutine fill_local(self, value)
-    class(bearing_system_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    PetscCallA(GFB_VecGetArray(self%local, values, ierr))
-    values = value
-    PetscCallA(GFB_VecRestoreArray(self%local, values, ierr))
-  end subroutine fill_local
-
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_bearing(self)
     class(bearing_system_type), intent(inout) :: self
@@ -543,10 +402,9 @@ contains
 
     if (.not. allocated(self%foil)) return
     PetscCallA(MatDestroy(self%jacobian, ierr))
-    PetscCallA(VecScatterDestroy(self%ghosts, ierr))
+    call self%exchange%destroy()
     PetscCallA(VecDestroy(self%right, ierr))
     PetscCallA(VecDestroy(self%left, ierr))
-    PetscCallA(VecDestroy(self%local, ierr))
     PetscCallA(VecDestroy(self%state, ierr))
     deallocate (self%foil)
   end subroutine destroy_bearing
