@@ -1,7 +1,7 @@
 !> `&bearing`: the pad.
 module gfb_bearing_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, no_default
   use gfb_value_rules, only: positive, from_below
   implicit none (type, external)
   private
@@ -25,16 +25,19 @@ module gfb_bearing_case
 contains
 
   !> Reads the group.
-  subroutine read_bearing_case(keys, bearing, needed)
+  subroutine read_bearing_case(keys, bearing, needed, with_film, misplaced)
     type(case_keys_type), intent(inout) :: keys
     type(bearing_case_type), intent(out) :: bearing
-    logical, intent(in) :: needed !! the scene has a bearing
+    logical, intent(in) :: needed             !! the scene has a pad
+    logical, intent(in) :: with_film          !! and a film between it and a shaft
+    character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
 
-    call keys%start_group('bearing', required=needed, optional=.not. needed)
+    call keys%start_group('bearing', required=needed, optional=.not. needed, misplaced=misplaced)
     call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, needed)
     call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, needed)
     call keys%real_key('clearance', bearing%clearance, 'm', &
-                       'radial clearance, shaft to top foil at rest', positive, needed)
+                       'radial clearance, shaft to top foil at rest', positive, with_film, &
+                       default=merge('    ', no_default, with_film))
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
                        'where the pad begins; it ends at 2 pi', from_below(0.0_wp, full_turn))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &

@@ -7,7 +7,7 @@ module gfb_bump_foil_case
   use gfb_value_rules, only: at_least, between, positive
   implicit none (type, external)
   private
-  public :: bump_foil_case_type, read_bump_foil_case
+  public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -41,12 +41,13 @@ module gfb_bump_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass)
+  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass, with_pitch)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(out) :: foil
     type(bearing_case_type), intent(in) :: bearing
-    logical, intent(in) :: as_shell  !! the strip is meshed: its shape must be known
-    logical, intent(in) :: with_mass !! and its density too
+    logical, intent(in) :: as_shell   !! the strip is meshed: its shape must be known
+    logical, intent(in) :: with_mass  !! and its density too
+    logical, intent(in) :: with_pitch !! more of it than an arc is meshed
 
     call keys%start_group('bump_foil', required=as_shell, optional=.true., present_in_file=foil%present)
     call length_key('thickness', foil%thickness, 'thickness of the foil')
@@ -63,7 +64,7 @@ contains
                           as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       as_shell, default='length of the pad / `bumps`')
+                       with_pitch, default='length of the pad / `bumps`')
     call length_key('width', foil%width, 'width of the strip, along the axis')
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
@@ -81,6 +82,20 @@ contains
     end subroutine length_key
   end subroutine read_bump_foil_case
 
+  !> Whether there are flats between the bumps.
+  elemental function has_flats(foil) result(flats)
+    type(bump_foil_case_type), intent(in) :: foil
+    logical :: flats
+    flats = foil%pitch > 2.0_wp*foil%half_length*(1.0_wp + rounding)
+  end function has_flats
+
+  !> Whether a pitch is shorter than the bump's arc, or not known.
+  elemental function bumps_overlap(foil) result(overlap)
+    type(bump_foil_case_type), intent(in) :: foil
+    logical :: overlap
+    overlap = foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)
+  end function bumps_overlap
+
   !> Bumps that overlap, are more than half a circle, or do not fit on the pad.
   subroutine check_geometry(keys, foil, bearing)
     type(case_keys_type), intent(inout) :: keys
@@ -92,7 +107,7 @@ contains
         call keys%complain('bump_foil', 'height', 'must not exceed half_length = '// &
                            text(foil%half_length)//' m: a bump is at most half a circle')
       end if
-      if (foil%pitch > 0.0_wp .and. foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)) then
+      if (foil%pitch > 0.0_wp .and. bumps_overlap(foil)) then
         call keys%complain('bump_foil', 'pitch', 'must be at least 2 half_length = '// &
                            text(2.0_wp*foil%half_length)//' m, and is '//text(foil%pitch)//' m')
       end if

@@ -131,17 +131,18 @@ contains
   end subroutine integer_key
 
   !> Yes or no.
-  subroutine logical_key(self, name, value, meaning)
+  subroutine logical_key(self, name, value, meaning, default)
     class(case_keys_type), intent(inout) :: self
     character(len=*), intent(in) :: name
     logical, intent(inout) :: value             !! the default on entry
     character(len=*), intent(in) :: meaning
+    character(len=*), intent(in), optional :: default
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
     logical :: truth
 
     call self%describe(name, 'logical', '', meaning)
-    call self%begin_key(text(value), single, elements)
+    call self%begin_key(text(value), single, elements, default=default)
     if (size(elements) == 1) then
       call read_logical(self%file%value_text(elements(1)), truth, problem)
       if (self%file%values(elements(1))%kind == value_string) then

@@ -56,12 +56,13 @@ contains
   end subroutine open_text
 
   !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
-  subroutine start_group(self, name, required, optional, present_in_file)
+  subroutine start_group(self, name, required, optional, present_in_file, misplaced)
     class(case_reader_type), intent(inout) :: self
     character(len=*), intent(in) :: name
     logical, intent(in), optional :: required !! its absence is a mistake
     logical, intent(in), optional :: optional !! without it, what it describes is not there
     logical, intent(out), optional :: present_in_file
+    character(len=*), intent(in), optional :: misplaced !! why it does not fit; empty where it does
     integer :: group
     logical :: is_required, is_optional
 
@@ -76,6 +77,10 @@ contains
     call self%book%add_group(name, self%group_line, is_required)
     call self%notes%start_group(name, self%group_line > 0 .or. .not. is_optional)
     if (present(present_in_file)) present_in_file = self%group_line > 0
+    if (.not. present(misplaced)) return
+    if (misplaced /= '' .and. self%group_line > 0) then
+      call self%complaints%add(self%group_line, '&'//name//': the group '//misplaced)
+    end if
   end subroutine start_group
 
   !> Ends a group.

@@ -2,6 +2,7 @@
 module gfb_gas_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_value_rules, only: positive
   implicit none (type, external)
   private
@@ -16,12 +17,15 @@ module gfb_gas_case
 contains
 
   !> Reads the group.
-  subroutine read_gas_case(keys, gas, needed)
+  subroutine read_gas_case(keys, gas, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(gas_case_type), intent(out) :: gas
-    logical, intent(in) :: needed !! the scene has a film
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: needed
 
-    call keys%start_group('gas', required=needed, optional=.not. needed)
+    needed = is_bearing(analysis)
+    call keys%start_group('gas', required=needed, optional=.not. needed, &
+                          misplaced=misplaced_group(analysis, needed))
     call keys%real_key('viscosity', gas%viscosity, 'Pa s', 'dynamic viscosity', positive, needed)
     call keys%real_key('ambient_pressure', gas%ambient_pressure, 'Pa', &
                        'absolute pressure at the edges of the pad', positive, needed)

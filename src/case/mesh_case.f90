@@ -4,6 +4,7 @@ module gfb_mesh_case
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: model_case_type, foil_shell
   use gfb_text, only: text
   use gfb_value_rules, only: from_to
   implicit none (type, external)
@@ -13,7 +14,7 @@ module gfb_mesh_case
   integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
   integer, parameter :: elements_around = 240   !! of a pad without bumps
   integer, parameter :: most_a_side = 100000
-  integer(long), parameter :: most_in_all = 50000000_long
+  integer(long), parameter, public :: most_in_all = 50000000_long !! elements of a mesh
 
   !> Number of elements.
   type :: mesh_case_type
@@ -21,17 +22,19 @@ module gfb_mesh_case
     integer :: axial_elements = 32 !! of the whole width, also where one half is solved
     integer :: arc_elements = 12   !! of a bump's arc
     integer :: flat_elements = 3   !! of the flat between two bumps
+    logical :: align_crests = .false. !! lines of nodes of film and top foil lie above the crests
   end type mesh_case_type
 
 contains
 
   !> Reads the group; its defaults are those of the bearing.
-  subroutine read_mesh_case(keys, mesh, bearing, foil)
+  subroutine read_mesh_case(keys, mesh, bearing, foil, model)
     type(case_keys_type), intent(inout) :: keys
     type(mesh_case_type), intent(out) :: mesh
     type(bearing_case_type), intent(in) :: bearing
     type(bump_foil_case_type), intent(in) :: foil
-    logical :: given
+    type(model_case_type), intent(in) :: model
+    logical :: given, can_align
 
     call keys%start_group('mesh')
     mesh%circumferential_elements = default_circumferential_elements(bearing, foil)
@@ -52,6 +55,17 @@ contains
     end if
     call keys%integer_key('flat_elements', mesh%flat_elements, &
                           'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
+    can_align = model%foil == foil_shell .and. foil%bumps > 0 .and. foil%pitch > 0.0_wp .and. &
+                foil%half_length > 0.0_wp
+    mesh%align_crests = can_align
+    call keys%logical_key('align_crests', mesh%align_crests, &
+                          'lines of nodes of film and top foil above the crests; their number '// &
+                          'then follows circumferential_elements nearly', &
+                          default='`.true.` for shells with bumps')
+    if (mesh%align_crests .and. .not. can_align .and. model%foil > 0) then
+      call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch and "// &
+                         'half_length in &bump_foil')
+    end if
     if (int(mesh%circumferential_elements, long)*mesh%axial_elements > most_in_all) then
       call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &
                          text(mesh%axial_elements)//' elements are more than '//text(most_in_all))

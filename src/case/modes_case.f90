@@ -2,6 +2,7 @@
 module gfb_modes_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_scene_case, only: analysis_modes, misplaced_group
   use gfb_value_rules, only: from_to
   implicit none (type, external)
   private
@@ -26,16 +27,22 @@ module gfb_modes_case
 contains
 
   !> Reads the group.
-  subroutine read_modes_case(keys, modes)
+  subroutine read_modes_case(keys, modes, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(modes_case_type), intent(out) :: modes
+    integer, intent(in) :: analysis !! 0 where it is not known
 
-    call keys%start_group('modes')
+    call keys%start_group('modes', optional=analysis /= analysis_modes, &
+                          misplaced=misplaced_group(analysis, analysis == analysis_modes))
     call keys%integer_key('count', modes%count, 'modes wanted, the lowest', from_to(1.0_wp, 1000.0_wp))
     call keys%choice_key('part', modes%part, part_words, 'what vibrates')
     call keys%integer_key('substructure_modes', modes%substructure_modes, &
                           'fixed-interface modes kept in every super-element of a strip '// &
                           '(Craig-Bampton)', from_to(0.0_wp, 1000.0_wp))
+    if (modes%substructure_modes > 0 .and. modes%part /= part_strip .and. modes%part /= 0) then
+      call keys%complain('modes', 'substructure_modes', "needs part = 'strip', which alone is "// &
+                         'made of super-elements')
+    end if
     call keys%finish_group()
   end subroutine read_modes_case
 end module gfb_modes_case

@@ -3,7 +3,7 @@ module gfb_operation_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
-                            is_bearing, is_structure
+                            is_bearing, is_structure, misplaced_group
   use gfb_value_rules, only: not_negative
   implicit none (type, external)
   private
@@ -29,7 +29,9 @@ contains
     type(operation_case_type), intent(out) :: operation
     integer, intent(in) :: analysis  !! 0 where it is not known
 
-    call keys%start_group('operation', required=is_bearing(analysis), optional=is_structure(analysis))
+    call keys%start_group('operation', required=is_bearing(analysis), &
+                          optional=is_structure(analysis), &
+                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
                        not_negative, is_bearing(analysis))
     if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &

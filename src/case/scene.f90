@@ -10,10 +10,12 @@ module gfb_scene
   use gfb_model_case, only: model_case_type, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case
   use gfb_output_case, only: output_case_type, read_output_case
-  use gfb_modes_case, only: modes_case_type, read_modes_case, part_top_foil
-  use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, is_structure, &
+  use gfb_modes_case, only: modes_case_type, read_modes_case, part_half_arc, part_arc, part_flat, &
+                            part_strip, part_top_foil
+  use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
-  use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, check_rigid_position
+  use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, check_rigid_position, &
+                             check_strip
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -79,6 +81,7 @@ contains
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
+    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text
@@ -98,28 +101,45 @@ contains
   subroutine read_groups(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(inout) :: scene
-    logical :: plate !! the modes of the top foil are asked for
+    logical :: modes !! they are asked for, and of what is known
+    logical :: plate !! of the top foil
+    logical :: bumps !! the bump foil is meshed
+    logical :: arc   !! an arc of it alone
 
     call read_scene_case(keys, scene%general)
-    call read_modes_case(keys, scene%modes)
-    associate (analysis => scene%general%analysis)
-      plate = analysis == analysis_modes .and. scene%modes%part == part_top_foil
-      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate)
-      call read_gas_case(keys, scene%gas, is_bearing(analysis))
+    call read_modes_case(keys, scene%modes, scene%general%analysis)
+    associate (analysis => scene%general%analysis, part => scene%modes%part)
+      modes = analysis == analysis_modes .and. part /= 0
+      plate = modes .and. part == part_top_foil
+      bumps = analysis == analysis_strip .or. (modes .and. .not. plate)
+      arc = modes .and. (part == part_half_arc .or. part == part_arc)
+      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
+                             is_bearing(analysis), bearing_misplaced(analysis, part))
+      call read_gas_case(keys, scene%gas, analysis)
       call read_operation_case(keys, scene%operation, analysis)
-      call read_sweep_case(keys, scene%sweep)
+      call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, plate)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, &
-                               is_structure(analysis) .and. .not. plate, &
-                               analysis == analysis_modes .and. .not. plate)
-      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, &
-                                analysis == analysis_strip)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
+                               bumps .and. .not. arc)
+      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_model_case(keys, scene%model, analysis)
     end associate
-    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil)
+    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
     call read_solver_case(keys, scene%solver, scene%bearing)
     call read_output_case(keys, scene%output)
   end subroutine read_groups
+
+  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
+  pure function bearing_misplaced(analysis, part) result(words)
+    integer, intent(in) :: analysis, part !! 0 where they are not known
+    character(len=:), allocatable :: words
+
+    words = misplaced_group(analysis, is_bearing(analysis))
+    if (analysis /= analysis_modes) return
+    words = ''
+    if (part /= 0 .and. part /= part_top_foil) words = "needs part = 'top_foil' in &modes: no other "// &
+      'part has a pad'
+  end function bearing_misplaced
 
   !> A file's name without its folder and its ending.
   pure function base_name(file) result(name)

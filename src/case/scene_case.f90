@@ -3,7 +3,7 @@ module gfb_scene_case
   use gfb_case_keys, only: case_keys_type
   implicit none (type, external)
   private
-  public :: scene_case_type, read_scene_case, is_bearing, is_structure
+  public :: scene_case_type, read_scene_case, is_bearing, is_structure, misplaced_group
 
   integer, parameter, public :: analysis_equilibrium = 1    !! the load is given
   integer, parameter, public :: analysis_fixed_position = 2 !! the eccentricity is given
@@ -48,4 +48,15 @@ contains
     logical :: structure
     structure = analysis == analysis_strip .or. analysis == analysis_modes
   end function is_structure
+
+  !> What is wrong with a group that an analysis has no use for; empty where nothing is.
+  pure function misplaced_group(analysis, fits) result(words)
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical, intent(in) :: fits     !! the analysis uses the group
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (fits .or. analysis == 0) return
+    words = "has no use with analysis = '"//trim(analysis_words(analysis))//"'"
+  end function misplaced_group
 end module gfb_scene_case

@@ -1,19 +1,22 @@
 !> What the groups of a scene ask of each other.
 module gfb_scene_rules
-  use gfb_kinds, only: wp
+  use gfb_kinds, only: wp, long
   use gfb_bearing_case, only: bearing_case_type
-  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, has_flats, bumps_overlap
   use gfb_case_keys, only: case_keys_type
-  use gfb_mesh_case, only: mesh_case_type
+  use gfb_mesh_case, only: mesh_case_type, most_in_all
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, half_width_yes
+  use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
+                            analysis_modes
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: join, text
   implicit none (type, external)
   private
-  public :: check_sweep, check_foundation, check_half_width, check_rigid_position, is_symmetric
+  public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
+  public :: is_symmetric
 
 contains
 
@@ -81,6 +84,42 @@ contains
     call keys%complain('model', 'foil', 'needs foundation_stiffness, or what is missing in '// &
                        '&bump_foil: '//join(missing(:n), ', '))
   end subroutine check_foundation
+
+  !> A bump foil that is meshed: its thickness, its flats, its size.
+  subroutine check_strip(keys, foil, mesh, modes, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    type(mesh_case_type), intent(in) :: mesh
+    type(modes_case_type), intent(in) :: modes
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    real(wp) :: diameter
+    integer(long) :: elements
+    logical :: strip
+
+    if (analysis /= analysis_strip .and. analysis /= analysis_modes) return
+    if (analysis == analysis_modes .and. modes%part == part_top_foil) return
+    strip = analysis == analysis_strip .or. modes%part == part_strip
+    if (foil%half_length > 0.0_wp .and. foil%height > 0.0_wp) then
+      diameter = (foil%half_length**2 + foil%height**2)/foil%height
+      if (foil%thickness >= diameter) then
+        call keys%complain('bump_foil', 'thickness', "must be less than the diameter of a bump's "// &
+                           'arc, '//text(diameter)//' m')
+      end if
+    end if
+    ! A pitch that is shorter is complained about elsewhere.
+    if (foil%half_length > 0.0_wp .and. .not. has_flats(foil) .and. .not. bumps_overlap(foil)) then
+      if (analysis == analysis_modes .and. modes%part == part_flat) then
+        call keys%complain('modes', 'part', 'there are no flats: pitch in &bump_foil is 2 half_length')
+      else if (strip .and. foil%fixed_line > fixed_line_corner) then
+        call keys%complain('bump_foil', 'fixed_line', 'there are no flats: pitch is 2 half_length')
+      end if
+    end if
+    elements = int(mesh%arc_elements + mesh%flat_elements, long)*mesh%axial_elements
+    if (strip .and. foil%bumps > most_in_all/elements) then
+      call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of '//text(elements)// &
+                         ' elements are more than '//text(most_in_all)//' elements')
+    end if
+  end subroutine check_strip
 
   !> Half the width can be asked for only where the film is symmetric to the midplane.
   subroutine check_half_width(keys, model, mesh, operation, sweep)

@@ -2,6 +2,7 @@
 module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
   use gfb_value_rules, only: any_value
   implicit none (type, external)
@@ -33,20 +34,27 @@ module gfb_strip_load_case
 contains
 
   !> Reads the group.
-  subroutine read_strip_load_case(keys, load, bumps, needed)
+  subroutine read_strip_load_case(keys, load, bumps, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(strip_load_case_type), intent(out) :: load
-    integer, intent(in) :: bumps  !! of the strip, 0 where not known
-    logical, intent(in) :: needed !! the scene is a strip under load
-    logical :: table
+    integer, intent(in) :: bumps    !! of the strip, 0 where not known
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: needed, table, given
 
-    call keys%start_group('strip_load', required=needed, optional=.not. needed)
+    needed = analysis == analysis_strip
+    call keys%start_group('strip_load', required=needed, optional=.not. needed, &
+                          misplaced=misplaced_group(analysis, needed))
     call keys%choice_key('kind', load%kind, kind_words, 'how the strip is loaded')
     call keys%choice_key('distribution', load%distribution, distribution_words, &
                          'of the crest pressure over the bumps')
     table = load%distribution == distribution_table
     call keys%real_key('pressure', load%pressure, 'Pa', 'uniform pressure, or the peak', any_value, &
-                       needed .and. .not. table, default='required unless a table')
+                       needed .and. .not. table .and. load%distribution /= 0, &
+                       default='required unless a table', given=given)
+    if (table .and. given) then
+      call keys%complain('strip_load', 'pressure', "has no use with distribution = 'table': "// &
+                         'bump_pressure gives the pressures')
+    end if
     call keys%real_list_key('bump_pressure', load%bump_pressure, longest_list, 'Pa', &
                             'pressure on every bump of a table', any_value, needed .and. table, &
                             'required for a table')
@@ -55,6 +63,8 @@ contains
         call keys%complain('strip_load', 'bump_pressure', 'must have one value a bump: '// &
                            text(bumps)//', not '//text(size(load%bump_pressure)))
       end if
+    else if (size(load%bump_pressure) > 0 .and. .not. table .and. load%distribution /= 0) then
+      call keys%complain('strip_load', 'bump_pressure', "needs distribution = 'table'")
     end if
     call keys%choice_key('support', load%support, support_words, &
                          'corner lines held in v: a linear strip')

@@ -3,6 +3,7 @@ module gfb_sweep_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_operation_case, only: operation_case_type
+  use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
   private
@@ -33,12 +34,14 @@ module gfb_sweep_case
 contains
 
   !> Reads the group.
-  subroutine read_sweep_case(keys, sweep)
+  subroutine read_sweep_case(keys, sweep, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(sweep_case_type), intent(out) :: sweep
+    integer, intent(in) :: analysis !! 0 where it is not known
     type(rule_type) :: rule
 
-    call keys%start_group('sweep', optional=.true., present_in_file=sweep%present)
+    call keys%start_group('sweep', optional=.true., present_in_file=sweep%present, &
+                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%choice_key('parameter', sweep%parameter, parameter_words, &
                          'what is varied; load: its magnitude, in the direction of `load`', .true.)
     rule = any_value

@@ -11,8 +11,11 @@ module gfb_foil_mesh
   implicit none (type, external)
   private
   public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
+  public :: crest_positions, aligned_stations
 
   integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, begins_with_half_flat = 3
+
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
   !> One bump: an arc and the flat that follows it.
   type, public :: bump_type
@@ -54,8 +57,8 @@ contains
     rows = [(0.5_wp*width*real(2*i - axial, wp)/real(axial, wp), i=merge(axial/2, 0, half), axial)]
   end function axial_rows
 
-  !> The strip's mesh with the sets crest_<n>, crests, corners, free_edge, fixed_edge, midplane; bump 1
-  !> is the one at the smallest x.
+  !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge, trailing_edge,
+  !> fixed_edge, free_edge, midplane; crest 1 and corner 1 are those at the smallest x.
   pure function bump_strip_mesh(shape, rows, half) result(mesh)
     type(strip_shape_type), intent(in) :: shape
     real(wp), intent(in) :: rows(:) !! z [m]
@@ -94,6 +97,38 @@ contains
     end do
   end function strip_substructures
 
+  !> Where the crests of a strip are, from the smallest x on [m].
+  pure function crest_positions(shape) result(x)
+    type(strip_shape_type), intent(in) :: shape
+    real(wp), allocatable :: x(:)
+    type(station_type), allocatable :: station(:)
+
+    station = strip_stations(shape)
+    x = shape%edge + merge(-1.0_wp, 1.0_wp, shape%mirrored)*pack(station%along, station%crest > 0)
+    if (shape%mirrored) x = x(size(x):1:-1)
+  end function crest_positions
+
+  !> Stations from x = 0 to a pad's length with one above every crest: equal elements from crest to
+  !> crest, and before the first and behind the last elements of at most 1.5 times the regular length.
+  pure function aligned_stations(length, crest, pitch, elements) result(x)
+    real(wp), intent(in) :: length   !! of the pad [m]
+    real(wp), intent(in) :: crest(:) !! positions on the pad, rising [m]
+    real(wp), intent(in) :: pitch    !! regular [m]
+    integer, intent(in) :: elements  !! of a pitch
+    real(wp), allocatable :: x(:)
+    real(wp) :: bound(size(crest) + 2)
+    integer :: i, k, n
+
+    bound = [0.0_wp, crest, length]
+    x = bound(:1)
+    do i = 1, size(bound) - 1
+      n = elements
+      if (i == 1 .or. i > size(crest)) n = max(1, nint((bound(i + 1) - bound(i))/pitch*elements))
+      if (bound(i + 1) - bound(i) <= rounding*pitch) cycle ! a crest at the pad's edge
+      x = [x, (bound(i) + (bound(i + 1) - bound(i))*real(k, wp)/real(n, wp), k=1, n - 1), bound(i + 1)]
+    end do
+  end function aligned_stations
+
   !> A flat plate with given stations; sets leading_edge, trailing_edge, midplane.
   pure function top_foil_mesh(position_x, height, rows, half) result(mesh)
     real(wp), intent(in) :: position_x(:) !! of the stations [m]
@@ -121,29 +156,27 @@ contains
     type(strip_shape_type), intent(in) :: shape
     type(station_type), allocatable :: station(:)
     type(station_type) :: longest(2 + size(shape%bump)*(shape%arc_elements + shape%flat_elements + 2))
-    integer :: n, i, half_flat
-    real(wp) :: flat
+    real(wp) :: flat(size(shape%bump))
+    integer :: n, i
 
     n = 1
     longest(1)%divides = .true.
     longest(1)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-    half_flat = (shape%flat_elements + 1)/2
-    do i = 1, size(shape%bump)
-      associate (bump => shape%bump(i))
-        flat = bump%pitch - 2.0_wp*bump%half_length
-        if (shape%begins == begins_with_half_flat) then
-          call add_flat(longest, n, 0.5_wp*flat, half_flat, i == 1)
-          call add_arc(longest, n, bump, shape%arc_elements, i)
-          call add_flat(longest, n, 0.5_wp*flat, half_flat, i == size(shape%bump))
-        else if (shape%begins == begins_with_flat) then
-          call add_flat(longest, n, flat, shape%flat_elements, .true.)
-          call add_arc(longest, n, bump, shape%arc_elements, i)
-        else
-          call add_arc(longest, n, bump, shape%arc_elements, i)
-          call add_flat(longest, n, flat, shape%flat_elements, .true.)
+    flat = shape%bump%pitch - 2.0_wp*shape%bump%half_length
+    where (flat <= rounding*shape%bump%pitch) flat = 0.0_wp
+    associate (bump => shape%bump, bumps => size(shape%bump), half => (shape%flat_elements + 1)/2)
+      if (shape%begins == begins_with_half_flat) call add_flat(longest, n, 0.5_wp*flat(1), half)
+      do i = 1, bumps
+        if (shape%begins == begins_with_flat) call add_flat(longest, n, flat(i), shape%flat_elements)
+        call add_arc(longest, n, bump(i), shape%arc_elements, i)
+        if (shape%begins == begins_with_corner) then
+          call add_flat(longest, n, flat(i), shape%flat_elements)
+        else if (shape%begins == begins_with_half_flat .and. i < bumps) then
+          call add_flat(longest, n, 0.5_wp*(flat(i) + flat(i + 1)), shape%flat_elements)
         end if
-      end associate
-    end do
+      end do
+      if (shape%begins == begins_with_half_flat) call add_flat(longest, n, 0.5_wp*flat(bumps), half)
+    end associate
     longest(n)%divides = .true.
     station = longest(:n)
   end function strip_stations
@@ -176,12 +209,11 @@ contains
   end subroutine add_arc
 
   !> Adds the stations of a flat; none where it has no length.
-  pure subroutine add_flat(station, n, length, elements, divides)
+  pure subroutine add_flat(station, n, length, elements)
     type(station_type), intent(inout) :: station(:)
     integer, intent(inout) :: n       !! stations so far
     real(wp), intent(in) :: length    !! [m]
     integer, intent(in) :: elements
-    logical, intent(in) :: divides    !! a substructure ends where it ends
     real(wp), parameter :: up(2) = [0.0_wp, 1.0_wp]
     real(wp) :: begin
     integer :: k
@@ -194,7 +226,7 @@ contains
       station(n)%along = begin + length*real(k, wp)/real(elements, wp)
       station(n)%height = 0.0_wp
       station(n)%normal = spread(up, 2, 2)
-      station(n)%divides = divides .and. k == elements
+      station(n)%divides = k == elements
     end do
   end subroutine add_flat
 
@@ -259,34 +291,39 @@ contains
     type(station_type), intent(in) :: station(:)
     type(strip_shape_type), intent(in) :: shape
     integer, allocatable :: crests(:), corners(:), line(:)
-    integer :: i, stations, bumps, bump
+    integer :: place, i, stations, crest, corner
 
     stations = size(station)
-    bumps = size(shape%bump)
+    crest = 0
+    corner = 0
     allocate (crests(0), corners(0))
-    do i = 1, stations
-      line = line_at(i)
-      bump = station(i)%crest
-      if (shape%mirrored) bump = bumps + 1 - bump
-      if (station(i)%crest > 0) call add_node_set(mesh, 'crest_'//text(bump), line)
-      if (station(i)%crest > 0) crests = [crests, line]
-      if (station(i)%corner > 0) corners = [corners, line]
+    do place = 1, stations
+      i = merge(stations + 1 - place, place, shape%mirrored)
+      line = line_at(place)
+      if (station(i)%crest > 0) then
+        crest = crest + 1
+        crests = [crests, line]
+        call add_node_set(mesh, 'crest_'//text(crest), line)
+      else if (station(i)%corner > 0) then
+        corner = corner + 1
+        corners = [corners, line]
+        call add_node_set(mesh, 'corner_'//text(corner), line)
+      end if
     end do
     call add_node_set(mesh, 'crests', crests)
     call add_node_set(mesh, 'corners', corners)
-    call add_node_set(mesh, 'fixed_edge', line_at(1))
-    call add_node_set(mesh, 'free_edge', line_at(stations))
+    call add_node_set(mesh, 'leading_edge', line_at(1))
+    call add_node_set(mesh, 'trailing_edge', line_at(stations))
+    call add_node_set(mesh, 'fixed_edge', line_at(merge(stations, 1, shape%mirrored)))
+    call add_node_set(mesh, 'free_edge', line_at(merge(1, stations, shape%mirrored)))
     call add_midplane(mesh)
 
   contains
 
-    !> Nodes of a station, counted from the fixed edge.
-    pure function line_at(i) result(nodes)
-      integer, intent(in) :: i
+    !> Nodes of a station, counted from the smallest x, in order of z.
+    pure function line_at(place) result(nodes)
+      integer, intent(in) :: place
       integer :: nodes(mesh%rows)
-      integer :: place
-
-      place = merge(stations + 1 - i, i, shape%mirrored)
       nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
     end function line_at
   end subroutine name_sets

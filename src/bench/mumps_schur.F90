@@ -1,0 +1,54 @@
+#include "gfb_petsc.h"
+!> MUMPS' own Schur complement, to measure ours against: it eliminates the interior and stops there.
+module gfb_mumps_schur
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  implicit none (type)
+  private
+  public :: condense_by_mumps
+
+contains
+
+  !> The condensed stiffness, unknowns in the order of the retained ones.
+  subroutine condense_by_mumps(stiffness, is_retained, condensed)
+    Mat, intent(in) :: stiffness                        !! of a substructure, on this rank alone
+    logical, intent(in) :: is_retained(:)               !! one an unknown
+    real(wp), allocatable, intent(out) :: condensed(:, :) !! (retained, retained)
+
+    IS :: retained
+    KSP :: solver
+    PC :: factors
+    Mat :: factor, complement
+    MatFactorSchurStatus :: status
+    PetscScalar, pointer :: values(:, :)
+    PetscErrorCode :: ierr
+    integer :: i, j
+    integer, allocatable :: kept(:)
+
+    kept = pack([(i, i=1, size(is_retained))], is_retained)
+    PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(kept), pint), int(kept - 1, pint), PETSC_COPY_VALUES, retained, ierr))
+    PetscCallA(MatSetOption(stiffness, MAT_SPD, PETSC_TRUE, ierr)) ! of the interior, all that is factored
+    PetscCallA(KSPCreate(PETSC_COMM_SELF, solver, ierr))
+    PetscCallA(KSPSetOperators(solver, stiffness, stiffness, ierr))
+    PetscCallA(KSPSetType(solver, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(solver, factors, ierr))
+    PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    PetscCallA(PCFactorSetUpMatSolverType(factors, ierr))
+    PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
+    PetscCallA(MatFactorSetSchurIS(factor, retained, ierr))
+    PetscCallA(KSPSetUp(solver, ierr))
+    PetscCallA(MatFactorGetSchurComplement(factor, complement, status, ierr))
+    PetscCallA(GFB_MatDenseGetArray(complement, values, ierr))
+    allocate (condensed(size(kept), size(kept)))
+    do j = 1, size(kept)
+      condensed(j:, j) = values(j:, j) ! only the lower triangle is filled
+      condensed(j, j + 1:) = values(j + 1:, j)
+    end do
+    PetscCallA(GFB_MatDenseRestoreArray(complement, values, ierr))
+    PetscCallA(MatFactorRestoreSchurComplement(factor, complement, status, ierr))
+    PetscCallA(KSPDestroy(solver, ierr))
+    PetscCallA(ISDestroy(retained, ierr))
+  end subroutine condense_by_mumps
+end module gfb_mumps_schur
