@@ -49,7 +49,8 @@ contains
     logical, intent(in) :: with_mass  !! and its density too
     logical, intent(in) :: with_pitch !! more of it than an arc is meshed
 
-    call keys%start_group('bump_foil', required=as_shell, optional=.true., present_in_file=foil%present)
+    call keys%start_group('bump_foil', required=as_shell, optional=.true., &
+                          present_in_file=foil%present)
     call length_key('thickness', foil%thickness, 'thickness of the foil')
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
                        as_shell, default=no_default)

@@ -12,7 +12,7 @@ module gfb_model_case
   integer, parameter, public :: foil_elastic_foundation = 2 !! independent bump springs
   integer, parameter, public :: foil_shell = 3              !! both foils as shells
 
-  integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto the lines that can be loaded
+  integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
 
   integer, parameter, public :: half_width_auto = 1

@@ -8,7 +8,7 @@ module gfb_modes_case
   private
   public :: modes_case_type, read_modes_case
 
-  integer, parameter, public :: part_half_arc = 1 !! from a corner line to the crest line, both fixed
+  integer, parameter, public :: part_half_arc = 1 !! from corner line to crest line, both fixed
   integer, parameter, public :: part_arc = 2      !! from corner line to corner line, both fixed
   integer, parameter, public :: part_flat = 3     !! between two corner lines, both fixed
   integer, parameter, public :: part_strip = 4    !! the whole strip, fixed at its fixed edge
@@ -34,7 +34,8 @@ contains
 
     call keys%start_group('modes', optional=analysis /= analysis_modes, &
                           misplaced=misplaced_group(analysis, analysis == analysis_modes))
-    call keys%integer_key('count', modes%count, 'modes wanted, the lowest', from_to(1.0_wp, 1000.0_wp))
+    call keys%integer_key('count', modes%count, 'modes wanted, the lowest', &
+                          from_to(1.0_wp, 1000.0_wp))
     call keys%choice_key('part', modes%part, part_words, 'what vibrates')
     call keys%integer_key('substructure_modes', modes%substructure_modes, &
                           'fixed-interface modes kept in every super-element of a strip '// &

@@ -14,8 +14,8 @@ module gfb_scene
                             part_strip, part_top_foil
   use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
-  use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, check_rigid_position, &
-                             check_strip
+  use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, &
+                             check_rigid_position, check_strip
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -137,8 +137,9 @@ contains
     words = misplaced_group(analysis, is_bearing(analysis))
     if (analysis /= analysis_modes) return
     words = ''
-    if (part /= 0 .and. part /= part_top_foil) words = "needs part = 'top_foil' in &modes: no other "// &
-      'part has a pad'
+    if (part /= 0 .and. part /= part_top_foil) then
+      words = "needs part = 'top_foil' in &modes: no other part has a pad"
+    end if
   end function bearing_misplaced
 
   !> A file's name without its folder and its ending.

@@ -8,7 +8,7 @@ module gfb_scene_case
   integer, parameter, public :: analysis_equilibrium = 1    !! the load is given
   integer, parameter, public :: analysis_fixed_position = 2 !! the eccentricity is given
   integer, parameter, public :: analysis_strip = 3          !! a bump strip under crest loads
-  integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or a part of it
+  integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or, or a part
 
   character(len=*), parameter :: analysis_words(*) = [character(len=14) :: 'equilibrium', &
                                                       'fixed_position', 'strip', 'modes']

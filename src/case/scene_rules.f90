@@ -102,14 +102,15 @@ contains
     if (foil%half_length > 0.0_wp .and. foil%height > 0.0_wp) then
       diameter = (foil%half_length**2 + foil%height**2)/foil%height
       if (foil%thickness >= diameter) then
-        call keys%complain('bump_foil', 'thickness', "must be less than the diameter of a bump's "// &
-                           'arc, '//text(diameter)//' m')
+        call keys%complain('bump_foil', 'thickness', 'must be less than the diameter of a '// &
+                           "bump's arc, "//text(diameter)//' m')
       end if
     end if
     ! A pitch that is shorter is complained about elsewhere.
     if (foil%half_length > 0.0_wp .and. .not. has_flats(foil) .and. .not. bumps_overlap(foil)) then
       if (analysis == analysis_modes .and. modes%part == part_flat) then
-        call keys%complain('modes', 'part', 'there are no flats: pitch in &bump_foil is 2 half_length')
+        call keys%complain('modes', 'part', 'there are no flats: pitch in &bump_foil is 2 '// &
+                           'half_length')
       else if (strip .and. foil%fixed_line > fixed_line_corner) then
         call keys%complain('bump_foil', 'fixed_line', 'there are no flats: pitch is 2 half_length')
       end if
@@ -181,8 +182,8 @@ contains
 
       group = 'operation'
       if (present(point)) group = 'sweep'
-      call keys%complain(trim(group), key, 'moves the shaft by '//text(way, 4)//' m towards the pad, which '// &
-                         'must stay below the clearance of '//text(bearing%clearance)// &
+      call keys%complain(trim(group), key, 'moves the shaft by '//text(way, 4)// &
+                         ' m towards the pad, which must stay below the clearance of '//text(bearing%clearance)// &
                          ' m in a rigid bearing', point)
     end subroutine complain
   end subroutine check_rigid_position

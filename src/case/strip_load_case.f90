@@ -48,8 +48,8 @@ contains
     call keys%choice_key('distribution', load%distribution, distribution_words, &
                          'of the crest pressure over the bumps')
     table = load%distribution == distribution_table
-    call keys%real_key('pressure', load%pressure, 'Pa', 'uniform pressure, or the peak', any_value, &
-                       needed .and. .not. table .and. load%distribution /= 0, &
+    call keys%real_key('pressure', load%pressure, 'Pa', 'uniform pressure, or the peak', &
+                       any_value, needed .and. .not. table .and. load%distribution /= 0, &
                        default='required unless a table', given=given)
     if (table .and. given) then
       call keys%complain('strip_load', 'pressure', "has no use with distribution = 'table': "// &
@@ -80,7 +80,8 @@ contains
 
     select case (load%distribution)
     case (distribution_increasing_decreasing)
-      pressure = [(load%pressure*real(min(n, bumps + 1 - n), wp)/real((bumps + 1)/2, wp), n=1, bumps)]
+      pressure = load%pressure* &
+                 [(real(min(n, bumps + 1 - n), wp)/real((bumps + 1)/2, wp), n=1, bumps)]
     case (distribution_table)
       pressure = load%bump_pressure
     case default

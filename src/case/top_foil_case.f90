@@ -30,9 +30,10 @@ contains
     type(top_foil_case_type), intent(out) :: foil
     logical, intent(in) :: needed !! the scene has the foil as a structure with mass
 
-    call keys%start_group('top_foil', required=needed, optional=.true., present_in_file=foil%present)
-    call keys%real_key('thickness', foil%thickness, 'm', 'thickness of the foil', positive, needed, &
-                       default=no_default)
+    call keys%start_group('top_foil', required=needed, optional=.true., &
+                          present_in_file=foil%present)
+    call keys%real_key('thickness', foil%thickness, 'm', 'thickness of the foil', positive, &
+                       needed, default=no_default)
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
                        needed, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &

@@ -13,7 +13,8 @@ module gfb_foil_mesh
   public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
   public :: crest_positions, aligned_stations
 
-  integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, begins_with_half_flat = 3
+  integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, &
+                                begins_with_half_flat = 3
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
@@ -57,8 +58,8 @@ contains
     rows = [(0.5_wp*width*real(2*i - axial, wp)/real(axial, wp), i=merge(axial/2, 0, half), axial)]
   end function axial_rows
 
-  !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge, trailing_edge,
-  !> fixed_edge, free_edge, midplane; crest 1 and corner 1 are those at the smallest x.
+  !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
+  !> trailing_edge, fixed_edge, free_edge, midplane; crest_1 and corner_1 lie at the smallest x.
   pure function bump_strip_mesh(shape, rows, half) result(mesh)
     type(strip_shape_type), intent(in) :: shape
     real(wp), intent(in) :: rows(:) !! z [m]
@@ -92,8 +93,9 @@ contains
     columns = mesh%rows - 1
     allocate (pieces(size(divide) - 1))
     do i = 1, size(pieces)
-      pieces(i) = substructure(mesh, numbers((divide(i) - 1)*columns + 1, (divide(i + 1) - 1)*columns), &
-                               is_retained)
+      associate (first => (divide(i) - 1)*columns + 1, last => (divide(i + 1) - 1)*columns)
+        pieces(i) = substructure(mesh, numbers(first, last), is_retained)
+      end associate
     end do
   end function strip_substructures
 
@@ -109,7 +111,7 @@ contains
   end function crest_positions
 
   !> Stations from x = 0 to a pad's length with one above every crest: equal elements from crest to
-  !> crest, and before the first and behind the last elements of at most 1.5 times the regular length.
+  !> crest, before the first and behind the last one elements of at most 1.5 times their length.
   pure function aligned_stations(length, crest, pitch, elements) result(x)
     real(wp), intent(in) :: length   !! of the pad [m]
     real(wp), intent(in) :: crest(:) !! positions on the pad, rising [m]
@@ -125,7 +127,7 @@ contains
       n = elements
       if (i == 1 .or. i > size(crest)) n = max(1, nint((bound(i + 1) - bound(i))/pitch*elements))
       if (bound(i + 1) - bound(i) <= rounding*pitch) cycle ! a crest at the pad's edge
-      x = [x, (bound(i) + (bound(i + 1) - bound(i))*real(k, wp)/real(n, wp), k=1, n - 1), bound(i + 1)]
+      x = [x, (bound(i) + (bound(i + 1) - bound(i))*k/n, k=1, n - 1), bound(i + 1)]
     end do
   end function aligned_stations
 
@@ -155,30 +157,31 @@ contains
   pure function strip_stations(shape) result(station)
     type(strip_shape_type), intent(in) :: shape
     type(station_type), allocatable :: station(:)
-    type(station_type) :: longest(2 + size(shape%bump)*(shape%arc_elements + shape%flat_elements + 2))
+    type(station_type) :: list(2 + size(shape%bump)*(shape%arc_elements + shape%flat_elements + 2))
     real(wp) :: flat(size(shape%bump))
     integer :: n, i
 
     n = 1
-    longest(1)%divides = .true.
-    longest(1)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+    list(1)%divides = .true.
+    list(1)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
     flat = shape%bump%pitch - 2.0_wp*shape%bump%half_length
     where (flat <= rounding*shape%bump%pitch) flat = 0.0_wp
-    associate (bump => shape%bump, bumps => size(shape%bump), half => (shape%flat_elements + 1)/2)
-      if (shape%begins == begins_with_half_flat) call add_flat(longest, n, 0.5_wp*flat(1), half)
+    associate (bump => shape%bump, bumps => size(shape%bump), whole => shape%flat_elements, &
+               half => (shape%flat_elements + 1)/2)
+      if (shape%begins == begins_with_half_flat) call add_flat(list, n, 0.5_wp*flat(1), half)
       do i = 1, bumps
-        if (shape%begins == begins_with_flat) call add_flat(longest, n, flat(i), shape%flat_elements)
-        call add_arc(longest, n, bump(i), shape%arc_elements, i)
+        if (shape%begins == begins_with_flat) call add_flat(list, n, flat(i), whole)
+        call add_arc(list, n, bump(i), shape%arc_elements, i)
         if (shape%begins == begins_with_corner) then
-          call add_flat(longest, n, flat(i), shape%flat_elements)
+          call add_flat(list, n, flat(i), whole)
         else if (shape%begins == begins_with_half_flat .and. i < bumps) then
-          call add_flat(longest, n, 0.5_wp*(flat(i) + flat(i + 1)), shape%flat_elements)
+          call add_flat(list, n, 0.5_wp*(flat(i) + flat(i + 1)), whole)
         end if
       end do
-      if (shape%begins == begins_with_half_flat) call add_flat(longest, n, 0.5_wp*flat(bumps), half)
+      if (shape%begins == begins_with_half_flat) call add_flat(list, n, 0.5_wp*flat(bumps), half)
     end associate
-    longest(n)%divides = .true.
-    station = longest(:n)
+    list(n)%divides = .true.
+    station = list(:n)
   end function strip_stations
 
   !> Adds the stations of an arc.
@@ -224,7 +227,6 @@ contains
     do k = 1, elements
       n = n + 1
       station(n)%along = begin + length*real(k, wp)/real(elements, wp)
-      station(n)%height = 0.0_wp
       station(n)%normal = spread(up, 2, 2)
       station(n)%divides = k == elements
     end do
@@ -262,7 +264,8 @@ contains
     node = 0
     do i = 1, size(x)
       mean = normal(:, 1, i)
-      if (kink(i)) mean = [0.0_wp, 1.0_wp] ! the flat's, also at an end without a flat: pieces stay congruent
+      ! At corners the flat's, also at an end without a flat: pieces stay congruent.
+      if (kink(i)) mean = [0.0_wp, 1.0_wp]
       do j = 1, size(rows)
         node = node + 1
         mesh%position(:, node) = [x(i), v(i), rows(j)]
