@@ -183,8 +183,8 @@ contains
       group = 'operation'
       if (present(point)) group = 'sweep'
       call keys%complain(trim(group), key, 'moves the shaft by '//text(way, 4)// &
-                         ' m towards the pad, which must stay below the clearance of '//text(bearing%clearance)// &
-                         ' m in a rigid bearing', point)
+                         ' m towards the pad, which must stay below the clearance of '// &
+                         text(bearing%clearance)//' m in a rigid bearing', point)
     end subroutine complain
   end subroutine check_rigid_position
 
