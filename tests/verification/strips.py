@@ -70,10 +70,10 @@ def check_reference(checks, folder):
     checks.below("largest crest", strip["maximum_deflection"]/crests(strip).max() - 1.0, 1.0e-15)
     table = REFERENCE["case1"]["increasing_decreasing_peak_0.4MPa_um"]["friction 0"]
     ramp = solve(folder, "ramp", strip_load={"pressure": 0.4e6, "distribution": "increasing_decreasing"})
-    # There the corner lines can lift from the sleeve, as they do beside the lightly loaded last bumps.
+    # There the corner lines can lift from the sleeve, as they do beside the clamped and lightly loaded bump 1.
     off = crests(ramp)/(numpy.array(table)*MICROMETRE) - 1.0
     print("       increasing-decreasing, friction 0, off by", " ".join(f"{value:.1e}" for value in off))
-    checks.below("increasing-decreasing, friction 0: crests 1 to 7", numpy.abs(off[:7]).max(), 1.0e-2)
+    checks.below("increasing-decreasing, friction 0: crests 3 to 10", numpy.abs(off[2:]).max(), 1.0e-2)
     same = [0.08e6*min(n, 11 - n) for n in range(1, 11)]
     listed = solve(folder, "listed", strip_load={"distribution": "table", "bump_pressure": same})
     checks.below("the same as a table", largest_difference(crests(ramp), crests(listed)), 1.0e-12)
