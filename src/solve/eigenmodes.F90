@@ -17,7 +17,7 @@ module gfb_eigenmodes
 
   !> Modes in rising order.
   type, public :: modes_type
-    Vec, allocatable :: shape(:)           !! normalised by the mass
+    Vec, allocatable, public :: shape(:)   !! normalised by the mass
     real(wp), allocatable :: eigenvalue(:) !! omega squared [1/s2]
   end type modes_type
 

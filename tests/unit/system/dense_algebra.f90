@@ -43,7 +43,8 @@ contains
     b = pack([(k, k=1, size(kept))], kept)
     i = pack([(k, k=1, size(kept))], .not. kept)
     schur = matrix(b, b)
-    if (size(i) > 0) schur = schur - matmul(matrix(b, i), dense_solution(matrix(i, i), matrix(i, b)))
+    if (size(i) > 0) schur = schur - matmul(matrix(b, i), dense_solution(matrix(i, i), matrix(i, &
+      b)))
   end function dense_schur
 
   !> A number between 0 and 1 that looks random and is the same on every rank and in every run.

@@ -11,7 +11,8 @@ module strip_samples
   public :: plain_strip, varied_strip, mirrored_strip, mesh_strip, rigid_motion
 
   ! [Gu2020] table 1, case 1.
-  real(wp), parameter, public :: half_length = 1.778e-3_wp, height = 0.508e-3_wp, pitch = 4.572e-3_wp
+  real(wp), parameter, public :: half_length = 1.778e-3_wp, height = 0.508e-3_wp, &
+    pitch = 4.572e-3_wp
   real(wp), parameter, public :: width = 38.1e-3_wp
   type(shell_section_type), parameter, public :: &
     section = shell_section_type(0.102e-3_wp, 214.0e9_wp, 0.29_wp, 8440.0_wp)
@@ -78,7 +79,8 @@ contains
     call find_kinds(mesh, fixed, pieces)
   end subroutine mesh_strip
 
-  !> Displacements of a node when the strip moves as a rigid body: three shifts, then three small turns.
+  !> Displacements of a node when the strip moves as a rigid body: three shifts, then three small
+  !> turns.
   pure function rigid_motion(mesh, motion, node) result(moved)
     type(quad_mesh_type), intent(in) :: mesh
     integer, intent(in) :: motion !! 1 to 6
@@ -94,7 +96,8 @@ contains
     turn = 0.0_wp
     turn(motion - 3) = 1.0_wp
     associate (p => mesh%position(:, node))
-      moved(:3) = [turn(2)*p(3) - turn(3)*p(2), turn(3)*p(1) - turn(1)*p(3), turn(1)*p(2) - turn(2)*p(1)]
+      moved(:3) = [turn(2)*p(3) - turn(3)*p(2), turn(3)*p(1) - turn(1)*p(3), turn(1)*p(2) &
+        - turn(2)*p(1)]
     end associate
     moved(4) = dot_product(turn, mesh%axis_1(:, node))
     moved(5) = dot_product(turn, mesh%axis_2(:, node))
