@@ -13,7 +13,8 @@ module gfb_foil_builder
   use gfb_model_case, only: reduction_guyan
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, &
-                           axial_rows, begins_with_corner, begins_with_flat, begins_with_half_flat
+                           axial_rows, aligned_stations, crest_positions, begins_with_corner, &
+                           begins_with_flat, begins_with_half_flat
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
@@ -142,13 +143,9 @@ contains
     type(foil_plan_type), intent(in) :: plan
     type(quad_mesh_type), intent(out) :: mesh
     logical, allocatable, intent(out) :: fixed(:, :)
-    integer :: i
 
-    associate (elements => scene%mesh%circumferential_elements)
-      mesh = top_foil_mesh([(pad_length(scene%bearing)*real(i, wp)/real(elements, wp), i=0, elements)], &
-                           0.0_wp, axial_rows(scene%bearing%length, scene%mesh%axial_elements, plan%half), &
-                           plan%half)
-    end associate
+    mesh = top_foil_mesh(plate_stations(scene), 0.0_wp, &
+                         axial_rows(scene%bearing%length, scene%mesh%axial_elements, plan%half), plan%half)
     fixed = symmetry_supports(mesh)
     if (scene%top_foil%fixed_edge == top_foil_leading) then
       fixed(:, node_set(mesh, 'leading_edge')) = .true.
@@ -156,6 +153,27 @@ contains
       fixed(:, node_set(mesh, 'trailing_edge')) = .true.
     end if
   end subroutine plate
+
+  !> Stations of the top foil, above the crests where the case asks for that.
+  function plate_stations(scene) result(x)
+    type(scene_type), intent(in) :: scene
+    real(wp), allocatable :: x(:)
+    type(strip_shape_type) :: shape
+    real(wp) :: length
+    integer :: i
+
+    length = pad_length(scene%bearing)
+    associate (elements => scene%mesh%circumferential_elements, pitch => scene%bump_foil%pitch)
+      if (scene%mesh%align_crests) then
+        shape = strip_shape(scene)
+        if (shape%mirrored) shape%edge = length
+        x = aligned_stations(length, crest_positions(shape), pitch, &
+                             max(1, nint(elements*pitch/length)))
+      else
+        x = [(length*real(i, wp)/real(elements, wp), i=0, elements)]
+      end if
+    end associate
+  end function plate_stations
 
   !> All of a mesh as one piece without retained nodes.
   pure function whole(mesh) result(piece)
