@@ -59,22 +59,26 @@ contains
   end subroutine shell_mass
 
   !> The integrals \( \int N_a N_b \zeta^k dV \), k = 0, 1, 2.
+  !>
+  !> Between the nodes of a curved element the interpolated director is shorter than one; the
+  !> volume is that of a shell which has its thickness there too.
   pure function thickness_moments(geometry, thickness) result(moment)
     type(shell_geometry_type), intent(in) :: geometry
     real(wp), intent(in) :: thickness                             !! h [m]
     real(wp) :: moment(shell_nodes, shell_nodes, 0:powers - 1)    !! [m3]
 
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
-    real(wp) :: base(3, 3), volume(-1:1), term(0:2)
+    real(wp) :: base(3, 3), volume(-1:1), term(0:2), length
     integer :: i, j, k, a, b
 
     moment = 0.0_wp
     do j = -1, 1, 2
       do i = -1, 1, 2
         call bilinear(i*shell_abscissa, j*shell_abscissa, shape, by_xi, by_eta)
+        length = norm2(matmul(geometry%director, shape))
         do k = -1, 1
           base = shell_base(geometry, thickness, shape, by_xi, by_eta, real(k, wp))
-          volume(k) = dot_product(cross(base(:, 1), base(:, 2)), base(:, 3))
+          volume(k) = dot_product(cross(base(:, 1), base(:, 2)), base(:, 3))/length
         end do
         ! The volume as a polynomial of zeta, then its moments over [-1, 1].
         term = [volume(0), 0.5_wp*(volume(1) - volume(-1)), &
