@@ -5,6 +5,7 @@ module gfb_scene
   use gfb_bump_foil_case, only: bump_foil_case_type, read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
   use gfb_case_text, only: read_case_text
+  use gfb_contact_case, only: contact_case_type, read_contact_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, read_mesh_case
   use gfb_model_case, only: model_case_type, read_model_case
@@ -15,7 +16,7 @@ module gfb_scene
   use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
   use gfb_scene_rules, only: check_sweep, check_foundation, check_half_width, &
-                             check_rigid_position, check_strip
+                             check_rigid_position, check_strip, check_plates
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -40,6 +41,7 @@ module gfb_scene
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil
     type(strip_load_case_type) :: strip_load
+    type(contact_case_type) :: contact
     type(modes_case_type) :: modes
     type(model_case_type) :: model
     type(mesh_case_type) :: mesh
@@ -82,6 +84,7 @@ contains
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis)
+    call check_plates(keys, scene%strip_load, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text
@@ -122,6 +125,7 @@ contains
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
                                bumps .and. .not. arc)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
+      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, analysis)
       call read_model_case(keys, scene%model, analysis)
     end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)

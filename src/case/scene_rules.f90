@@ -10,13 +10,14 @@ module gfb_scene_rules
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_modes
+  use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: join, text
   implicit none (type, external)
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
-  public :: is_symmetric
+  public :: check_plates, is_symmetric
 
 contains
 
@@ -121,6 +122,24 @@ contains
                          ' elements are more than '//text(most_in_all)//' elements')
     end if
   end subroutine check_strip
+
+  !> Plates are either forced or moved.
+  subroutine check_plates(keys, load, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(strip_load_case_type), intent(in) :: load
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    logical :: forced, moved
+
+    if (analysis /= analysis_strip .or. load%kind /= load_plates) return
+    forced = keys%meant('strip_load', 'maximum_force')
+    moved = keys%meant('strip_load', 'maximum_displacement')
+    if (forced .and. moved) then
+      call keys%complain('strip_load', 'maximum_displacement', 'has no use beside '// &
+                         'maximum_force: plates are either forced or moved')
+    else if (.not. forced .and. .not. moved) then
+      call keys%complain('strip_load', 'kind', 'needs maximum_force or maximum_displacement')
+    end if
+  end subroutine check_plates
 
   !> Half the width can be asked for only where the film is symmetric to the midplane.
   subroutine check_half_width(keys, model, mesh, operation, sweep)

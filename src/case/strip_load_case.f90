@@ -1,26 +1,33 @@
-!> `&strip_load`: what presses on a bump strip.
+!> `&strip_load`: what presses on a bump strip, and what it rests on.
 module gfb_strip_load_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_case_keys, only: case_keys_type, longest_list, no_default
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
-  use gfb_value_rules, only: any_value
+  use gfb_value_rules, only: any_value, from_to, positive
   implicit none (type, external)
   private
   public :: strip_load_case_type, read_strip_load_case, crest_pressures
+  public :: bump_stiffness, typical_deflection
 
   integer, parameter, public :: load_crest_pressure = 1
+  integer, parameter, public :: load_plates = 2 !! two rigid planes, the upper one moved or forced
 
   integer, parameter, public :: distribution_uniform = 1
   integer, parameter, public :: distribution_increasing_decreasing = 2
   integer, parameter, public :: distribution_table = 3
 
-  integer, parameter, public :: support_held = 1 !! corner lines cannot move in v
+  integer, parameter, public :: support_contact = 1 !! corner lines rest on the sleeve, and can lift
+  integer, parameter, public :: support_held = 2    !! corner lines cannot move in v
 
-  character(len=*), parameter :: kind_words(*) = [character(len=14) :: 'crest_pressure']
+  character(len=*), parameter :: kind_words(*) = [character(len=14) :: 'crest_pressure', 'plates']
   character(len=*), parameter :: distribution_words(*) = [character(len=21) :: 'uniform', &
                                                           'increasing_decreasing', 'table']
-  character(len=*), parameter :: support_words(*) = [character(len=4) :: 'held']
+  character(len=*), parameter :: support_words(*) = [character(len=7) :: 'contact', 'held']
+  character(len=*), parameter :: not_with_plates = "has no use with kind = 'plates'"
+  real(wp), parameter :: most_steps = 1.0e6_wp
 
   !> The load of a strip.
   type :: strip_load_case_type
@@ -28,7 +35,11 @@ module gfb_strip_load_case
     integer :: distribution = distribution_uniform
     real(wp) :: pressure = 0.0_wp              !! the uniform one, or the peak [Pa]
     real(wp), allocatable :: bump_pressure(:)  !! one a bump [Pa]
-    integer :: support = support_held
+    real(wp) :: maximum_force = 0.0_wp         !! on the plate; 0: it is moved [N]
+    real(wp) :: maximum_displacement = 0.0_wp  !! of the plate; 0: it is forced [m]
+    integer :: steps_up = 10
+    integer :: steps_down = 0
+    integer :: support = support_contact
   end type strip_load_case_type
 
 contains
@@ -39,37 +50,96 @@ contains
     type(strip_load_case_type), intent(out) :: load
     integer, intent(in) :: bumps    !! of the strip, 0 where not known
     integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: needed, table, given
+    logical :: needed
 
     needed = analysis == analysis_strip
     call keys%start_group('strip_load', required=needed, optional=.not. needed, &
                           misplaced=misplaced_group(analysis, needed))
-    call keys%choice_key('kind', load%kind, kind_words, 'how the strip is loaded')
-    call keys%choice_key('distribution', load%distribution, distribution_words, &
-                         'of the crest pressure over the bumps')
-    table = load%distribution == distribution_table
+    call keys%choice_key('kind', load%kind, kind_words, 'how the strip is loaded: pressure on '// &
+                         'its crests, or two rigid plates')
+    call read_distribution(keys, load)
+    call read_pressures(keys, load, bumps, needed .and. load%kind == load_crest_pressure)
+    call read_maximum('maximum_force', load%maximum_force, 'N', 'largest force on the upper plate')
+    call read_maximum('maximum_displacement', load%maximum_displacement, 'm', &
+                      'largest way of the upper plate towards the strip')
+    call keys%integer_key('steps_up', load%steps_up, 'load steps up to the whole load', &
+                          from_to(1.0_wp, most_steps))
+    if (load%kind == load_plates) load%steps_down = load%steps_up
+    call keys%integer_key('steps_down', load%steps_down, 'load steps back to zero', &
+                          from_to(0.0_wp, most_steps), &
+                          default='`steps_up` with plates, otherwise 0')
+    call keys%choice_key('support', load%support, support_words, &
+                         'corner lines rest on the sleeve, or cannot leave it')
+    call keys%finish_group()
+
+  contains
+
+    !> What the plate does at the whole load.
+    subroutine read_maximum(name, value, unit, meaning)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: value
+      logical :: given
+
+      call keys%real_key(name, value, unit, meaning, positive, &
+                         default='plates need one of force and displacement', given=given)
+      if (given .and. load%kind == load_crest_pressure) then
+        call keys%complain('strip_load', name, "needs kind = 'plates'")
+      end if
+    end subroutine read_maximum
+  end subroutine read_strip_load_case
+
+  !> How the crest pressure is spread; plates have none, so that their echo must not show one.
+  subroutine read_distribution(keys, load)
+    type(case_keys_type), intent(inout) :: keys
+    type(strip_load_case_type), intent(inout) :: load
+    character(len=*), parameter :: name = 'distribution'
+    integer, allocatable :: elements(:)
+
+    if (load%kind /= load_plates) then
+      call keys%choice_key(name, load%distribution, distribution_words, &
+                           'of the crest pressure over the bumps')
+      return
+    end if
+    call keys%describe(name, 'string', '', 'of the crest pressure over the bumps')
+    call keys%begin_key('', longest_list, elements, default=no_default)
+    if (keys%key%given) call keys%complain('strip_load', name, not_with_plates)
+    call keys%end_key('', .false.)
+  end subroutine read_distribution
+
+  !> The crest pressures.
+  subroutine read_pressures(keys, load, bumps, needed)
+    type(case_keys_type), intent(inout) :: keys
+    type(strip_load_case_type), intent(inout) :: load
+    integer, intent(in) :: bumps  !! of the strip, 0 where not known
+    logical, intent(in) :: needed !! they are the load
+    logical :: plates, table, known, given
+
+    plates = load%kind == load_plates
+    table = .not. plates .and. load%distribution == distribution_table
+    known = .not. plates .and. load%distribution /= 0
     call keys%real_key('pressure', load%pressure, 'Pa', 'uniform pressure, or the peak', &
-                       any_value, needed .and. .not. table .and. load%distribution /= 0, &
-                       default='required unless a table', given=given)
-    if (table .and. given) then
+                       any_value, needed .and. known .and. .not. table, &
+                       default='required unless plates or a table', given=given)
+    if (given .and. plates) then
+      call keys%complain('strip_load', 'pressure', not_with_plates)
+    else if (given .and. table) then
       call keys%complain('strip_load', 'pressure', "has no use with distribution = 'table': "// &
                          'bump_pressure gives the pressures')
     end if
     call keys%real_list_key('bump_pressure', load%bump_pressure, longest_list, 'Pa', &
                             'pressure on every bump of a table', any_value, needed .and. table, &
                             'required for a table')
-    if (table .and. bumps > 0 .and. keys%last_key_is_right()) then
+    if (keys%key%given .and. plates) then
+      call keys%complain('strip_load', 'bump_pressure', not_with_plates)
+    else if (table .and. bumps > 0 .and. keys%last_key_is_right()) then
       if (size(load%bump_pressure) /= bumps) then
         call keys%complain('strip_load', 'bump_pressure', 'must have one value a bump: '// &
                            text(bumps)//', not '//text(size(load%bump_pressure)))
       end if
-    else if (size(load%bump_pressure) > 0 .and. .not. table .and. load%distribution /= 0) then
+    else if (size(load%bump_pressure) > 0 .and. known .and. .not. table) then
       call keys%complain('strip_load', 'bump_pressure', "needs distribution = 'table'")
     end if
-    call keys%choice_key('support', load%support, support_words, &
-                         'corner lines held in v: a linear strip')
-    call keys%finish_group()
-  end subroutine read_strip_load_case
+  end subroutine read_pressures
 
   !> Pressure on every bump, from the smallest x on [Pa].
   pure function crest_pressures(load, bumps) result(pressure)
@@ -88,4 +158,49 @@ contains
       pressure = load%pressure
     end select
   end function crest_pressures
+
+  !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
+  elemental function bump_stiffness(foil) result(stiffness)
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp) :: stiffness
+    real(wp), parameter :: largest_power = 60.0_wp !! of ten; no foil comes near, and products hold
+    real(wp) :: power
+
+    stiffness = 0.0_wp
+    if (.not. min(foil%youngs_modulus, foil%thickness) > 0.0_wp) return
+    if (.not. min(foil%half_length, foil%pitch) > 0.0_wp) return
+    power = log10(foil%youngs_modulus) + 3.0_wp*log10(foil%thickness/foil%half_length) - &
+            log10(foil%pitch)
+    if (abs(power) > largest_power) return
+    stiffness = walowit_anno_stiffness(foil%youngs_modulus, foil%poissons_ratio, foil%thickness, &
+                                       foil%half_length, foil%pitch)
+  end function bump_stiffness
+
+  !> About how far the whole load presses the bumps down [m]; a small part of their height where
+  !> there is no load.
+  elemental function typical_deflection(load, foil) result(deflection)
+    type(strip_load_case_type), intent(in) :: load
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp) :: deflection
+    real(wp), parameter :: part_of_height = 1.0e-3_wp
+    real(wp) :: stiffness !! [N/m^3]
+    real(wp) :: unloaded  !! [m]
+
+    stiffness = bump_stiffness(foil)
+    unloaded = part_of_height*foil%height
+    deflection = 0.0_wp
+    if (load%kind == load_plates .and. load%maximum_displacement > 0.0_wp) then
+      deflection = load%maximum_displacement
+    else if (load%kind == load_plates .and. min(foil%pitch, foil%width) > 0.0_wp .and. &
+             foil%bumps > 0 .and. stiffness > 0.0_wp) then
+      deflection = load%maximum_force/(foil%bumps*stiffness*foil%pitch*foil%width)
+    else if (load%kind == load_crest_pressure .and. stiffness > 0.0_wp) then
+      deflection = abs(load%pressure)/stiffness
+      if (load%distribution == distribution_table) then
+        deflection = maxval([0.0_wp, abs(load%bump_pressure)])/stiffness
+      end if
+    end if
+    ! What is lost in the rounding of the height is no load.
+    if (.not. deflection > epsilon(unloaded)*unloaded) deflection = unloaded
+  end function typical_deflection
 end module gfb_strip_load_case

@@ -10,7 +10,7 @@ module gfb_foil_grid
   use gfb_result_set, only: result_grid_type, add_grid_field
   implicit none (type, external)
   private
-  public :: create_foil_grid, add_displacement, add_stress
+  public :: create_foil_grid, add_displacement, add_node_field, add_stress
 
   !> sign of (u, v, w) in the other half
   real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp]
@@ -53,6 +53,16 @@ contains
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
     type(result_grid_type), intent(inout) :: grid
 
+    call add_node_field(foil, name, 'm', meaning, moved(:3, :), grid)
+  end subroutine add_displacement
+
+  !> Adds a number, or a vector along (x, v, z), at each of this rank's nodes.
+  subroutine add_node_field(foil, name, unit, meaning, value, grid)
+    type(foil_structure_type), intent(in) :: foil
+    character(len=*), intent(in) :: name, unit, meaning
+    real(wp), intent(in) :: value(:, :) !! (1 or 3, local nodes)
+    type(result_grid_type), intent(inout) :: grid
+
     real(wp), allocatable :: block(:, :)
     integer, allocatable :: wanted(:)
     integer :: first, last, i
@@ -64,12 +74,12 @@ contains
       call solved_node(foil, i, wanted(i - first + 1), mirrored(i - first + 1))
     end do
     block = fetch_entries(size(foil%mesh%position, 2), pack(foil%part%mesh_node, foil%part%owned), &
-                          own_columns(moved(:3, :), foil%part%owned), wanted)
+                          own_columns(value, foil%part%owned), wanted)
     do i = 1, size(wanted)
-      if (mirrored(i)) block(:, i) = block(:, i)*mirror
+      if (mirrored(i) .and. size(block, 1) == size(mirror)) block(:, i) = block(:, i)*mirror
     end do
-    call add_grid_field(grid%point_field, name, 'm', meaning, block)
-  end subroutine add_displacement
+    call add_grid_field(grid%point_field, name, unit, meaning, block)
+  end subroutine add_node_field
 
   !> Adds the stresses at the elements' centres.
   subroutine add_stress(foil, moved, grid)

@@ -8,6 +8,7 @@ module gfb_foil_plan
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan
   use gfb_modes_case, only: part_words, part_strip
   use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
@@ -30,8 +31,7 @@ contains
     strip = scene%general%analysis == analysis_strip
     call log%heading('what the scene needs')
     if (strip) then
-      call log%line('bump strip of '//text(scene%bump_foil%bumps)// &
-                    ' bumps as shells, corner lines held in v')
+      call show_contacts(scene, log)
     else
       call log%line('modes of the '//trim(part_words(scene%modes%part))//' as shells')
     end if
@@ -56,16 +56,56 @@ contains
     else if (strip) then
       call log%line('bumps: all unknowns, as reduction asks')
     end if
-    if (scene%bump_foil%fixed_edge == fixed_edge_none .and. &
-        (strip .or. scene%modes%part == part_strip)) then
-      if (strip) then
-        call log%line('strip: fixed nowhere; its gliding on the sleeve is removed at one node')
-      else
-        call log%line('strip: free; it has six rigid motions')
-      end if
+    plan%pinned = strip .and. scene%bump_foil%fixed_edge == fixed_edge_none .and. &
+                  .not. has_friction(scene)
+    if (plan%pinned) then
+      call log%line('strip: fixed nowhere and without friction; its gliding on the sleeve is removed at '// &
+                    'one node')
+    else if (scene%bump_foil%fixed_edge == fixed_edge_none .and. strip) then
+      call log%line('strip: fixed nowhere; friction alone holds it')
+    else if (scene%bump_foil%fixed_edge == fixed_edge_none .and. scene%modes%part == part_strip) then
+      call log%line('strip: free; it has six rigid motions')
     end if
     if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
   end subroutine plan_foil
+
+  !> Whether anything rubs.
+  pure function has_friction(scene) result(friction)
+    type(scene_type), intent(in) :: scene
+    logical :: friction
+
+    associate (contact => scene%contact)
+      friction = (contact%friction_sleeve > 0.0_wp .and. scene%strip_load%support /= support_held) .or. &
+                 contact%friction_top > 0.0_wp
+    end associate
+  end function has_friction
+
+  !> Load, contacts and friction of a strip.
+  subroutine show_contacts(scene, log)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    character(len=:), allocatable :: words
+
+    words = 'bump strip of '//text(scene%bump_foil%bumps)//' bumps as shells, '
+    associate (load => scene%strip_load, contact => scene%contact)
+      if (load%kind == load_plates) then
+        words = words//'between two rigid plates'
+      else if (contact%friction_top > 0.0_wp) then
+        words = words//'crests loaded and rubbing on an immobile plate'
+      else
+        words = words//'crests loaded'
+      end if
+      if (load%support == support_held) words = words//', corner lines held in v'
+      call log%line(words)
+      if (has_friction(scene)) then
+        call log%line('friction: '//text(contact%friction_top, 4)//' on top, '// &
+                      text(contact%friction_sleeve, 4)//' on the sleeve, stick length '// &
+                      text(contact%stick_length*1.0e9_wp, 4)//' nm')
+      else
+        call log%line('friction: none, so the matrix is symmetric and steps have no memory')
+      end if
+    end associate
+  end subroutine show_contacts
 
   !> Sizes of a strip and the memory they take.
   subroutine show_sizes(scene, plan, log)

@@ -56,7 +56,7 @@ contains
       call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
       select case (scene%general%analysis)
       case (analysis_strip)
-        call run_strip(scene, line%folder, line%words, start_time, log, error)
+        call run_strip(scene, line%folder, line%words, start_time, log, converged, error)
       case (analysis_modes)
         call run_modes(scene, line%folder, line%words, start_time, log, converged, error)
       case default

@@ -1,210 +1,247 @@
 #include "gfb_petsc.h"
-!> A bump strip under given crest loads.
+!> A bump strip under crest loads or between plates, up and down in load steps.
 module gfb_strip_analysis
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-                          truth_quantity
-  use gfb_petsc_kinds, only: pint
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
-  use gfb_strip_load_case, only: crest_pressures
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_strip_load_case, only: crest_pressures, load_plates
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_substructures, only: kind_count
-  use gfb_foil_builder, only: foil_plan_type, build_strip
-  use gfb_linear_solve, only: solve_definite
+  use gfb_foil_builder, only: foil_plan_type
+  use gfb_strip_builder, only: build_strip
+  use gfb_strip_system, only: strip_system_type, destroy_strip_system
+  use gfb_strip_answer, only: strip_answer_type, strip_recorder_type, start_recorder, read_answer, &
+                              destroy_recorder
+  use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
+                        destroy_newton
+  use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
-  use gfb_foil_grid, only: create_foil_grid, add_displacement, add_stress
+  use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
   use gfb_foil_plan, only: plan_foil
+  use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
+  use gfb_contact_output, only: contact_record_type, record_contacts, contact_arrays, contact_field
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
   public :: run_strip
 
+  !> What a run gathers.
+  type :: strip_run_type
+    type(strip_answer_type) :: full, last !! at the largest load, and of the last step
+    type(history_row_type), allocatable :: history(:)
+    type(contact_record_type) :: contacts
+    integer :: steps = 0                  !! done
+    logical :: converged = .true.
+  end type strip_run_type
+
 contains
 
   !> Computes a strip and writes its results.
   !>
-  !> Fails on a strip that is not held, and when a file cannot be written.
-  subroutine run_strip(scene, folder, command, start_time, log, error)
+  !> Fails when a file cannot be written.
+  subroutine run_strip(scene, folder, command, start_time, log, converged, error)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
     real(wp), intent(in) :: start_time       !! of the run [s]
     type(run_log_type), intent(in) :: log
+    logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
 
     type(foil_plan_type) :: plan
-    type(foil_structure_type) :: strip
-    type(history_row_type), allocatable :: history(:)
+    type(strip_system_type), target :: strip
+    type(newton_type), target :: newton
+    type(strip_run_type) :: run
     type(quantity_type), allocatable :: summary(:)
-    type(result_grid_type) :: grid
-    real(wp), allocatable :: moved(:, :), deflection(:), force(:)
-    Vec :: load, solution
-    PetscErrorCode :: ierr
+    logical :: plates
 
+    converged = .false.
+    plates = scene%strip_load%kind == load_plates
     call plan_foil(scene, log, plan)
     call log%heading('solution')
     call build_strip(scene, plan, strip, error)
     if (allocated(error)) return
-    call log%line('super-elements: '//text(kind_count(strip%substructure))//' distinct of '// &
-                  text(size(strip%substructure))//', '//text(strip%unknowns)//' unknowns')
-    PetscCallA(MatCreateVecs(strip%stiffness, solution, load, ierr))
-    call load_crests(strip, scene, plan, load, force)
-    call solve_definite(strip%stiffness, load, 'foil_', solution, error)
-    if (.not. allocated(error)) then
-      allocate (moved(node_unknowns, size(strip%part%mesh_node)))
-      call strip%displacements(solution, moved)
-      deflection = crest_deflections(strip, scene%bump_foil%bumps, moved)
-      summary = [strip_quantities(deflection, sum(force)), &
-                 cost_quantities(scene, strip, start_time)]
-      call show_closing_block(log, deflection, sum(force))
-      allocate (history(1))
-      history(1)%quantity = summary
-      call create_foil_grid(strip, 'bump_foil', grid)
-      call add_displacement(strip, 'displacement', 'of the mid-surface', moved, grid)
-      call add_stress(strip, moved, grid)
-      call write_result_set(scene, folder, .true., provenance(command), summary, history, &
-                            [case_array_type ::], [grid], log, error)
-    end if
-    PetscCallA(VecDestroy(load, ierr))
-    PetscCallA(VecDestroy(solution, ierr))
-    call destroy_foil_structure(strip)
+    call log%line('super-elements: '//text(kind_count(strip%foil%substructure))//' distinct of '// &
+                  text(size(strip%foil%substructure))//', '//text(strip%unknowns)//' unknowns')
+    call create_newton(newton, strip, 'strip_', newton_settings_type(scene%solver%residual_tolerance, &
+                       scene%solver%step_tolerance, scene%solver%maximum_iterations), log)
+    call load_and_unload(scene, strip, newton, log, run)
+    converged = run%converged
+    summary = [answer_quantities(run%full, run%last, plates, converged), &
+               cost_quantities(scene, strip, newton, start_time)]
+    call show_closing_block(log, run, plates)
+    call write_strip(scene, folder, command, strip, run, summary, log, error)
+    call destroy_newton(newton)
+    call destroy_strip_system(strip)
   end subroutine run_strip
 
-  !> Loads every crest line with its bump's pressure, by the length each node stands for.
-  subroutine load_crests(strip, scene, plan, load, force)
-    type(foil_structure_type), intent(in) :: strip
+  !> All load steps, up and down again.
+  subroutine load_and_unload(scene, strip, newton, log, run)
     type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    Vec, intent(in) :: load
-    real(wp), allocatable, intent(out) :: force(:) !! on each bump over the whole width [N]
+    type(strip_system_type), target, intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    type(run_log_type), intent(in) :: log
+    type(strip_run_type), intent(inout) :: run
 
-    integer, parameter :: radial = 2
-    real(wp), allocatable :: share(:)
-    integer, allocatable :: line(:)
-    integer :: bump, i, unknown
+    type(load_path_type) :: path
+    type(strip_recorder_type) :: recorder
+    type(newton_report_type) :: report
+    type(history_row_type) :: row
+    integer :: step, steps, iterations, factorizations
+
+    associate (load => scene%strip_load)
+      steps = load%steps_up + load%steps_down
+      allocate (run%history(0))
+      call start_recorder(strip, scene%bump_foil%bumps, recorder)
+      call create_load_path(strip, path)
+      run%full = recorder%last
+      run%last = recorder%last
+      call show_step_header(log)
+      do step = 1, steps
+        iterations = newton%iterations
+        factorizations = newton%factorizations
+        call take_load_step(strip, newton, load_factor(step, load%steps_up, load%steps_down), path, report)
+        if (.not. report%converged) then
+          run%converged = .false.
+          call explain(log, strip, step, steps, report)
+          exit
+        end if
+        call read_answer(strip, full_force(scene), recorder, run%last)
+        call strip%commit()
+        if (step <= load%steps_up) run%full = run%last
+        run%steps = step
+        iterations = newton%iterations - iterations
+        factorizations = newton%factorizations - factorizations
+        row%quantity = step_quantities(run%last, step, load%kind == load_plates, iterations, factorizations)
+        run%history = [run%history, row]
+        call record_contacts(strip, step, steps, run%contacts)
+        call show_step(log, run%last, step, iterations, factorizations)
+      end do
+      if (path%homotopies + path%cuts > 0) then
+        call log%line(text(path%homotopies)//' steps by a longer stick length, '//text(path%cuts)//' cuts')
+      end if
+    end associate
+    call destroy_load_path(path)
+    call destroy_recorder(recorder)
+  end subroutine load_and_unload
+
+  !> Share of the full load at a step.
+  pure function load_factor(step, up, down) result(factor)
+    integer, intent(in) :: step, up, down
+    real(wp) :: factor
+
+    if (step <= up) then
+      factor = real(step, wp)/real(up, wp)
+    else
+      factor = real(up + down - step, wp)/real(down, wp)
+    end if
+  end function load_factor
+
+  !> Full force on all crests where it is given [N].
+  function full_force(scene) result(force)
+    type(scene_type), intent(in) :: scene
+    real(wp) :: force
+
+    associate (foil => scene%bump_foil, load => scene%strip_load)
+      if (load%kind == load_plates) then
+        force = load%maximum_force
+      else
+        force = sum(crest_pressures(load, foil%bumps))*foil%pitch*foil%width
+      end if
+    end associate
+  end function full_force
+
+  !> Says why there is no answer.
+  subroutine explain(log, strip, step, steps, report)
+    type(run_log_type), intent(in) :: log
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: step, steps
+    type(newton_report_type), intent(in) :: report
+
+    call log%line('no equilibrium found in step '//text(step)//' of '//text(steps)//': '//report%reason)
+  end subroutine explain
+
+  !> Writes all files.
+  !>
+  !> Fails when one cannot be written.
+  subroutine write_strip(scene, folder, command, strip, run, summary, log, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder, command
+    type(strip_system_type), intent(in) :: strip
+    type(strip_run_type), intent(in) :: run
+    type(quantity_type), intent(in) :: summary(:)
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+
+    type(result_grid_type) :: grid
+    type(case_array_type), allocatable :: arrays(:)
+    real(wp), allocatable :: moved(:, :), force(:, :), state(:, :)
+    Vec :: solution
     PetscErrorCode :: ierr
 
-    associate (foil => scene%bump_foil)
-      force = crest_pressures(scene%strip_load, foil%bumps)*foil%pitch*foil%width
-      do bump = 1, foil%bumps
-        line = node_set(strip%mesh, 'crest_'//text(bump))
-        share = line_shares(strip%mesh, line)
-        do i = 1, size(line)
-          if (strip%local_node(line(i)) == 0) cycle
-          if (.not. strip%part%owned(strip%local_node(line(i)))) cycle
-          unknown = strip%unknown(radial, line(i))
-          PetscCallA(VecSetValue(load, int(unknown, pint), -force(bump)*merge(0.5_wp, 1.0_wp, plan%half)*share(i), ADD_VALUES, ierr))
-        end do
-      end do
-    end associate
-    PetscCallA(VecAssemblyBegin(load, ierr))
-    PetscCallA(VecAssemblyEnd(load, ierr))
-  end subroutine load_crests
-
-  !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to one.
-  pure function line_shares(mesh, line) result(share)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: line(:) !! nodes in order of z
-    real(wp) :: share(size(line))
-    integer :: i, n
-
-    n = size(line)
-    associate (z => mesh%position(3, line))
-      do i = 1, n
-        share(i) = 0.5_wp*(z(min(i + 1, n)) - z(max(i - 1, 1)))/(z(n) - z(1))
-      end do
-    end associate
-  end function line_shares
-
-  !> Mean deflection of each crest line towards the sleeve [m].
-  function crest_deflections(strip, bumps, moved) result(deflection)
-    type(foil_structure_type), intent(in) :: strip
-    integer, intent(in) :: bumps
-    real(wp), intent(in) :: moved(:, :) !! (5, local nodes)
-    real(wp) :: deflection(bumps)
-    integer, allocatable :: line(:)
-    real(wp), allocatable :: share(:)
-    integer :: bump, i, local
-
-    deflection = 0.0_wp
-    do bump = 1, bumps
-      line = node_set(strip%mesh, 'crest_'//text(bump))
-      share = line_shares(strip%mesh, line)
-      do i = 1, size(line)
-        local = strip%local_node(line(i))
-        if (local == 0) cycle
-        if (strip%part%owned(local)) deflection(bump) = deflection(bump) - share(i)*moved(2, local)
-      end do
-    end do
-    deflection = sum_over_ranks(deflection)
-  end function crest_deflections
-
-  !> Quantities of the answer.
-  function strip_quantities(deflection, force) result(list)
-    real(wp), intent(in) :: deflection(:) !! of the crests [m]
-    real(wp), intent(in) :: force         !! on all bumps [N]
-    type(quantity_type), allocatable :: list(:)
-    integer :: bump
-
-    list = [word_quantity('analysis', 'strip', 'kind of analysis'), &
-            truth_quantity('converged', .true., 'whether the answer was found')]
-    do bump = 1, size(deflection)
-      list = [list, number_quantity('crest_deflection_'//text(bump), deflection(bump), 'm', &
-                                    'mean deflection of a crest line towards the sleeve')]
-    end do
-    list = [list, &
-            number_quantity('maximum_deflection', maxval(deflection), 'm', 'largest crest deflection'), &
-            number_quantity('maximum_force', force, 'N', 'force on all crests')]
-    if (maxval(deflection) > 0.0_wp) then
-      list = [list, number_quantity('loading_stiffness', force/maxval(deflection), 'N/m', &
-                                    'maximum force over maximum deflection')]
-    end if
-  end function strip_quantities
+    allocate (moved(node_unknowns, size(strip%foil%part%mesh_node)))
+    call strip%foil_solution(solution)
+    call strip%foil%displacements(solution, moved)
+    PetscCallA(VecDestroy(solution, ierr))
+    call contact_field(strip, force, state)
+    call create_foil_grid(strip%foil, 'bump_foil', grid)
+    call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
+    call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
+    call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
+    call add_stress(strip%foil, moved, grid)
+    arrays = contact_arrays(strip, run%contacts, run%steps)
+    call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
+                          [grid], log, error)
+  end subroutine write_strip
 
   !> Quantities of what it cost.
-  function cost_quantities(scene, strip, start_time) result(list)
+  function cost_quantities(scene, strip, newton, start_time) result(list)
     type(scene_type), intent(in) :: scene
-    type(foil_structure_type), intent(in) :: strip
+    type(strip_system_type), intent(in) :: strip
+    type(newton_type), intent(in) :: newton
     real(wp), intent(in) :: start_time !! [s]
     type(quantity_type), allocatable :: list(:)
     real(wp) :: memory(1)
     integer :: stations, rows
 
-    stations = size(strip%mesh%position, 2)/strip%mesh%rows
+    stations = size(strip%foil%mesh%position, 2)/strip%foil%mesh%rows
     rows = scene%mesh%axial_elements + 1
     memory = sum_over_ranks([peak_memory()])
     list = [count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'), &
             count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
                            'of the bump foil, whole width, before constraints'), &
-            count_quantity('foil_unknowns_retained', node_unknowns*(size(strip%substructure) + 1)*rows, &
+            count_quantity('foil_unknowns_retained', node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
                            'of its retained lines, whole width, before constraints'), &
-            count_quantity('distinct_super_elements', kind_count(strip%substructure), 'condensed once each'), &
-            count_quantity('factorizations', 1, 'of the assembled stiffness'), &
+            count_quantity('distinct_super_elements', kind_count(strip%foil%substructure), 'condensed once each'), &
+            count_quantity('newton_iterations', newton%iterations, 'of all load steps'), &
+            count_quantity('factorizations', newton%factorizations, 'of all load steps'), &
             number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
             number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
   end function cost_quantities
 
   !> The answer in the units an engineer reads.
-  subroutine show_closing_block(log, deflection, force)
+  subroutine show_closing_block(log, run, plates)
     type(run_log_type), intent(in) :: log
-    real(wp), intent(in) :: deflection(:) !! of the crests [m]
-    real(wp), intent(in) :: force         !! on all bumps [N]
+    type(strip_run_type), intent(in) :: run
+    logical, intent(in) :: plates
     integer :: bump
 
     call log%heading('answer')
-    do bump = 1, size(deflection)
-      call log%line('crest '//text(bump)//'  '//text(deflection(bump)*1.0e6_wp, 5)//' um')
+    do bump = 1, size(run%full%deflection)
+      call log%line('crest '//text(bump)//'  '//text(run%full%deflection(bump)*1.0e6_wp, 5)//' um')
     end do
-    call log%line('force on all crests '//text(force, 5)//' N, '//text(rank_count())//' rank(s), BLAS '// &
-                  blas_in_use())
+    if (plates) call log%line('plate travel '//text(run%full%travel*1.0e6_wp, 6)//' um')
+    call log%line('force on all crests '//text(run%full%force, 5)//' N, '//text(rank_count())// &
+                  ' rank(s), BLAS '//blas_in_use())
+    if (run%converged .and. run%full%factor > run%last%factor) then
+      call log%line('dissipated in the cycle '//text(run%last%external_work*1.0e3_wp, 5)//' mJ')
+    end if
   end subroutine show_closing_block
 end module gfb_strip_analysis

@@ -95,7 +95,7 @@ contains
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
     PetscCallA(KSPGetPC(linear, factors, ierr))
-    PetscCallA(PCSetType(factors, PCLU, ierr))
+    PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', system%symmetric)), ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
     ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
@@ -126,6 +126,7 @@ contains
     PetscInt :: iterations
     PetscReal :: norm
     PetscErrorCode :: ierr
+    logical :: moved
 
     newton%keep = .false.
     newton%impossible = .false.
@@ -135,6 +136,7 @@ contains
     newton%past = 0.0_wp
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
     ! PETSc marks what it cannot evaluate or solve with one over zero.
+    call newton%system%settle(newton%system%state, moved)
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     PetscCallA(SNESSolve(newton%snes, PETSC_NULL_VEC, newton%system%state, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
@@ -219,7 +221,7 @@ contains
     Vec :: x, f, y, trial, trial_residual
     PetscReal :: before, after, size_x, size_y
     integer :: halving
-    logical :: found
+    logical :: found, moved
 
     PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
     PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
@@ -249,6 +251,10 @@ contains
     if (found) then
       PetscCall(VecCopy(trial, x, ierr))
       PetscCall(VecCopy(trial_residual, f, ierr))
+      call newton%system%settle(x, moved)
+      if (moved) then
+        PetscCall(SNESComputeFunction(snes, x, f, ierr))
+      end if
     else
       newton%length = 0.0_wp
       if (newton%fresh) then
@@ -290,10 +296,10 @@ contains
     residual = norm/sqrt(newton%unknowns)
     call show_iteration(newton, int(iteration), residual)
     if (iteration == 0) then
-      if (residual <= 10.0_wp*epsilon(1.0_wp)) reason = SNES_CONVERGED_FNORM_ABS
+      if (residual <= 10.0_wp*epsilon(1.0_wp) .and. newton%system%settled) reason = SNES_CONVERGED_FNORM_ABS
       return
     end if
-    if (newton%length < 1.0_wp) return
+    if (newton%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%step <= newton%settings%step_tolerance
     if (newton%fresh .and. newton%step <= stagnation) then
       small = small .or. newton%step > 0.5_wp*newton%step_before

@@ -20,52 +20,19 @@ module gfb_foil_builder
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
   implicit none (type)
   private
-  public :: build_strip, build_part, strip_shape
+  public :: build_part, strip_shape, section_of, symmetry_supports
 
-  integer, parameter :: radial = 2, axial = 3, tangential = 1 !! components of a displacement
+  integer, parameter :: axial = 3                             !! component of a displacement
   integer, parameter :: about_tangent = 5                     !! rotation about the second axis
 
   !> What the program decided about a foil.
   type, public :: foil_plan_type
     logical :: half = .false.    !! half the width is solved
     logical :: reduced = .false. !! substructures are condensed
+    logical :: pinned = .false.  !! nothing but one node keeps a strip from gliding
   end type foil_plan_type
 
 contains
-
-  !> The strip of a scene with its corner lines held in v and its fixed edge clamped.
-  !>
-  !> A strip without a fixed edge is kept from gliding at one node, which no load asks for.
-  !> Fails where an element is degenerate.
-  subroutine build_strip(scene, plan, strip, error)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    type(foil_structure_type), intent(out) :: strip
-    type(error_type), allocatable, intent(out) :: error
-
-    type(quad_mesh_type) :: mesh
-    type(substructure_type), allocatable :: pieces(:)
-    type(strip_shape_type) :: shape
-    logical, allocatable :: fixed(:, :)
-    integer, allocatable :: line(:)
-
-    shape = strip_shape(scene)
-    associate (foil => scene%bump_foil)
-      mesh = bump_strip_mesh(shape, axial_rows(foil%width, scene%mesh%axial_elements, plan%half), plan%half)
-      pieces = strip_substructures(shape, mesh)
-      fixed = symmetry_supports(mesh)
-      fixed(radial, node_set(mesh, 'corners')) = .true.
-      line = node_set(mesh, 'fixed_edge')
-      if (foil%fixed_edge == fixed_edge_none) then
-        fixed([tangential, axial], line(1)) = .true.
-        fixed(tangential, line(size(line))) = .not. plan%half
-      else
-        fixed(:, line) = .true.
-      end if
-      call find_kinds(mesh, fixed, pieces)
-      call create_foil_structure(mesh, section_of(foil), fixed, pieces, plan%reduced, strip, error)
-    end associate
-  end subroutine build_strip
 
   !> The part of a scene's foils whose modes are asked for, as one full structure.
   !>

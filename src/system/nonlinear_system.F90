@@ -10,7 +10,10 @@ module gfb_nonlinear_system
     Vec :: state    !! x, scaled; owned by the system
     Mat :: jacobian !! df/dx, scaled; owned by the system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
+    logical :: symmetric = .false.  !! the matrix is, at every state
+    logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
+    procedure :: settle
     procedure(evaluate), deferred :: evaluate
     procedure(linearise), deferred :: linearise
   end type nonlinear_system_type
@@ -32,4 +35,15 @@ module gfb_nonlinear_system
       Vec, intent(in) :: state !! scaled
     end subroutine linearise
   end interface
+
+contains
+
+  !> Called after every step: what is linearised at a place of its own moves there. The residual changes
+  !> with it. Says so in `moved`; here nothing does.
+  subroutine settle(self, state, moved)
+    class(nonlinear_system_type), intent(inout) :: self
+    Vec, intent(in) :: state !! scaled
+    logical, intent(out) :: moved
+    moved = .false.
+  end subroutine settle
 end module gfb_nonlinear_system

@@ -1,0 +1,128 @@
+!> `&contact`: how the crests and corners of the bumps touch, and how they rub.
+!>
+!> The defaults of stiffness and stick length follow the scene, so that neither shows in its answer.
+module gfb_contact_case
+  use gfb_kinds, only: wp
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_scene_case, only: analysis_strip, misplaced_group
+  use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
+                                 support_held
+  use gfb_value_rules, only: from_to, positive
+  implicit none (type, external)
+  private
+  public :: contact_case_type, read_contact_case
+
+  integer, parameter, public :: law_tanh_drag = 1  !! what sticks is dragged along; the default
+  integer, parameter, public :: law_tanh_reset = 2 !! starts anew at a reversal, as [Gu2020]
+  integer, parameter, public :: law_coulomb = 3    !! elastic stick, then slip
+
+  integer, parameter, public :: direction_tangent_plane = 1 !! against the slip, a vector; the default
+  integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
+
+  character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', 'motion']
+  character(len=*), parameter :: law_words(*) = [character(len=10) :: 'tanh_drag', 'tanh_reset', &
+                                                 'coulomb']
+
+  real(wp), parameter :: bumps_stiffness = 1.0e4_wp   !! contact's over that of a bump
+  real(wp), parameter :: stick_part = 1.0_wp/5.0e3_wp !! of the typical deflection
+  real(wp), parameter :: highest_friction = 10.0_wp
+  real(wp), parameter :: lowest = 1.0e-60_wp, highest = 1.0e30_wp !! what a case file can hold
+
+  !> The contacts.
+  type :: contact_case_type
+    logical :: present = .false.              !! the group stands in the file
+    real(wp) :: normal_stiffness = 0.0_wp     !! per metre of line [N/m^(1 + exponent)]
+    real(wp) :: exponent = 1.0_wp             !! of the penetration [1]
+    real(wp) :: friction_top = 0.0_wp         !! crests on the top foil or the plate above [1]
+    real(wp) :: friction_sleeve = 0.0_wp      !! corners on the sleeve [1]
+    real(wp) :: stick_length = 0.0_wp         !! tangential way at which slip begins [m]
+    integer :: friction_law = law_tanh_drag
+    integer :: friction_direction = direction_tangent_plane
+  end type contact_case_type
+
+contains
+
+  !> Reads the group; a strip that touches nothing need not have it.
+  subroutine read_contact_case(keys, contact, load, foil, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(contact_case_type), intent(out) :: contact
+    type(strip_load_case_type), intent(in) :: load
+    type(bump_foil_case_type), intent(in) :: foil
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: strip
+
+    strip = analysis == analysis_strip
+    call keys%start_group('contact', optional=.not. strip, present_in_file=contact%present, &
+                          misplaced=misplaced_group(analysis, strip))
+    call keys%real_key('exponent', contact%exponent, '1', &
+                       'of the penetration in the normal force', from_to(1.0_wp, 3.0_wp))
+    contact%normal_stiffness = default_stiffness(load, foil, contact%exponent)
+    call scene_key('normal_stiffness', contact%normal_stiffness, 'N/m^(1+exponent)', &
+                   'normal force per metre of contact line over penetration^exponent', &
+                   "1e4 times a bump's, from Walowit-Anno")
+    call friction_key('friction_top', contact%friction_top, &
+                      'friction coefficient of the crests, on the top foil or the plate')
+    call friction_key('friction_sleeve', contact%friction_sleeve, &
+                      'friction coefficient of the corner lines, on the sleeve')
+    if (contact%friction_sleeve > 0.0_wp .and. load%support == support_held .and. strip) then
+      call keys%complain('contact', 'friction_sleeve', "has no use with support = 'held' in "// &
+                         '&strip_load: nothing presses on the sleeve')
+    end if
+    contact%stick_length = stick_part*typical_deflection(load, foil)
+    call scene_key('stick_length', contact%stick_length, 'm', &
+                   'tangential way at which friction turns from stick to slip', &
+                   '1/5000 of the typical deflection')
+    call keys%choice_key('friction_law', contact%friction_law, law_words, &
+                         'what sticks is dragged along, starts anew at a reversal, or sticks '// &
+                         'elastically')
+    call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
+                         "against the slip in the tangent plane, or along the shaft's motion "// &
+                         'alone as planar models have it')
+    call keys%finish_group()
+
+  contains
+
+    !> A friction coefficient.
+    subroutine friction_key(name, value, meaning)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(inout) :: value !! [1]
+      call keys%real_key(name, value, '1', meaning, from_to(0.0_wp, highest_friction))
+    end subroutine friction_key
+
+    !> A positive number that follows the scene where it is not given.
+    subroutine scene_key(name, value, unit, meaning, default)
+      character(len=*), intent(in) :: name, unit, meaning
+      character(len=*), intent(in) :: default !! in words
+      real(wp), intent(inout) :: value        !! the default on entry
+      logical :: right, given
+
+      right = value > lowest .and. value < highest
+      if (.not. right) value = 0.0_wp ! the echo could not be read again
+      call keys%real_key(name, value, unit, meaning, positive, default=default, given=given)
+      ! A foil whose numbers are missing or wrong is complained about elsewhere.
+      if (strip .and. bump_stiffness(foil) > 0.0_wp .and. .not. (right .or. given)) then
+        call keys%complain('contact', name, 'must be given: its default for these bumps and '// &
+                           'their load is out of range')
+      end if
+    end subroutine scene_key
+  end subroutine read_contact_case
+
+  !> The stiffness with which a penetration of 1e-4 of the typical deflection carries what a bump
+  !> carries at that deflection [N/m^(1 + exponent)]; 0 where it is not known.
+  elemental function default_stiffness(load, foil, exponent) result(stiffness)
+    type(strip_load_case_type), intent(in) :: load
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp), intent(in) :: exponent  !! of the penetration [1]
+    real(wp) :: stiffness
+    real(wp) :: penetration !! [m]
+
+    stiffness = bumps_stiffness*bump_stiffness(foil)*foil%pitch
+    penetration = typical_deflection(load, foil)/bumps_stiffness
+    if (.not. stiffness > 0.0_wp .or. .not. penetration > 0.0_wp) then
+      stiffness = 0.0_wp
+    else if (exponent > 1.0_wp) then
+      stiffness = stiffness*penetration**(1.0_wp - exponent)
+    end if
+  end function default_stiffness
+end module gfb_contact_case

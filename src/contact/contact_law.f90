@@ -1,0 +1,184 @@
+!> Forces of a contact: a unilateral normal force and Coulomb friction, with their exact derivatives.
+!>
+!> A contact is described by its approach \( a = (s_1, s_2, \delta) \): slip in the tangent plane, and
+!> penetration. The force \( b = (t_1, t_2, f_n) \) acts on the slave: friction along the tangents,
+!> pressure along the normal that points from the master to the slave.
+!>
+!> $$ f_n = l k \max(\delta, 0)^e, \qquad t = -\mu f_n g(|s|/u_{max}) \frac{s}{|s|} $$
+!>
+!> Source: [Gu2020] eqs. 9 and 10, with friction as a vector and the stiffness per length of contact
+!> line. \( g \) is tanh, or min(x, 1) for the law `coulomb`: an elastic stick up to the sliding limit,
+!> whose return mapping is the slip carried along (see `carried_slip`).
+module gfb_contact_law
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state, &
+            drag_length
+
+  integer, parameter, public :: law_tanh_drag = 1  !! tanh; what slid is dragged along
+  integer, parameter, public :: law_tanh_reset = 2 !! tanh; the shift is reset where sliding turns
+  integer, parameter, public :: law_coulomb = 3    !! elastic up to the sliding limit
+
+  integer, parameter, public :: state_open = 0
+  integer, parameter, public :: state_stick = 1
+  integer, parameter, public :: state_slip = 2
+
+
+  real(wp), parameter :: dragged = 3.0_wp          !! stick lengths that tanh needs to reach its limit
+  real(wp), parameter :: tiny_ratio = 1.0e-8_wp    !! below it the slope of g serves for g(x)/x
+  real(wp), parameter :: rounding = 1.0e-9_wp      !! of a slip that ends at the drag length, relative
+
+  !> What two surfaces are to each other.
+  type, public :: contact_law_type
+    real(wp) :: normal_stiffness = 0.0_wp !! k, per metre of contact line [N/m^(1+e)]
+    real(wp) :: exponent = 1.0_wp         !! e
+    real(wp) :: friction = 0.0_wp         !! mu
+    real(wp) :: stick_length = 0.0_wp     !! u_max [m]
+    integer :: friction_law = law_tanh_drag
+    logical :: one_way = .false.          !! along the first tangent alone, as planar models rub
+  end type contact_law_type
+
+contains
+
+  !> Normal force and its derivative by the penetration, [Gu2020] eq. 9.
+  pure subroutine normal_force(law, length, penetration, force, slope)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: length      !! of contact line the node stands for [m]
+    real(wp), intent(in) :: penetration !! [m]
+    real(wp), intent(out) :: force      !! [N]
+    real(wp), intent(out) :: slope      !! [N/m]
+
+    force = 0.0_wp
+    slope = 0.0_wp
+    if (penetration < 0.0_wp) return
+    ! At first touch the closed side's slope is taken: a strip at rest is held by its contacts.
+    slope = length*law%normal_stiffness*law%exponent*penetration**(law%exponent - 1.0_wp)
+    force = length*law%normal_stiffness*penetration**law%exponent
+  end subroutine normal_force
+
+  !> Friction and its derivatives by slip and normal force, [Gu2020] eq. 10.
+  pure subroutine friction_force(law, slip, pressing, force, by_slip, by_pressing)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: slip(2)         !! s = u - u_s; the second is zero for a one-way law [m]
+    real(wp), intent(in) :: pressing        !! normal force, not negative [N]
+    real(wp), intent(out) :: force(2)       !! [N]
+    real(wp), intent(out) :: by_slip(2, 2)  !! [N/m]
+    real(wp), intent(out) :: by_pressing(2) !! [1]
+    real(wp) :: distance, direction(2), level, slope, secant
+
+    distance = norm2(slip)
+    call mobilised(law, distance/law%stick_length, level, slope, secant)
+    by_pressing = -law%friction*secant*slip/law%stick_length
+    force = pressing*by_pressing
+    by_slip = 0.0_wp
+    by_slip(1, 1) = secant
+    by_slip(2, 2) = secant
+    if (distance > 0.0_wp) then
+      direction = slip/distance
+      by_slip = by_slip + (slope - secant)*spread(direction, 2, 2)*spread(direction, 1, 2)
+    end if
+    by_slip = -law%friction*pressing/law%stick_length*by_slip
+    if (law%one_way) by_slip(2, :) = 0.0_wp
+  end subroutine friction_force
+
+  !> Share of the sliding limit that is mobilised, g(x), with g'(x) and g(x)/x.
+  pure subroutine mobilised(law, ratio, level, slope, secant)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: ratio !! slip in stick lengths
+    real(wp), intent(out) :: level, slope, secant
+
+    if (law%friction_law == law_coulomb) then
+      level = min(ratio, 1.0_wp)
+      slope = merge(1.0_wp, 0.0_wp, ratio <= 1.0_wp)
+    else
+      level = tanh(ratio)
+      slope = 1.0_wp - level**2
+    end if
+    secant = slope
+    if (ratio > tiny_ratio) secant = level/ratio
+  end subroutine mobilised
+
+  !> Force of a contact and its derivative by the approach.
+  pure subroutine contact_force(law, length, approach, force, derivative)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: length            !! of contact line the node stands for [m]
+    real(wp), intent(in) :: approach(3)       !! (s_1, s_2, delta) [m]
+    real(wp), intent(out) :: force(3)         !! (t_1, t_2, f_n) [N]
+    real(wp), intent(out) :: derivative(3, 3) !! (force, approach) [N/m]
+    real(wp) :: slope, by_pressing(2)
+
+    force = 0.0_wp
+    derivative = 0.0_wp
+    call normal_force(law, length, approach(3), force(3), slope)
+    derivative(3, 3) = slope
+    if (.not. law%friction > 0.0_wp) return
+    call friction_force(law, approach(:2), force(3), force(:2), derivative(:2, :2), by_pressing)
+    derivative(:2, 3) = by_pressing*slope
+  end subroutine contact_force
+
+  !> Slip that a contact takes along from one load step to the next.
+  !>
+  !> Tanh with drag, and Coulomb: the part that fits into the law's rise. So no reversal need be found,
+  !> and the answer tends to Coulomb's law with smaller steps. With reset, as [Gu2020] has it: none where
+  !> the sliding has turned, else all of it. An open contact forgets.
+  pure function carried_slip(law, slip, moved, pressing) result(carried)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: slip(2)  !! at the end of the step [m]
+    real(wp), intent(in) :: moved(2) !! change of the slip within the step [m]
+    real(wp), intent(in) :: pressing !! normal force [N]
+    real(wp) :: carried(2)           !! [m]
+    real(wp) :: distance
+
+    carried = 0.0_wp
+    if (.not. pressing > 0.0_wp) return
+    carried = slip
+    if (law%friction_law == law_tanh_reset) then
+      if (dot_product(slip, moved) < 0.0_wp) carried = 0.0_wp
+      return
+    end if
+    distance = norm2(slip)
+    if (distance > drag_length(law)) carried = slip*(drag_length(law)/distance)
+  end function carried_slip
+
+  !> Slip from which on a contact slides [m].
+  elemental function drag_length(law) result(length)
+    type(contact_law_type), intent(in) :: law
+    real(wp) :: length
+    length = merge(1.0_wp, dragged, law%friction_law == law_coulomb)*law%stick_length
+  end function drag_length
+
+  !> Whether a contact is open, sticks or slips.
+  elemental function contact_state(law, distance, pressing) result(state)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: distance !! length of the slip [m]
+    real(wp), intent(in) :: pressing !! normal force [N]
+    integer :: state
+
+    if (.not. pressing > 0.0_wp) then
+      state = state_open
+    else if (distance <= drag_length(law)*(1.0_wp + rounding) .and. law%friction > 0.0_wp) then
+      state = state_stick
+    else
+      state = state_slip
+    end if
+  end function contact_state
+
+  !> Where on its law a contact is linearised next.
+  !>
+  !> At its approach, but where a sliding contact turned back it is first taken to stick: from one
+  !> sliding direction to the other the law has no slope that would tell of the way between.
+  pure function next_place(law, place, approach) result(next)
+    type(contact_law_type), intent(in) :: law
+    real(wp), intent(in) :: place(3)    !! where it was linearised [m]
+    real(wp), intent(in) :: approach(3) !! where that led to [m]
+    real(wp) :: next(3)
+
+    next = approach
+    if (.not. law%friction > 0.0_wp) return
+    associate (was => place(:2), is => approach(:2))
+      if (norm2(was) <= law%stick_length) return
+      if (dot_product(was, is) < 0.0_wp) next(:2) = 0.0_wp
+    end associate
+  end function next_place
+end module gfb_contact_law

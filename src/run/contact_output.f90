@@ -1,0 +1,140 @@
+!> The contacts of a strip, step by step, for `/contact` of the result file.
+module gfb_contact_output
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: fetch_entries
+  use gfb_case_file, only: case_array_type
+  use gfb_strip_system, only: strip_system_type, contact_sleeve, contact_top
+  implicit none (type, external)
+  private
+  public :: record_contacts, contact_arrays, contact_field
+
+  integer, parameter :: fields = 6 !! of a contact: force and friction along x and z, slip, state
+
+  !> Contacts of this rank at every step.
+  type, public :: contact_record_type
+    real(wp), allocatable :: value(:, :, :) !! (fields, contacts of this rank, steps)
+  end type contact_record_type
+
+contains
+
+  !> Adds the present step.
+  subroutine record_contacts(strip, step, steps, record)
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: step
+    integer, intent(in) :: steps !! that there will be
+    type(contact_record_type), intent(inout) :: record
+    integer :: i
+
+    if (.not. allocated(record%value)) then
+      allocate (record%value(fields, size(strip%contacts%point), steps), source=0.0_wp)
+    end if
+    do i = 1, size(strip%contacts%point)
+      associate (point => strip%contacts%point(i))
+        record%value(:, i, step) = [normal_line_force(strip, i), point%force(:2)/point%length, &
+                                    point%place(:2), real(strip%contacts%state_of(i), wp)]
+      end associate
+    end do
+  end subroutine record_contacts
+
+  !> Normal force of a contact per length of its line [N/m].
+  pure function normal_line_force(strip, i) result(force)
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: i
+    real(wp) :: force
+
+    associate (point => strip%contacts%point(i))
+      force = merge(point%pressing, point%force(3), point%pressed)/point%length
+    end associate
+  end function normal_line_force
+
+  !> Force vectors and states at this rank's nodes of the mesh.
+  subroutine contact_field(strip, force, state)
+    type(strip_system_type), intent(in) :: strip
+    real(wp), allocatable, intent(out) :: force(:, :) !! (3, local nodes) along (x, v, z) [N/m]
+    real(wp), allocatable, intent(out) :: state(:, :) !! (1, local nodes)
+    real(wp) :: local(3)
+    integer :: i, node
+
+    allocate (force(3, size(strip%foil%part%mesh_node)), source=0.0_wp)
+    allocate (state(1, size(strip%foil%part%mesh_node)), source=0.0_wp)
+    do i = 1, size(strip%contacts%point)
+      associate (point => strip%contacts%point(i))
+        node = strip%foil%local_node(point%node)
+        local = [point%force(:2)/point%length, normal_line_force(strip, i)]
+        force(:, node) = matmul(point%frame, local)
+        state(1, node) = real(strip%contacts%state_of(i), wp)
+      end associate
+    end do
+  end subroutine contact_field
+
+  !> Everything about the contacts, on the first rank's behalf.
+  function contact_arrays(strip, record, steps) result(arrays)
+    type(strip_system_type), intent(in) :: strip
+    type(contact_record_type), intent(in) :: record
+    integer, intent(in) :: steps !! recorded
+    type(case_array_type), allocatable :: arrays(:)
+    type(case_array_type) :: sleeve(fields + 3), top(fields + 3)
+
+    allocate (arrays(0))
+    if (.not. allocated(record%value)) return
+    call surface_arrays(strip, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
+    call surface_arrays(strip, record, steps, contact_top, '/contact/top', top)
+    if (size(sleeve(1)%values) > 0) arrays = [arrays, sleeve]
+    if (size(top(1)%values) > 0) arrays = [arrays, top]
+  end function contact_arrays
+
+  !> The arrays of one surface; a column a node, a row a step.
+  subroutine surface_arrays(strip, record, steps, surface, group, arrays)
+    type(strip_system_type), intent(in) :: strip
+    type(contact_record_type), intent(in) :: record
+    integer, intent(in) :: steps
+    integer, intent(in) :: surface !! `contact_sleeve` or `contact_top`
+    character(len=*), intent(in) :: group
+    type(case_array_type), intent(out) :: arrays(fields + 3)
+
+    character(len=*), parameter :: name(fields) = [character(len=12) :: 'normal_force', 'friction_x', &
+                                                   'friction_z', 'slip_x', 'slip_z', 'state']
+    character(len=*), parameter :: unit(fields) = [character(len=3) :: 'N/m', 'N/m', 'N/m', 'm', 'm', '1']
+    character(len=*), parameter :: meaning(fields) = [character(len=64) :: &
+      'pressing the foil, per length of contact line; step by node', &
+      'on the foil, along the motion, per length of contact line', &
+      'on the foil, along the axis, per length of contact line', &
+      'slip that the friction law sees, along the motion', &
+      'slip that the friction law sees, along the axis', '0 open, 1 sticks, 2 slips']
+    real(wp), allocatable :: place(:, :), values(:, :)
+    integer, allocatable :: number(:), own(:), all_nodes(:)
+    integer :: i, total, field
+
+    associate (point => strip%contacts%point, mesh => strip%foil%mesh)
+      own = pack([(i, i=1, size(point))], point%law == surface)
+      number = (point(own)%line - 1)*mesh%rows + modulo(point(own)%node - 1, mesh%rows) + 1
+      total = largest_line(strip, surface)*mesh%rows
+      all_nodes = [(i, i=1, total)]
+      allocate (place(3, size(own)))
+      place(1, :) = real(point(own)%line, wp)
+      place(2:3, :) = mesh%position([1, 3], point(own)%node)
+    end associate
+    values = fetch_entries(max(1, total), number, place, all_nodes)
+    arrays(1) = case_array_type(group//'/line', '1', 'number of the contact line', values(1:1, :))
+    arrays(2) = case_array_type(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :))
+    arrays(3) = case_array_type(group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :))
+    do field = 1, fields
+      values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), all_nodes)
+      arrays(3 + field) = case_array_type(group//'/'//trim(name(field)), trim(unit(field)), &
+                                          trim(meaning(field)), transpose(values))
+    end do
+  end subroutine surface_arrays
+
+  !> Number of a surface's contact lines.
+  function largest_line(strip, surface) result(lines)
+    use gfb_petsc_session, only: largest_over_ranks
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: surface
+    integer :: lines
+    real(wp) :: found(1)
+
+    found = real(maxval([0, pack(strip%contacts%point%line, strip%contacts%point%law == surface)]), wp)
+    found = largest_over_ranks(found)
+    lines = nint(found(1))
+  end function largest_line
+end module gfb_contact_output

@@ -1,0 +1,151 @@
+#include "gfb_petsc.h"
+!> One load step of a strip: from an answer to the next, and never to anything else.
+!>
+!> The start value is a straight line through the last two answers, exact where no contact changes its
+!> state under a load that grows in proportion. A step that fails is tried with a longer stick length that
+!> is shortened again, and then cut. Neither is loading: friction's memory stays as it is until the step
+!> is whole, so the answer does not depend on them.
+module gfb_load_step
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_strip_system, only: strip_system_type
+  implicit none (type)
+  private
+  public :: create_load_path, take_load_step, destroy_load_path
+
+  real(wp), parameter :: softening(3) = [100.0_wp, 10.0_wp, 1.0_wp] !! of the stick length in a homotopy
+  integer, parameter :: most_halvings = 6
+
+  !> The last two answers.
+  type, public :: load_path_type
+    Vec, private :: here, before
+    real(wp), private :: at_here = 0.0_wp, at_before = 0.0_wp !! load factors
+    integer, private :: answers = 0  !! of the last two, those that there are
+    integer :: homotopies = 0        !! steps that needed one
+    integer :: cuts = 0              !! steps that were shortened
+  end type load_path_type
+
+contains
+
+  !> Begins at the unloaded strip.
+  subroutine create_load_path(strip, path)
+    type(strip_system_type), intent(in) :: strip
+    type(load_path_type), intent(out) :: path
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(strip%state, path%here, ierr))
+    PetscCallA(VecDuplicate(strip%state, path%before, ierr))
+    PetscCallA(VecCopy(strip%state, path%here, ierr))
+    PetscCallA(VecCopy(strip%state, path%before, ierr))
+  end subroutine create_load_path
+
+  !> Brings the strip to a load factor. Where that fails the strip is back at the last answer. The caller
+  !> commits.
+  subroutine take_load_step(strip, newton, target, path, report)
+    type(strip_system_type), intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    real(wp), intent(in) :: target
+    type(load_path_type), intent(inout) :: path
+    type(newton_report_type), intent(out) :: report
+
+    real(wp) :: reached, step
+    integer :: halvings
+    PetscErrorCode :: ierr
+
+    halvings = 0
+    reached = path%at_here
+    step = target - path%at_here
+    do
+      if (abs(target - reached) <= abs(step)*1.000001_wp) step = target - reached
+      call start_values(strip, newton, path, reached, reached + step)
+      call solve_newton(newton, report)
+      if (.not. report%converged) call follow_softening(strip, newton, path, reached, reached + step, report)
+      if (.not. report%converged) then
+        if (halvings == most_halvings) exit
+        halvings = halvings + 1
+        path%cuts = path%cuts + 1
+        step = 0.5_wp*step
+        cycle
+      end if
+      if (abs(reached + step - target) <= 0.0_wp) exit
+      call remember(strip, path, reached, reached + step)
+      reached = reached + step
+    end do
+    if (report%converged) then
+      call remember(strip, path, reached, target)
+    else
+      PetscCallA(VecCopy(path%here, strip%state, ierr))
+      call strip%set_factor(path%at_here)
+    end if
+  end subroutine take_load_step
+
+  !> Start values of a step.
+  subroutine start_values(strip, newton, path, from, to)
+    type(strip_system_type), intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    type(load_path_type), intent(in) :: path
+    real(wp), intent(in) :: from, to !! load factors
+    type(newton_report_type) :: first
+    real(wp) :: stretch
+    PetscErrorCode :: ierr
+
+    call strip%set_factor(to)
+    PetscCallA(VecCopy(path%here, strip%state, ierr))
+    if (.not. abs(to) > 0.0_wp) then
+      ! Without load nothing presses, so nothing rubs: the foil is at rest.
+      PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
+    else if (path%answers == 0) then
+      strip%contacts%glued = .true.
+      call solve_newton(newton, first)
+      strip%contacts%glued = .false.
+    else if ((to - from)*(path%at_here - path%at_before) > 0.0_wp) then
+      stretch = (to - from)/(path%at_here - path%at_before)
+      PetscCallA(VecAXPBYPCZ(strip%state, -stretch, stretch, 1.0_wp, path%before, path%here, ierr))
+    end if
+  end subroutine start_values
+
+  !> Tries a step with stick lengths that grow shorter.
+  subroutine follow_softening(strip, newton, path, from, to, report)
+    type(strip_system_type), intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    type(load_path_type), intent(inout) :: path
+    real(wp), intent(in) :: from, to !! load factors
+    type(newton_report_type), intent(inout) :: report
+    integer :: i
+
+    if (all(strip%contacts%law%friction <= 0.0_wp)) return
+    path%homotopies = path%homotopies + 1
+    call newton%log%detail('again with a longer stick length: '//report%reason)
+    call start_values(strip, newton, path, from, to)
+    do i = 1, size(softening)
+      strip%contacts%softening = softening(i)
+      call solve_newton(newton, report)
+      if (.not. report%converged) exit
+    end do
+    strip%contacts%softening = 1.0_wp
+  end subroutine follow_softening
+
+  !> The strip's state is an answer.
+  subroutine remember(strip, path, from, to)
+    type(strip_system_type), intent(in) :: strip
+    type(load_path_type), intent(inout) :: path
+    real(wp), intent(in) :: from, to !! load factors
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(path%here, path%before, ierr))
+    PetscCallA(VecCopy(strip%state, path%here, ierr))
+    path%at_before = from
+    path%at_here = to
+    path%answers = min(2, path%answers + 1)
+  end subroutine remember
+
+  !> Frees what PETSc holds.
+  subroutine destroy_load_path(path)
+    type(load_path_type), intent(inout) :: path
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDestroy(path%here, ierr))
+    PetscCallA(VecDestroy(path%before, ierr))
+  end subroutine destroy_load_path
+end module gfb_load_step

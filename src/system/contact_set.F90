@@ -1,0 +1,291 @@
+!> The contacts of this rank: nodes of a foil on the sleeve, under a plate, or under another foil.
+!>
+!> Geometry is that of the unloaded foils: displacements are small. Each contact remembers the place on
+!> its law where it is linearised. Within a Newton step its force is the law's tangent there, a pure
+!> function of the unknowns; `settle` moves the places after the step. So the matrix tells the whole
+!> of a step, and a contact that jumps from one state to another cannot spoil the line search.
+module gfb_contact_set
+  use gfb_kinds, only: wp
+  use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &
+                             next_place, contact_state
+  implicit none (type, external)
+  private
+
+  integer, parameter :: spatial = 3
+  real(wp), parameter :: touching = 1.0e-8_wp !! penetration that counts, over the typical one
+
+  !> A slave node and what it touches.
+  type, public :: contact_point_type
+    integer :: law = 1                         !! which of the set's laws holds
+    integer :: node = 0                        !! slave, number in its mesh
+    integer :: line = 0                        !! number of the contact line it lies on
+    integer :: slave(spatial) = 0              !! the set's unknowns at the slave (u, v, w); 0: held
+    integer, allocatable :: master(:, :)       !! (3, nodes) the same at the master's nodes
+    real(wp), allocatable :: share(:)          !! (nodes) master's shape functions
+    real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
+    real(wp) :: length = 0.0_wp                !! of contact line the node stands for [m]
+    real(wp) :: gap = 0.0_wp                   !! between the unloaded foils [m]
+    logical :: pressed = .false.               !! the normal force is given, not a matter of contact
+    real(wp) :: pressing = 0.0_wp              !! it [N]
+    real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]
+    real(wp) :: place(spatial) = 0.0_wp        !! approach where the law is linearised [m]
+    real(wp) :: force(spatial) = 0.0_wp        !! (t_1, t_2, f_n) there [N]
+    real(wp) :: derivative(spatial, spatial) = 0.0_wp !! of the force by the approach there [N/m]
+    real(wp) :: old_slip(2) = 0.0_wp           !! tangential displacement at the last commit [m]
+    real(wp) :: old_force(2) = 0.0_wp          !! friction then [N]
+  end type contact_point_type
+
+  !> All contacts of this rank, and the unknowns they touch.
+  type, public :: contact_set_type
+    type(contact_law_type), allocatable :: law(:)
+    type(contact_point_type), allocatable :: point(:)
+    integer, allocatable :: global(:)          !! numbers, from 0, of the unknowns they touch
+    real(wp) :: secant_penetration = 0.0_wp    !! glued contacts are as stiff as at this one [m]
+    real(wp) :: floor_tangential = 0.0_wp      !! stiffness lent to a slave in the matrix, per length
+    real(wp) :: floor_normal = 0.0_wp          !! [N/m2], so that a floating foil leaves it regular
+    real(wp) :: softening = 1.0_wp             !! factor of the stick length, of a homotopy
+    logical :: glued = .false.                 !! closed whatever happens, free to slide: a first guess
+    logical :: settled = .true.                !! every contact is linearised where it is
+  contains
+    procedure :: approach
+    procedure :: settle
+    procedure :: add_forces
+    procedure :: point_block
+    procedure :: point_unknowns
+    procedure :: commit
+    procedure :: friction_work
+    procedure :: penalty_energy
+    procedure :: state_of
+    procedure, private :: law_of
+  end type contact_set_type
+
+contains
+
+  !> Law of a contact, softened where a homotopy asks for it.
+  pure function law_of(self, point) result(law)
+    class(contact_set_type), intent(in) :: self
+    type(contact_point_type), intent(in) :: point
+    type(contact_law_type) :: law
+
+    law = self%law(point%law)
+    law%stick_length = law%stick_length*self%softening
+  end function law_of
+
+  !> Slip and penetration of a contact, (s_1, s_2, delta) [m].
+  pure function approach(self, i, displacement) result(value)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i                    !! contact
+    real(wp), intent(in) :: displacement(:)     !! of the set's unknowns [m]
+    real(wp) :: value(spatial)
+    real(wp) :: relative(spatial)
+    integer :: k
+
+    associate (point => self%point(i))
+      relative = at_node(point%slave, displacement)
+      do k = 1, size(point%share)
+        relative = relative - point%share(k)*at_node(point%master(:, k), displacement)
+      end do
+      value = matmul(relative, point%frame)
+      value(:2) = value(:2) - point%shift
+      if (self%law(point%law)%one_way) value(2) = 0.0_wp
+      value(3) = -value(3) - point%gap
+    end associate
+  end function approach
+
+  !> Displacement at a node, zero where it is held.
+  pure function at_node(unknown, displacement) result(value)
+    integer, intent(in) :: unknown(spatial)
+    real(wp), intent(in) :: displacement(:)
+    real(wp) :: value(spatial)
+    integer :: k
+
+    value = 0.0_wp
+    do k = 1, spatial
+      if (unknown(k) > 0) value(k) = displacement(unknown(k))
+    end do
+  end function at_node
+
+  !> Moves every contact's place on its law to where the foils have gone.
+  pure subroutine settle(self, displacement)
+    class(contact_set_type), intent(inout) :: self
+    real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
+    type(contact_law_type) :: law
+    real(wp) :: now(spatial), slope(2)
+    integer :: i
+
+    self%settled = .true.
+    do i = 1, size(self%point)
+      associate (point => self%point(i))
+        law = self%law_of(point)
+        if (self%glued) then
+          call glue(self, point)
+          cycle
+        end if
+        now = self%approach(i, displacement)
+        point%place = next_place(law, point%place, now)
+        if (point%pressed) then
+          point%force = 0.0_wp
+          point%derivative = 0.0_wp
+          call friction_force(law, point%place(:2), point%pressing, point%force(:2), &
+                              point%derivative(:2, :2), slope)
+        else
+          call contact_force(law, point%length, point%place, point%force, point%derivative)
+        end if
+        if (any(abs(point%place - now) > 0.0_wp) .and. any(abs(point%derivative) > 0.0_wp)) self%settled = .false.
+      end associate
+    end do
+  end subroutine settle
+
+  !> A spring both ways that does not rub.
+  pure subroutine glue(set, point)
+    class(contact_set_type), intent(in) :: set
+    type(contact_point_type), intent(inout) :: point
+    real(wp) :: force(spatial), derivative(spatial, spatial)
+
+    point%place = 0.0_wp
+    point%force = 0.0_wp
+    point%derivative = 0.0_wp
+    if (point%pressed) return
+    call contact_force(set%law(point%law), point%length, [0.0_wp, 0.0_wp, set%secant_penetration], &
+                       force, derivative)
+    point%derivative(3, 3) = force(3)/set%secant_penetration
+  end subroutine glue
+
+  !> Adds the contacts' forces on slaves and masters.
+  pure subroutine add_forces(self, displacement, force)
+    class(contact_set_type), intent(in) :: self
+    real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
+    real(wp), intent(inout) :: force(:)     !! on them [N]
+    real(wp) :: on_slave(spatial)
+    integer :: i, k
+
+    do i = 1, size(self%point)
+      associate (point => self%point(i))
+        on_slave = point%force + matmul(point%derivative, self%approach(i, displacement) - point%place)
+        on_slave = matmul(point%frame, on_slave)
+        call add_at_node(point%slave, on_slave, force)
+        do k = 1, size(point%share)
+          call add_at_node(point%master(:, k), -point%share(k)*on_slave, force)
+        end do
+      end associate
+    end do
+  end subroutine add_forces
+
+  !> Adds a node's force where it is free.
+  pure subroutine add_at_node(unknown, value, force)
+    integer, intent(in) :: unknown(spatial)
+    real(wp), intent(in) :: value(spatial)
+    real(wp), intent(inout) :: force(:)
+    integer :: k
+
+    do k = 1, spatial
+      if (unknown(k) > 0) force(unknown(k)) = force(unknown(k)) + value(k)
+    end do
+  end subroutine add_at_node
+
+  !> The set's unknowns of a contact: slave, then master nodes; 0 where they are held.
+  pure function point_unknowns(self, i) result(unknown)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i
+    integer, allocatable :: unknown(:)
+
+    associate (point => self%point(i))
+      unknown = [point%slave, reshape(point%master, [size(point%master)])]
+    end associate
+  end function point_unknowns
+
+  !> Stiffness of a contact, -(force by displacement), in the order of `point_unknowns` [N/m].
+  pure function point_block(self, i) result(block)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i
+    real(wp), allocatable :: block(:, :)
+    real(wp) :: own(spatial, spatial), weight(size(self%point(i)%share) + 1)
+    integer :: k, m
+
+    associate (point => self%point(i))
+      own = -point%derivative
+      own(:, 3) = -own(:, 3) ! penetration grows against the normal
+      if (.not. point%pressed .and. .not. self%glued .and. .not. own(3, 3) > 0.0_wp) then
+        own(3, 3) = self%floor_normal*point%length
+      end if
+      own(1, 1) = own(1, 1) + self%floor_tangential*point%length
+      own(2, 2) = own(2, 2) + self%floor_tangential*point%length
+      own = matmul(point%frame, matmul(own, transpose(point%frame)))
+      weight = [1.0_wp, -point%share]
+      allocate (block(spatial*size(weight), spatial*size(weight)))
+      do m = 1, size(weight)
+        do k = 1, size(weight)
+          block(spatial*(k - 1) + 1:spatial*k, spatial*(m - 1) + 1:spatial*m) = weight(k)*weight(m)*own
+        end do
+      end do
+    end associate
+  end function point_block
+
+  !> Ends a load step: friction carries its slip along as its law says.
+  pure subroutine commit(self, displacement)
+    class(contact_set_type), intent(inout) :: self
+    real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
+    real(wp) :: now(spatial), pressing, total(2)
+    integer :: i
+
+    do i = 1, size(self%point)
+      now = self%approach(i, displacement)
+      associate (point => self%point(i))
+        pressing = merge(point%pressing, point%force(3), point%pressed)
+        total = now(:2) + point%shift
+        point%shift = total - carried_slip(self%law(point%law), now(:2), total - point%old_slip, pressing)
+        point%place(:2) = total - point%shift
+        point%old_slip = total
+        point%old_force = point%force(:2)
+      end associate
+    end do
+  end subroutine commit
+
+  !> Work done against friction since the last commit, by the trapezoid rule [J].
+  pure function friction_work(self, displacement) result(work)
+    class(contact_set_type), intent(in) :: self
+    real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
+    real(wp) :: work
+    real(wp) :: now(spatial)
+    integer :: i
+
+    work = 0.0_wp
+    do i = 1, size(self%point)
+      now = self%approach(i, displacement)
+      associate (point => self%point(i))
+        work = work - 0.5_wp*dot_product(point%force(:2) + point%old_force, &
+                                         now(:2) + point%shift - point%old_slip)
+      end associate
+    end do
+  end function friction_work
+
+  !> Energy stored in the penetrations [J].
+  pure function penalty_energy(self) result(energy)
+    class(contact_set_type), intent(in) :: self
+    real(wp) :: energy
+    integer :: i
+
+    energy = 0.0_wp
+    do i = 1, size(self%point)
+      associate (point => self%point(i))
+        if (point%pressed) cycle
+        energy = energy + point%force(3)*max(point%place(3), 0.0_wp)/(self%law(point%law)%exponent + 1.0_wp)
+      end associate
+    end do
+  end function penalty_energy
+
+  !> Whether a contact is open, sticks or slips.
+  elemental function state_of(self, i) result(state)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i
+    integer :: state
+    real(wp) :: pressing
+
+    associate (point => self%point(i))
+      pressing = merge(point%pressing, point%force(3), point%pressed)
+      ! What an unloaded foil keeps is round-off.
+      if (.not. point%pressed .and. point%place(3) <= touching*self%secant_penetration) pressing = 0.0_wp
+      state = contact_state(self%law(point%law), norm2(point%place(:2)), pressing)
+    end associate
+  end function state_of
+end module gfb_contact_set

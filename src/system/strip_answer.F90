@@ -1,0 +1,147 @@
+#include "gfb_petsc.h"
+!> What a strip's state says: forces, deflections, states of contact, works.
+module gfb_strip_answer
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_contact_law, only: state_open, state_slip
+  use gfb_quad_mesh, only: node_set
+  use gfb_strip_builder, only: crest_name, line_shares
+  use gfb_strip_system, only: strip_system_type, plate_moved, plate_forced, contact_sleeve, contact_top
+  implicit none (type)
+  private
+  public :: start_recorder, read_answer, destroy_recorder
+
+  integer, parameter :: radial = 2, axial = 3
+  integer, parameter :: states = state_slip - state_open + 1
+
+  !> One step's answer, for the whole width.
+  type, public :: strip_answer_type
+    real(wp) :: factor = 0.0_wp               !! share of the full load
+    real(wp) :: force = 0.0_wp                !! on all crests [N]
+    real(wp) :: travel = 0.0_wp               !! of the plate towards the sleeve [m]
+    real(wp), allocatable :: deflection(:)    !! (bumps) mean of each crest line towards the sleeve [m]
+    integer :: count(states, 2) = 0           !! nodes that are open, stick, slip, at sleeve and top
+    real(wp) :: external_work = 0.0_wp        !! since the start [J]
+    real(wp) :: strain_energy = 0.0_wp        !! [J]
+    real(wp) :: penalty_energy = 0.0_wp       !! in the penetrations [J]
+    real(wp) :: friction_work = 0.0_wp        !! since the start [J]
+  end type strip_answer_type
+
+  !> What is needed to go on from one step to the next.
+  type, public :: strip_recorder_type
+    type(strip_answer_type) :: last
+    Vec, private :: state, change
+    integer, private :: bumps = 0
+  end type strip_recorder_type
+
+contains
+
+  !> Begins at the unloaded strip.
+  subroutine start_recorder(strip, bumps, recorder)
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: bumps
+    type(strip_recorder_type), intent(out) :: recorder
+    PetscErrorCode :: ierr
+
+    recorder%bumps = bumps
+    allocate (recorder%last%deflection(bumps), source=0.0_wp)
+    PetscCallA(VecDuplicate(strip%state, recorder%state, ierr))
+    PetscCallA(VecDuplicate(strip%state, recorder%change, ierr))
+    PetscCallA(VecCopy(strip%state, recorder%state, ierr))
+  end subroutine start_recorder
+
+  !> The answer of a step that has converged and is not committed yet; works go on from the last one.
+  subroutine read_answer(strip, full_force, recorder, answer)
+    type(strip_system_type), intent(inout) :: strip
+    real(wp), intent(in) :: full_force !! on all crests where it is given [N]
+    type(strip_recorder_type), intent(inout) :: recorder
+    type(strip_answer_type), intent(out) :: answer
+
+    real(wp) :: widths, done
+    real(wp), allocatable :: displacement(:)
+    PetscScalar :: product
+    PetscErrorCode :: ierr
+
+    widths = merge(2.0_wp, 1.0_wp, strip%foil%mesh%half) ! whole over solved
+    allocate (displacement(size(strip%contacts%global)))
+    call strip%contact_displacements(strip%state, displacement)
+    answer%factor = strip%factor
+    answer%travel = strip%plate_travel()
+    answer%deflection = crest_deflections(strip, recorder%bumps)
+    call count_states(strip, answer%count)
+    answer%force = strip%factor*full_force
+    if (strip%plate == plate_moved) then
+      answer%force = widths*sum(sum_over_ranks([sum(strip%contacts%point%force(3), &
+                                                    strip%contacts%point%law == contact_top)]))
+      done = 0.5_wp*(answer%force + recorder%last%force)*(answer%travel - recorder%last%travel)
+    else
+      PetscCallA(VecWAXPY(recorder%change, -1.0_wp, recorder%state, strip%state, ierr))
+      PetscCallA(VecDot(strip%full_load, recorder%change, product, ierr))
+      done = widths*0.5_wp*(answer%factor + recorder%last%factor)*product*strip%scale%force*strip%scale%length
+    end if
+    answer%external_work = recorder%last%external_work + done
+    answer%strain_energy = widths*strip%strain_energy()
+    associate (sums => sum_over_ranks([strip%contacts%penalty_energy(), &
+                                       strip%contacts%friction_work(displacement)]))
+      answer%penalty_energy = widths*sums(1)
+      answer%friction_work = recorder%last%friction_work + widths*sums(2)
+    end associate
+    recorder%last = answer
+    PetscCallA(VecCopy(strip%state, recorder%state, ierr))
+  end subroutine read_answer
+
+  !> Mean deflection of each crest line towards the sleeve [m].
+  function crest_deflections(strip, bumps) result(deflection)
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(in) :: bumps
+    real(wp) :: deflection(bumps)
+    integer, allocatable :: line(:)
+    real(wp), allocatable :: share(:)
+    PetscScalar :: value(1)
+    PetscErrorCode :: ierr
+    integer :: bump, i, local
+
+    deflection = 0.0_wp
+    do bump = 1, bumps
+      line = node_set(strip%foil%mesh, crest_name(bump))
+      share = line_shares(strip%foil%mesh, line)
+      do i = 1, size(line)
+        local = strip%foil%local_node(line(i))
+        if (local == 0) cycle
+        if (.not. strip%foil%part%owned(local)) cycle
+        PetscCallA(VecGetValues(strip%state, 1_pint, [int(strip%foil%unknown(radial, line(i)), pint)], value, ierr))
+        deflection(bump) = deflection(bump) - share(i)*value(1)*strip%scale%length
+      end do
+    end do
+    deflection = sum_over_ranks(deflection)
+  end function crest_deflections
+
+  !> Nodes of the whole width that are open, stick and slip.
+  subroutine count_states(strip, total)
+    type(strip_system_type), intent(in) :: strip
+    integer, intent(out) :: total(states, 2)
+    real(wp) :: found(states*2)
+    integer :: i, place
+
+    found = 0.0_wp
+    do i = 1, size(strip%contacts%point)
+      associate (point => strip%contacts%point(i), mesh => strip%foil%mesh)
+        place = (point%law - 1)*states + strip%contacts%state_of(i) - state_open + 1
+        found(place) = found(place) + 1.0_wp
+        if (mesh%half .and. mesh%position(axial, point%node) > 0.0_wp) found(place) = found(place) + 1.0_wp
+      end associate
+    end do
+    total = reshape(nint(sum_over_ranks(found)), [states, 2])
+  end subroutine count_states
+
+  !> Frees what PETSc holds.
+  subroutine destroy_recorder(recorder)
+    type(strip_recorder_type), intent(inout) :: recorder
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDestroy(recorder%state, ierr))
+    PetscCallA(VecDestroy(recorder%change, ierr))
+  end subroutine destroy_recorder
+end module gfb_strip_answer

@@ -1,0 +1,275 @@
+#include "gfb_petsc.h"
+!> From a scene to the equations of its bump strip: mesh, supports, contacts, loads.
+module gfb_strip_builder
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_petsc_kinds, only: pint
+  use gfb_scene, only: scene_type
+  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_contact_case, only: case_law_tanh_drag => law_tanh_drag, case_law_coulomb => law_coulomb, &
+                              case_law_tanh_reset => law_tanh_reset, direction_motion
+  use gfb_strip_load_case, only: crest_pressures, typical_deflection, bump_stiffness, load_plates, &
+                                 support_held
+  use gfb_contact_law, only: contact_law_type, law_tanh_drag, law_tanh_reset, law_coulomb
+  use gfb_contact_set, only: contact_point_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
+  use gfb_substructures, only: substructure_type, find_kinds
+  use gfb_foil_structure, only: foil_structure_type, create_foil_structure
+  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, symmetry_supports
+  use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
+                              plate_moved, contact_sleeve, contact_top
+  implicit none (type)
+  private
+  public :: build_strip, crest_name, line_shares
+
+  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
+
+  ! Lent to slaves in the matrix alone, relative to a bump's stiffness: a foil that floats, or slides
+  ! everywhere at its friction limit, leaves it regular.
+  real(wp), parameter :: tangential_floor = 1.0e-5_wp
+  real(wp), parameter :: normal_floor = 1.0e-7_wp
+  real(wp), parameter :: first_penetration = 1.0e-4_wp !! of the deflection, in the first guess
+
+contains
+
+  !> The strip of a scene, unloaded.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine build_strip(scene, plan, strip, error)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(strip_system_type), intent(out) :: strip
+    type(error_type), allocatable, intent(out) :: error
+
+    call build_structure(scene, plan, strip%foil, error)
+    if (allocated(error)) return
+    associate (foil => scene%bump_foil, load => scene%strip_load)
+      if (load%kind == load_plates) then
+        strip%plate = plate_moved
+        if (load%maximum_force > 0.0_wp) strip%plate = plate_forced
+        strip%plate_way = load%maximum_displacement
+      end if
+      strip%scale%length = typical_deflection(load, foil)
+      strip%scale%angle = strip%scale%length/foil%half_length
+      strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*foil%width/ &
+                          scene%mesh%axial_elements
+      call set_laws(scene, strip)
+      call add_contacts(scene, strip)
+      call create_strip_system(strip)
+      call add_loads(scene, plan, strip)
+    end associate
+  end subroutine build_strip
+
+  !> Mesh and supports.
+  !>
+  !> Without friction nothing keeps a strip that is fixed nowhere from gliding: one node does then, which
+  !> no load asks for.
+  subroutine build_structure(scene, plan, structure, error)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(foil_structure_type), intent(out) :: structure
+    type(error_type), allocatable, intent(out) :: error
+
+    type(quad_mesh_type) :: mesh
+    type(substructure_type), allocatable :: pieces(:)
+    type(strip_shape_type) :: shape
+    logical, allocatable :: fixed(:, :)
+    integer, allocatable :: line(:)
+
+    shape = strip_shape(scene)
+    associate (foil => scene%bump_foil)
+      mesh = bump_strip_mesh(shape, axial_rows(foil%width, scene%mesh%axial_elements, plan%half), plan%half)
+      pieces = strip_substructures(shape, mesh)
+      fixed = symmetry_supports(mesh)
+      if (scene%strip_load%support == support_held) fixed(radial, node_set(mesh, 'corners')) = .true.
+      line = node_set(mesh, 'fixed_edge')
+      if (foil%fixed_edge /= fixed_edge_none) then
+        fixed(:, line) = .true.
+      else if (plan%pinned) then
+        fixed([tangential, axial], line(1)) = .true.
+        fixed(tangential, line(size(line))) = .not. plan%half
+      end if
+      call find_kinds(mesh, fixed, pieces)
+      call create_foil_structure(mesh, section_of(foil), fixed, pieces, plan%reduced, structure, error)
+    end associate
+  end subroutine build_structure
+
+  !> What sleeve and top are to the bumps.
+  subroutine set_laws(scene, strip)
+    type(scene_type), intent(in) :: scene
+    type(strip_system_type), intent(inout) :: strip
+    integer :: kind
+    real(wp) :: stiffness
+
+    associate (contact => scene%contact, contacts => strip%contacts)
+      select case (contact%friction_law)
+      case (case_law_tanh_reset)
+        kind = law_tanh_reset
+      case (case_law_coulomb)
+        kind = law_coulomb
+      case default
+        kind = law_tanh_drag
+      end select
+      allocate (contacts%law(contact_top))
+      contacts%law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, &
+                                      contact%stick_length, kind, &
+                                      contact%friction_direction == direction_motion)
+      contacts%law(contact_sleeve)%friction = contact%friction_sleeve
+      contacts%law(contact_top)%friction = contact%friction_top
+      contacts%secant_penetration = first_penetration*strip%scale%length
+      stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
+      contacts%floor_normal = normal_floor*stiffness
+      if (scene%bump_foil%fixed_edge == fixed_edge_none) contacts%floor_tangential = tangential_floor*stiffness
+    end associate
+  end subroutine set_laws
+
+  !> Contacts of this rank's corner and crest nodes.
+  subroutine add_contacts(scene, strip)
+    type(scene_type), intent(in) :: scene
+    type(strip_system_type), intent(inout) :: strip
+
+    integer, allocatable :: corners(:)
+    integer :: i, rows
+    logical :: pressed
+
+    allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0))
+    associate (mesh => strip%foil%mesh)
+      rows = mesh%rows
+      if (scene%strip_load%support /= support_held) then
+        corners = node_set(mesh, 'corners')
+        do i = 1, size(corners)/rows
+          call add_line(strip, corners((i - 1)*rows + 1:i*rows), contact_sleeve, i, .false., 0.0_wp)
+        end do
+      end if
+      pressed = strip%plate == plate_none
+      if (pressed .and. .not. scene%contact%friction_top > 0.0_wp) return
+      associate (foil => scene%bump_foil)
+        do i = 1, foil%bumps
+          call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
+                        crest_force(scene, i)/foil%width)
+        end do
+      end associate
+    end associate
+  end subroutine add_contacts
+
+  !> Contacts of a line's nodes; those that are held everywhere touch nothing.
+  subroutine add_line(strip, line, law, number, pressed, pressing)
+    type(strip_system_type), intent(inout) :: strip
+    integer, intent(in) :: line(:)     !! nodes in order of z
+    integer, intent(in) :: law         !! `contact_sleeve` or `contact_top`
+    integer, intent(in) :: number      !! of the line
+    logical, intent(in) :: pressed     !! the normal force is given
+    real(wp), intent(in) :: pressing   !! it, per length, at the full load [N/m]
+
+    type(contact_point_type), allocatable :: point(:)
+    type(contact_point_type) :: one
+    integer, allocatable :: global(:)
+    real(wp), allocatable :: length(:)
+    integer :: i, k, found, local, plate
+
+    length = line_shares(strip%foil%mesh, line)* &
+             (strip%foil%mesh%position(axial, line(size(line))) - strip%foil%mesh%position(axial, line(1)))
+    allocate (point(size(line)))
+    allocate (global(0))
+    plate = 0
+    found = 0
+    do i = 1, size(line)
+      local = strip%foil%local_node(line(i))
+      if (local == 0) cycle
+      if (.not. strip%foil%part%owned(local)) cycle
+      if (.not. any(strip%foil%free(:axial, line(i)))) cycle
+      one = contact_point_type(law=law, node=line(i), line=number, length=length(i), pressed=pressed)
+      do k = 1, axial
+        if (strip%foil%unknown(k, line(i)) < 0) cycle
+        global = [global, strip%foil%unknown(k, line(i))]
+        one%slave(k) = size(strip%contacts%global) + size(global)
+      end do
+      one%frame(tangential, 1) = 1.0_wp
+      one%frame(axial, 2) = 1.0_wp
+      one%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
+      if (law == contact_top .and. strip%plate == plate_forced) then
+        if (plate == 0) then
+          global = [global, strip%foil%unknowns]
+          plate = size(strip%contacts%global) + size(global)
+        end if
+        one%master = reshape([0, plate, 0], [axial, 1])
+        one%share = [1.0_wp]
+      else
+        allocate (one%master(axial, 0), one%share(0))
+      end if
+      found = found + 1
+      point(found) = one
+    end do
+    strip%contacts%global = [strip%contacts%global, global]
+    strip%contacts%point = [strip%contacts%point, point(:found)]
+    strip%crest_press = [strip%crest_press, pressing*point(:found)%length]
+  end subroutine add_line
+
+  !> The full load: forces on crests, or on the plate.
+  subroutine add_loads(scene, plan, strip)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(strip_system_type), intent(inout) :: strip
+
+    real(wp), allocatable :: share(:)
+    integer, allocatable :: line(:)
+    integer :: bump, i, local
+    real(wp) :: solved
+    PetscErrorCode :: ierr
+
+    solved = merge(0.5_wp, 1.0_wp, plan%half)/strip%scale%force ! forces in their unit
+    select case (strip%plate)
+    case (plate_none)
+      do bump = 1, scene%bump_foil%bumps
+        line = node_set(strip%foil%mesh, crest_name(bump))
+        share = line_shares(strip%foil%mesh, line)
+        do i = 1, size(line)
+          local = strip%foil%local_node(line(i))
+          if (local == 0) cycle
+          if (.not. strip%foil%part%owned(local)) cycle
+          PetscCallA(VecSetValue(strip%full_load, int(strip%foil%unknown(radial, line(i)), pint), -crest_force(scene, bump)*share(i)*solved, INSERT_VALUES, ierr))
+        end do
+      end do
+    case (plate_forced)
+      PetscCallA(VecSetValue(strip%full_load, int(strip%unknowns - 1, pint), -scene%strip_load%maximum_force*solved, INSERT_VALUES, ierr))
+    end select
+    PetscCallA(VecAssemblyBegin(strip%full_load, ierr))
+    PetscCallA(VecAssemblyEnd(strip%full_load, ierr))
+  end subroutine add_loads
+
+  !> Full force on a crest line over the whole width [N].
+  function crest_force(scene, bump) result(force)
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: bump
+    real(wp) :: force
+    real(wp) :: pressure(scene%bump_foil%bumps)
+
+    pressure = crest_pressures(scene%strip_load, scene%bump_foil%bumps)
+    force = pressure(bump)*scene%bump_foil%pitch*scene%bump_foil%width
+  end function crest_force
+
+  !> Name of a bump's crest line among the mesh's node sets.
+  pure function crest_name(bump) result(name)
+    integer, intent(in) :: bump
+    character(len=:), allocatable :: name
+    name = 'crest_'//text(bump)
+  end function crest_name
+
+  !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to one.
+  pure function line_shares(mesh, line) result(share)
+    type(quad_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: line(:) !! nodes in order of z
+    real(wp) :: share(size(line))
+    integer :: i, n
+
+    n = size(line)
+    associate (z => mesh%position(axial, line))
+      do i = 1, n
+        share(i) = 0.5_wp*(z(min(i + 1, n)) - z(max(i - 1, 1)))/(z(n) - z(1))
+      end do
+    end associate
+  end function line_shares
+end module gfb_strip_builder

@@ -1,0 +1,344 @@
+#include "gfb_petsc.h"
+!> Equations of a bump strip between the sleeve and what presses on its crests.
+!>
+!> Unknowns: those of the foil, and after them the way of a plate where its force is given. Displacements
+!> are in units of a typical deflection, equations in units of the energy that goes with it, so that
+!> the matrix of a strip without friction stays symmetric.
+module gfb_strip_system
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks, any_rank, rank_count, this_rank
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_local_exchange, only: local_exchange_type, create_exchange
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  implicit none (type)
+  private
+  public :: create_strip_system, destroy_strip_system
+
+  integer, parameter, public :: plate_none = 0  !! the crests carry given forces
+  integer, parameter, public :: plate_forced = 1
+  integer, parameter, public :: plate_moved = 2
+
+  integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! the set's laws
+
+  !> Sizes that are of the order of the answer.
+  type, public :: strip_scale_type
+    real(wp) :: length = 1.0_wp !! deflection [m]
+    real(wp) :: angle = 1.0_wp  !! rotation [1]
+    real(wp) :: force = 1.0_wp  !! on one node [N]
+  end type strip_scale_type
+
+  !> The strip, its contacts and its load.
+  type, extends(nonlinear_system_type), public :: strip_system_type
+    type(foil_structure_type) :: foil
+    type(contact_set_type) :: contacts
+    type(strip_scale_type) :: scale
+    integer :: plate = plate_none
+    real(wp) :: plate_way = 0.0_wp          !! of a moved plate at the full load, towards the sleeve [m]
+    real(wp) :: factor = 0.0_wp             !! share of the full load that acts
+    integer :: unknowns = 0                 !! with the plate's
+    real(wp), allocatable :: crest_press(:) !! full normal force of each pressed contact [N]
+    Mat :: elastic                          !! stiffness of the foil alone, scaled
+    Vec :: full_load                        !! scaled
+    Vec, private :: unit                    !! one scaled unknown is so much [m] or [1]
+    Vec, private :: work
+    type(local_exchange_type), private :: exchange
+    real(wp), allocatable, private :: local_unit(:) !! of the contacts' unknowns
+    logical, private :: created = .false.
+  contains
+    procedure :: evaluate
+    procedure :: linearise
+    procedure :: settle
+    procedure :: set_factor
+    procedure :: commit
+    procedure :: contact_displacements
+    procedure :: foil_solution
+    procedure :: plate_travel
+    procedure :: strain_energy
+  end type strip_system_type
+
+contains
+
+  !> Prepares vectors and matrices; foil, contacts, plate and scale have been set.
+  subroutine create_strip_system(strip)
+    type(strip_system_type), intent(inout) :: strip
+    PetscInt :: owned
+    PetscErrorCode :: ierr
+
+    strip%unknowns = strip%foil%unknowns
+    owned = strip%foil%part%owned_unknowns
+    if (strip%plate == plate_forced) then
+      strip%unknowns = strip%unknowns + 1
+      if (last_rank()) owned = owned + 1
+    end if
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, owned, PETSC_DETERMINE, strip%state, ierr))
+    PetscCallA(VecDuplicate(strip%state, strip%full_load, ierr))
+    PetscCallA(VecDuplicate(strip%state, strip%unit, ierr))
+    PetscCallA(VecDuplicate(strip%state, strip%work, ierr))
+    PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
+    PetscCallA(VecSet(strip%full_load, 0.0_wp, ierr))
+    call set_units(strip)
+    call create_exchange(int(strip%contacts%global, pint), strip%state, strip%exchange)
+    allocate (strip%local_unit(size(strip%contacts%global)))
+    call strip%exchange%get(strip%unit, strip%local_unit)
+    call create_matrices(strip, owned)
+    strip%symmetric = all(strip%contacts%law%friction <= 0.0_wp)
+    strip%dense_rows = strip%plate == plate_forced
+    strip%created = .true.
+    call strip%set_factor(0.0_wp)
+  end subroutine create_strip_system
+
+  !> Whether this rank is the last one, which owns the plate's unknown.
+  function last_rank() result(last)
+    logical :: last
+    last = this_rank() == rank_count() - 1
+  end function last_rank
+
+  !> Size of a scaled unit of every unknown.
+  subroutine set_units(strip)
+    type(strip_system_type), intent(in) :: strip
+    integer, parameter :: translations = 3
+    integer :: node, component
+    real(wp) :: unit
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(strip%unit, strip%scale%length, ierr)) ! the plate's too
+    associate (part => strip%foil%part)
+      do node = 1, size(part%mesh_node)
+        if (.not. part%owned(node)) cycle
+        do component = 1, size(strip%foil%slot, 1)
+          if (strip%foil%unknown(component, part%mesh_node(node)) < 0) cycle
+          unit = merge(strip%scale%length, strip%scale%angle, component <= translations)
+          PetscCallA(VecSetValue(strip%unit, int(strip%foil%unknown(component, part%mesh_node(node)), pint), unit, INSERT_VALUES, ierr))
+        end do
+      end do
+    end associate
+    PetscCallA(VecAssemblyBegin(strip%unit, ierr))
+    PetscCallA(VecAssemblyEnd(strip%unit, ierr))
+  end subroutine set_units
+
+  !> The foil's stiffness with room for the contacts, scaled, and the matrix of the whole.
+  subroutine create_matrices(strip, owned)
+    type(strip_system_type), intent(inout) :: strip
+    PetscInt, intent(in) :: owned
+
+    PetscInt, allocatable :: inside(:), outside(:), column(:)
+    PetscScalar, allocatable :: value(:)
+    PetscInt :: first, last, row, entries, begin, finish
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(MatGetOwnershipRange(strip%foil%stiffness, first, last, ierr))
+    PetscCallA(VecGetOwnershipRange(strip%state, begin, finish, ierr))
+    allocate (inside(owned), outside(owned), source=0_pint)
+    allocate (column(strip%unknowns), value(strip%unknowns))
+    do row = first, last - 1
+      PetscCallA(MatGetRow(strip%foil%stiffness, row, entries, column, PETSC_NULL_SCALAR, ierr))
+      inside(row - first + 1) = count(column(:entries) >= begin .and. column(:entries) < finish)
+      outside(row - first + 1) = entries - inside(row - first + 1)
+      PetscCallA(MatRestoreRow(strip%foil%stiffness, row, entries, column, PETSC_NULL_SCALAR, ierr))
+    end do
+    if (strip%plate == plate_forced) then ! it touches every crest
+      if (last_rank()) then
+        inside(owned) = owned
+        outside(owned) = strip%unknowns - owned
+        inside(:owned - 1) = inside(:owned - 1) + 1
+      else
+        outside = outside + 1
+      end if
+    end if
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, strip%elastic, ierr))
+    PetscCallA(MatSetSizes(strip%elastic, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(strip%elastic, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(strip%elastic, 0_pint, inside, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(strip%elastic, 0_pint, inside, 0_pint, outside, ierr))
+    do row = first, last - 1
+      PetscCallA(MatGetRow(strip%foil%stiffness, row, entries, column, value, ierr))
+      PetscCallA(MatSetValues(strip%elastic, 1_pint, [row], entries, column, value, INSERT_VALUES, ierr))
+      PetscCallA(MatRestoreRow(strip%foil%stiffness, row, entries, column, value, ierr))
+    end do
+    PetscCallA(MatAssemblyBegin(strip%elastic, MAT_FLUSH_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(strip%elastic, MAT_FLUSH_ASSEMBLY, ierr))
+    do i = 1, size(strip%contacts%point)
+      call add_block(strip, strip%elastic, i, 0.0_wp)
+    end do
+    PetscCallA(MatAssemblyBegin(strip%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(strip%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatDiagonalScale(strip%elastic, strip%unit, strip%unit, ierr))
+    PetscCallA(MatScale(strip%elastic, 1.0_wp/energy(strip), ierr))
+    PetscCallA(MatSetOption(strip%elastic, MAT_SYMMETRIC, PETSC_TRUE, ierr))
+    PetscCallA(MatDuplicate(strip%elastic, MAT_COPY_VALUES, strip%jacobian, ierr))
+    PetscCallA(MatDestroy(strip%foil%stiffness, ierr))
+  end subroutine create_matrices
+
+  !> Unit of energy [J].
+  pure function energy(strip) result(unit)
+    type(strip_system_type), intent(in) :: strip
+    real(wp) :: unit
+    unit = strip%scale%force*strip%scale%length
+  end function energy
+
+  !> Adds a contact's stiffness, times a factor, to a scaled matrix.
+  subroutine add_block(strip, matrix, i, factor)
+    type(strip_system_type), intent(in) :: strip
+    Mat, intent(in) :: matrix
+    integer, intent(in) :: i         !! contact
+    real(wp), intent(in) :: factor   !! 0: makes room
+
+    integer, allocatable :: unknown(:)
+    PetscInt, allocatable :: number(:)
+    real(wp), allocatable :: block(:, :), unit(:)
+    PetscErrorCode :: ierr
+    integer :: k
+
+    unknown = strip%contacts%point_unknowns(i)
+    allocate (number(size(unknown)), source=-1_pint)
+    allocate (unit(size(unknown)), source=0.0_wp)
+    do k = 1, size(unknown)
+      if (unknown(k) == 0) cycle
+      number(k) = strip%contacts%global(unknown(k))
+      unit(k) = strip%local_unit(unknown(k))
+    end do
+    block = strip%contacts%point_block(i)*spread(unit, 1, size(unit))*spread(unit, 2, size(unit))
+    block = factor/energy(strip)*transpose(block)
+    PetscCallA(MatSetValues(matrix, int(size(number), pint), number, int(size(number), pint), number, block, ADD_VALUES, ierr))
+  end subroutine add_block
+
+  !> Equilibrium: elastic forces less those of contacts and load, scaled.
+  subroutine evaluate(self, state, residual, valid)
+    class(strip_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    Vec, intent(in) :: residual
+    logical, intent(out) :: valid
+    real(wp) :: displacement(size(self%local_unit)), force(size(self%local_unit))
+    PetscErrorCode :: ierr
+
+    call self%contact_displacements(state, displacement)
+    force = 0.0_wp
+    call self%contacts%add_forces(displacement, force)
+    PetscCallA(MatMult(self%elastic, state, residual, ierr))
+    PetscCallA(VecAXPY(residual, -self%factor, self%full_load, ierr))
+    call self%exchange%add(-force*self%local_unit/energy(self), residual)
+    valid = .true.
+  end subroutine evaluate
+
+  !> The matrix with the contacts as they are linearised.
+  subroutine linearise(self, state)
+    class(strip_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(MatCopy(self%elastic, self%jacobian, SAME_NONZERO_PATTERN, ierr))
+    do i = 1, size(self%contacts%point)
+      call add_block(self, self%jacobian, i, 1.0_wp)
+    end do
+    PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine linearise
+
+  !> Linearises every contact where the strip has gone.
+  subroutine settle(self, state, moved)
+    class(strip_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    logical, intent(out) :: moved
+    real(wp) :: displacement(size(self%local_unit))
+
+    call self%contact_displacements(state, displacement)
+    call self%contacts%settle(displacement)
+    self%settled = .not. any_rank(.not. self%contacts%settled)
+    moved = .true.
+  end subroutine settle
+
+  !> Sets the share of the full load.
+  subroutine set_factor(self, factor)
+    class(strip_system_type), intent(inout) :: self
+    real(wp), intent(in) :: factor
+    integer :: i
+
+    self%factor = factor
+    do i = 1, size(self%contacts%point)
+      associate (point => self%contacts%point(i))
+        if (point%pressed) point%pressing = max(0.0_wp, factor*self%crest_press(i))
+        if (self%plate == plate_moved .and. point%law == contact_top) point%gap = -factor*self%plate_way
+      end associate
+    end do
+  end subroutine set_factor
+
+  !> Ends a load step: friction carries its slip along.
+  subroutine commit(self)
+    class(strip_system_type), intent(inout) :: self
+    real(wp) :: displacement(size(self%local_unit))
+
+    call self%contact_displacements(self%state, displacement)
+    call self%contacts%commit(displacement)
+  end subroutine commit
+
+  !> Displacements of the contacts' unknowns [m].
+  subroutine contact_displacements(self, state, displacement)
+    class(strip_system_type), intent(in) :: self
+    Vec, intent(in) :: state
+    real(wp), intent(out) :: displacement(:)
+
+    call self%exchange%get(state, displacement)
+    displacement = displacement*self%local_unit
+  end subroutine contact_displacements
+
+  !> Displacements and rotations of the foil's unknowns [m], [1]; the caller destroys the vector.
+  subroutine foil_solution(self, solution)
+    class(strip_system_type), intent(in) :: self
+    Vec, intent(out) :: solution
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(self%state, solution, ierr))
+    PetscCallA(VecPointwiseMult(solution, self%state, self%unit, ierr))
+  end subroutine foil_solution
+
+  !> Way of the plate towards the sleeve [m]; zero without one.
+  function plate_travel(self) result(way)
+    class(strip_system_type), intent(in) :: self
+    real(wp) :: way
+    PetscScalar :: value(1)
+    PetscErrorCode :: ierr
+
+    way = 0.0_wp
+    if (self%plate == plate_moved) way = self%factor*self%plate_way
+    if (self%plate /= plate_forced) return
+    value = 0.0_wp
+    if (last_rank()) then
+      PetscCallA(VecGetValues(self%state, 1_pint, [int(self%unknowns - 1, pint)], value, ierr))
+    end if
+    way = -self%scale%length*sum(sum_over_ranks([value(1)]))
+  end function plate_travel
+
+  !> Energy of the foil's deformation [J].
+  function strain_energy(self) result(stored)
+    class(strip_system_type), intent(in) :: self
+    real(wp) :: stored
+    PetscScalar :: product
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatMult(self%elastic, self%state, self%work, ierr))
+    PetscCallA(VecDot(self%state, self%work, product, ierr))
+    stored = 0.5_wp*product*energy(self)
+  end function strain_energy
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy_strip_system(strip)
+    type(strip_system_type), intent(inout) :: strip
+    PetscErrorCode :: ierr
+
+    if (.not. strip%created) return
+    call strip%exchange%destroy()
+    PetscCallA(MatDestroy(strip%jacobian, ierr))
+    PetscCallA(MatDestroy(strip%elastic, ierr))
+    PetscCallA(VecDestroy(strip%work, ierr))
+    PetscCallA(VecDestroy(strip%unit, ierr))
+    PetscCallA(VecDestroy(strip%full_load, ierr))
+    PetscCallA(VecDestroy(strip%state, ierr))
+    call destroy_foil_structure(strip%foil)
+    strip%created = .false.
+  end subroutine destroy_strip_system
+end module gfb_strip_system
