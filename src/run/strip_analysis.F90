@@ -10,10 +10,12 @@ module gfb_strip_analysis
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
-  use gfb_strip_load_case, only: crest_pressures, load_plates
+  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_strip_load_case, only: crest_pressures, load_plates, support_contact
   use gfb_shell_geometry, only: node_unknowns
   use gfb_substructures, only: kind_count
-  use gfb_foil_builder, only: foil_plan_type
+  use gfb_foil_mesh, only: crest_positions
+  use gfb_foil_builder, only: foil_plan_type, strip_shape
   use gfb_strip_builder, only: build_strip
   use gfb_strip_system, only: strip_system_type, destroy_strip_system
   use gfb_strip_answer, only: strip_answer_type, strip_recorder_type, start_recorder, read_answer, &
@@ -31,6 +33,9 @@ module gfb_strip_analysis
   implicit none (type)
   private
   public :: run_strip
+
+  real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of a balance of forces, relative
 
   !> What a run gathers.
   type :: strip_run_type
@@ -77,6 +82,7 @@ contains
     summary = [answer_quantities(run%full, run%last, plates, converged), &
                cost_quantities(scene, strip, newton, start_time)]
     call show_closing_block(log, run, plates)
+    call warn(log, scene, run%full)
     call write_strip(scene, folder, command, strip, run, summary, log, error)
     call destroy_newton(newton)
     call destroy_strip_system(strip)
@@ -104,13 +110,19 @@ contains
       run%full = recorder%last
       run%last = recorder%last
       call show_step_header(log)
+      report%reason = what_lifts(scene)
       do step = 1, steps
+        if (report%reason /= '' .and. step == 1) then
+          call explain(log, step, steps, report%reason)
+          run%converged = .false.
+          exit
+        end if
         iterations = newton%iterations
         factorizations = newton%factorizations
         call take_load_step(strip, newton, load_factor(step, load%steps_up, load%steps_down), path, report)
         if (.not. report%converged) then
           run%converged = .false.
-          call explain(log, strip, step, steps, report)
+          call explain(log, step, steps, report%reason)
           exit
         end if
         call read_answer(strip, full_force(scene), recorder, run%last)
@@ -158,15 +170,62 @@ contains
     end associate
   end function full_force
 
-  !> Says why there is no answer.
-  subroutine explain(log, strip, step, steps, report)
-    type(run_log_type), intent(in) :: log
-    type(strip_system_type), intent(in) :: strip
-    integer, intent(in) :: step, steps
-    type(newton_report_type), intent(in) :: report
+  !> What moves a strip that nothing but the sleeve holds, in words; empty where the sleeve can hold it.
+  function what_lifts(scene) result(words)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: words
+    real(wp), allocatable :: force(:), crest(:)
+    real(wp) :: total, size_of_load, place, reach
 
-    call log%line('no equilibrium found in step '//text(step)//' of '//text(steps)//': '//report%reason)
+    words = ''
+    associate (foil => scene%bump_foil, load => scene%strip_load)
+      if (foil%fixed_edge /= fixed_edge_none .or. load%kind == load_plates .or. &
+          load%support /= support_contact) return
+      force = crest_pressures(load, foil%bumps)*foil%pitch*foil%width
+      crest = crest_positions(strip_shape(scene))
+      total = sum(force)
+      size_of_load = sum(abs(force))
+      reach = maxval(crest) - minval(crest) + 2.0_wp*foil%half_length
+      if (.not. size_of_load > 0.0_wp) return
+      if (total <= rounding*size_of_load) then
+        words = 'the load lifts the strip off the sleeve: the forces on the crests add up to '//text(total, 4)// &
+                ' N towards the sleeve, and the strip is fixed nowhere'
+        return
+      end if
+      place = (dot_product(force, crest)/total - 0.5_wp*(maxval(crest) + minval(crest)))/reach
+      if (abs(place) > 0.5_wp) then
+        words = 'the load tips the strip over: it acts beyond the last corner line, and the strip is fixed nowhere'
+      end if
+    end associate
+  end function what_lifts
+
+  !> Says why there is no answer.
+  subroutine explain(log, step, steps, reason)
+    type(run_log_type), intent(in) :: log
+    integer, intent(in) :: step, steps
+    character(len=*), intent(in) :: reason
+
+    call log%line('no equilibrium found in step '//text(step)//' of '//text(steps)//': '//reason)
   end subroutine explain
+
+  !> Says where an answer is not what it seems.
+  subroutine warn(log, scene, answer)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    type(strip_answer_type), intent(in) :: answer
+    integer, parameter :: open_place = 1, sleeve = 1
+    real(wp) :: largest
+
+    if (sum(answer%count(:, sleeve)) > 0 .and. abs(answer%force) > 0.0_wp .and. &
+        sum(answer%count(open_place + 1:, sleeve)) == 0) then
+      call log%warning('the strip has lifted off the sleeve: its fixed edge alone holds it')
+    end if
+    largest = maxval(abs(answer%deflection))
+    if (largest > large_deflection*scene%bump_foil%height) then
+      call log%warning('a crest moves by '//text(100.0_wp*largest/scene%bump_foil%height, 3)// &
+                       ' % of the bump height: displacements were taken to be small')
+    end if
+  end subroutine warn
 
   !> Writes all files.
   !>

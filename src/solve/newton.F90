@@ -2,8 +2,9 @@
 !> Newton's method on a set of equations, by SNES.
 !>
 !> Steps are judged by their size: the method has come home when the last full step was small. The
-!> factors of an earlier matrix serve again while that makes the steps shrink fast. The line search is
-!> non-monotone: a residual may grow for a while, but not beyond the largest of the last few.
+!> factors of an earlier matrix serve again while that makes the steps shrink fast; where matrices differ
+!> in few entries they precondition GMRES instead, as long as that needs few iterations. The line search
+!> is non-monotone: a residual may grow for a while, but not beyond the largest of the last few.
 module gfb_newton
   use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, &
                                            ieee_set_halting_mode
@@ -22,6 +23,11 @@ module gfb_newton
   real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's
   real(wp), parameter :: chord_step = 0.02_wp      !! smaller steps leave the factors as they are
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
+  integer, parameter :: longest_krylov = 60         !! GMRES iterations with old factors at most
+  integer, parameter :: cheap_krylov = 2            !! of a solve that new factors would not make shorter
+  integer, parameter :: least_krylov = 5            !! new factors never pay before
+  real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
+  real(wp), parameter :: krylov_tolerance = 1.0e-11_wp !! of the preconditioned residual, relative
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
 
   !> When to stop.
@@ -50,6 +56,9 @@ module gfb_newton
     logical, private :: created = .false.
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
+    logical, private :: outdated = .true.    !! GMRES has become dear with the present factors
+    integer, private :: spent = 0            !! GMRES iterations that new factors might have saved
+    integer, private :: dear = least_krylov  !! as many cost as much as new factors
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
@@ -94,6 +103,12 @@ contains
     PetscCallA(SNESLineSearchShellSetUserFunc(search, search_line, newton, ierr))
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+    if (system%slow_change) then
+      PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
+      PetscCallA(KSPGMRESSetRestart(linear, int(longest_krylov, pint), ierr))
+      PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, huge(1.0_wp), int(longest_krylov, pint), ierr))
+      PetscCallA(SNESSetMaxLinearSolveFailures(newton%snes, huge(1_pint), ierr))
+    end if
     PetscCallA(KSPGetPC(linear, factors, ierr))
     PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', system%symmetric)), ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
@@ -202,12 +217,19 @@ contains
     PetscErrorCode, intent(out) :: ierr
 
     ierr = 0
-    newton%fresh = .not. newton%keep
-    if (newton%keep) return
+    if (newton%system%slow_change) then
+      ! To PETSc -2 is: new factors now, -1: none until told.
+      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%outdated), ierr))
+      newton%fresh = newton%outdated
+      if (newton%fresh) newton%factorizations = newton%factorizations + 1
+    else
+      newton%fresh = .not. newton%keep
+      if (newton%keep) return
+      newton%factorizations = newton%factorizations + 1
+    end if
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%linearise(x)
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-    newton%factorizations = newton%factorizations + 1
   end subroutine form_jacobian
 
   !> SNES callback. Halves the step until it can be evaluated and the residual is not larger than the
@@ -221,7 +243,7 @@ contains
     Vec :: x, f, y, trial, trial_residual
     PetscReal :: before, after, size_x, size_y
     integer :: halving
-    logical :: found, moved
+    logical :: found, moved, solved
 
     PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
     PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
@@ -235,7 +257,17 @@ contains
     newton%length = 1.0_wp
     found = .false.
     newton%impossible = .true.
-    do halving = 0, merge(halvings, 0, newton%fresh)
+    if (newton%system%slow_change) then
+      call judge_krylov(newton, snes, solved, ierr)
+      CHKERRQ(ierr)
+      if (.not. solved) then ! again with new factors
+        newton%length = 0.0_wp
+        newton%impossible = .false.
+        PetscCall(SNESLineSearchComputeNorms(search, ierr))
+        return
+      end if
+    end if
+    do halving = 0, merge(halvings, 0, newton%fresh .or. newton%system%slow_change)
       PetscCall(VecWAXPY(trial, -newton%length, y, x, ierr))
       PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
       PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
@@ -257,7 +289,7 @@ contains
       end if
     else
       newton%length = 0.0_wp
-      if (newton%fresh) then
+      if (newton%fresh .or. newton%system%slow_change) then
         PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
       end if
       newton%impossible = newton%impossible .and. newton%fresh
@@ -265,6 +297,52 @@ contains
     call choose_factors(newton)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine search_line
+
+  !> Whether GMRES came home with the present factors, and whether they serve it further.
+  subroutine judge_krylov(newton, snes, solved, ierr)
+    type(newton_type), intent(inout) :: newton
+    SNES, intent(in) :: snes
+    logical, intent(out) :: solved
+    PetscErrorCode, intent(out) :: ierr
+    KSP :: linear
+    KSPConvergedReason :: reason
+    PetscInt :: iterations
+
+    PetscCall(SNESGetKSP(snes, linear, ierr))
+    PetscCall(KSPGetConvergedReason(linear, reason, ierr))
+    PetscCall(KSPGetIterationNumber(linear, iterations, ierr))
+    solved = GFB_REASON(reason) > 0 .or. newton%fresh
+    if (newton%fresh) then
+      newton%spent = 0
+      call price_factors(linear, newton%dear, ierr)
+      CHKERRQ(ierr)
+    end if
+    newton%spent = newton%spent + max(0, int(iterations) - cheap_krylov)
+    newton%outdated = .not. solved .or. newton%spent > newton%dear
+  end subroutine judge_krylov
+
+  !> How many GMRES iterations cost as much as the factors of a solver: by counts, so that runs repeat.
+  subroutine price_factors(linear, dear, ierr)
+    KSP, intent(in) :: linear
+    integer, intent(out) :: dear
+    PetscErrorCode, intent(out) :: ierr
+    integer, parameter :: flops_place = 3, entries_place = 29 !! in MUMPS' RINFOG and INFOG
+    character(len=80) :: package
+    PetscReal :: flops
+    PetscInt :: entries
+    Mat :: factors
+    PC :: preconditioner
+
+    dear = least_krylov
+    PetscCall(KSPGetPC(linear, preconditioner, ierr))
+    PetscCall(PCFactorGetMatSolverType(preconditioner, package, ierr))
+    if (package /= MATSOLVERMUMPS) return
+    PetscCall(PCFactorGetMatrix(preconditioner, factors, ierr))
+    PetscCall(MatMumpsGetRinfog(factors, int(flops_place, pint), flops, ierr))
+    PetscCall(MatMumpsGetInfog(factors, int(entries_place, pint), entries, ierr))
+    if (entries < 0) entries = -1000000*entries ! in millions where they are many
+    dear = max(least_krylov, nint(min(krylov_share*flops/max(1, entries), real(longest_krylov, wp))))
+  end subroutine price_factors
 
   !> Whether the present factors serve the next step too.
   pure subroutine choose_factors(newton)

@@ -11,6 +11,7 @@ module gfb_nonlinear_system
     Mat :: jacobian !! df/dx, scaled; owned by the system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
     logical :: symmetric = .false.  !! the matrix is, at every state
+    logical :: slow_change = .false. !! matrices differ in few entries: old factors precondition well
     logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
     procedure :: settle

@@ -86,6 +86,7 @@ contains
     call create_matrices(strip, owned)
     strip%symmetric = all(strip%contacts%law%friction <= 0.0_wp)
     strip%dense_rows = strip%plate == plate_forced
+    strip%slow_change = .true. ! contacts that change their state
     strip%created = .true.
     call strip%set_factor(0.0_wp)
   end subroutine create_strip_system

@@ -4,13 +4,14 @@
 !> $$ \tilde{K} = K_{BB} - K_{BI} K_{II}^{-1} K_{IB}, \qquad q_I = -K_{II}^{-1} K_{IB} q_B $$
 !>
 !> Source: [Gu2020] eqs. 3 to 6, [Guyan1965]. The substructure is held as a MatSchurComplement whose
-!> inner solver is an exact Cholesky factorization; its explicit matrix is formed from that solver and
-!> not by PETSc's own explicit operator, which drops entries below 1e-10. Any symmetric positive
-!> definite stiffness with any retained unknowns will do.
+!> inner solver is an exact Cholesky factorization, made when interior displacements are asked for. Its
+!> explicit matrix comes from MUMPS, and not from PETSc's own explicit operator, which drops entries below
+!> 1e-10. Any symmetric positive definite stiffness with any retained unknowns will do.
 module gfb_super_element
   use petscksp
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_schur_complement, only: form_schur_complement
   implicit none (type)
   private
   public :: condense, destroy_super_element
@@ -56,7 +57,7 @@ contains
     PetscCallA(MatCreateSchurComplement(super%block_ii, super%block_ii, super%block_ib, super%block_bi, super%block_bb, super%schur, ierr))
     super%created = .true.
     call set_inner_solver(super, prefix)
-    call form_explicitly(super)
+    call form_explicitly(stiffness, is_retained, super)
   end subroutine condense
 
   !> Makes the complement's inner solver exact.
@@ -74,36 +75,26 @@ contains
     PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
     PetscCallA(KSPSetFromOptions(inner, ierr))
-    PetscCallA(KSPSetUp(inner, ierr))
   end subroutine set_inner_solver
 
   !> The complement as a dense matrix, symmetric to the last digit.
-  subroutine form_explicitly(super)
+  subroutine form_explicitly(stiffness, is_retained, super)
+    Mat, intent(in) :: stiffness          !! of the substructure
+    logical, intent(in) :: is_retained(:) !! one an unknown
     type(super_element_type), intent(inout) :: super
-    KSP :: inner
-    Mat :: coupling, solution, product
+    Mat :: dense
     PetscScalar, pointer :: values(:, :)
     PetscErrorCode :: ierr
 
-    PetscCallA(MatConvert(super%block_bb, MATSEQDENSE, MAT_INITIAL_MATRIX, product, ierr))
-    PetscCallA(GFB_MatDenseGetArray(product, values, ierr))
-    super%stiffness = values
-    PetscCallA(GFB_MatDenseRestoreArray(product, values, ierr))
-    PetscCallA(MatDestroy(product, ierr))
     if (size(super%interior) > 0) then
-      PetscCallA(MatSchurComplementGetKSP(super%schur, inner, ierr))
-      PetscCallA(MatConvert(super%block_ib, MATSEQDENSE, MAT_INITIAL_MATRIX, coupling, ierr))
-      PetscCallA(MatDuplicate(coupling, MAT_DO_NOT_COPY_VALUES, solution, ierr))
-      PetscCallA(KSPMatSolve(inner, coupling, solution, ierr))
-      PetscCallA(MatMatMult(super%block_bi, solution, MAT_INITIAL_MATRIX, 1.0_wp, product, ierr))
-      PetscCallA(GFB_MatDenseGetArray(product, values, ierr))
-      super%stiffness = super%stiffness - values
-      PetscCallA(GFB_MatDenseRestoreArray(product, values, ierr))
-      PetscCallA(MatDestroy(product, ierr))
-      PetscCallA(MatDestroy(solution, ierr))
-      PetscCallA(MatDestroy(coupling, ierr))
+      call form_schur_complement(stiffness, is_retained, super%stiffness)
+    else
+      PetscCallA(MatConvert(super%block_bb, MATSEQDENSE, MAT_INITIAL_MATRIX, dense, ierr))
+      PetscCallA(GFB_MatDenseGetArray(dense, values, ierr))
+      super%stiffness = 0.5_wp*(values + transpose(values))
+      PetscCallA(GFB_MatDenseRestoreArray(dense, values, ierr))
+      PetscCallA(MatDestroy(dense, ierr))
     end if
-    super%stiffness = 0.5_wp*(super%stiffness + transpose(super%stiffness))
   end subroutine form_explicitly
 
   !> Displacements of all unknowns of the substructure from those of the retained ones.
