@@ -1,0 +1,60 @@
+!> Dense linear equations of the beam models, by LAPACK.
+module gfb_linear_solve
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: solve_positive, solve_general
+
+  interface
+    !> LAPACK: symmetric positive definite equations.
+    pure subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
+      integer, intent(out) :: info
+    end subroutine dposv
+
+    !> LAPACK: general equations.
+    pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      implicit none (type, external)
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
+      integer, intent(out) :: ipiv(n), info
+    end subroutine dgesv
+  end interface
+
+contains
+
+  !> Solves equations whose matrix is symmetric and positive definite; `.false.` if it is not.
+  pure subroutine solve_positive(matrix, right_sides, solved)
+    real(wp), intent(in) :: matrix(:, :)         !! (n, n)
+    real(wp), intent(inout) :: right_sides(:, :) !! (n, m): in the right sides, out the solutions
+    logical, intent(out) :: solved
+    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1))
+    integer :: n, info
+
+    n = size(matrix, 1)
+    factor(1:n, :) = matrix
+    call dposv('L', n, size(right_sides, 2), factor, max(1, n), right_sides, max(1, n), info)
+    solved = info == 0
+  end subroutine solve_positive
+
+  !> Solves equations of any matrix; `.false.` if it is singular.
+  pure subroutine solve_general(matrix, right_side, solved)
+    real(wp), intent(in) :: matrix(:, :)    !! (n, n)
+    real(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution
+    logical, intent(out) :: solved
+    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)), column(max(1, size(matrix, 1)), 1)
+    integer :: pivots(size(matrix, 1)), n, info
+
+    n = size(matrix, 1)
+    factor(1:n, :) = matrix
+    column(1:n, 1) = right_side
+    call dgesv(n, 1, factor, max(1, n), pivots, column, max(1, n), info)
+    right_side = column(1:n, 1)
+    solved = info == 0
+  end subroutine solve_general
+end module gfb_linear_solve
