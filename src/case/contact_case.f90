@@ -17,10 +17,12 @@ module gfb_contact_case
   integer, parameter, public :: law_tanh_reset = 2 !! starts anew at a reversal, as [Gu2020]
   integer, parameter, public :: law_coulomb = 3    !! elastic stick, then slip
 
-  integer, parameter, public :: direction_tangent_plane = 1 !! against the slip, a vector; the default
+  !> against the slip, a vector; the default
+  integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
-  character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', 'motion']
+  character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', &
+    'motion']
   character(len=*), parameter :: law_words(*) = [character(len=10) :: 'tanh_drag', 'tanh_reset', &
                                                  'coulomb']
 

@@ -1,14 +1,15 @@
-!> Forces of a contact: a unilateral normal force and Coulomb friction, with their exact derivatives.
+!> Forces of a contact: a unilateral normal force and Coulomb friction, with their exact
+!> derivatives.
 !>
-!> A contact is described by its approach \( a = (s_1, s_2, \delta) \): slip in the tangent plane, and
-!> penetration. The force \( b = (t_1, t_2, f_n) \) acts on the slave: friction along the tangents,
-!> pressure along the normal that points from the master to the slave.
+!> A contact is described by its approach \( a = (s_1, s_2, \delta) \): slip in the tangent plane,
+!> and penetration. The force \( b = (t_1, t_2, f_n) \) acts on the slave: friction along the
+!> tangents, pressure along the normal that points from the master to the slave.
 !>
 !> $$ f_n = l k \max(\delta, 0)^e, \qquad t = -\mu f_n g(|s|/u_{max}) \frac{s}{|s|} $$
 !>
 !> Source: [Gu2020] eqs. 9 and 10, with friction as a vector and the stiffness per length of contact
-!> line. \( g \) is tanh, or min(x, 1) for the law `coulomb`: an elastic stick up to the sliding limit,
-!> whose return mapping is the slip carried along (see `carried_slip`).
+!> line. \( g \) is tanh, or min(x, 1) for the law `coulomb`: an elastic stick up to the sliding
+!> limit, whose return mapping is the slip carried along (see `carried_slip`).
 module gfb_contact_law
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -24,10 +25,10 @@ module gfb_contact_law
   integer, parameter, public :: state_stick = 1
   integer, parameter, public :: state_slip = 2
 
-
-  real(wp), parameter :: dragged = 3.0_wp          !! stick lengths that tanh needs to reach its limit
+  real(wp), parameter :: dragged = 3.0_wp       !! stick lengths that tanh needs to reach its limit
   real(wp), parameter :: tiny_ratio = 1.0e-8_wp    !! below it the slope of g serves for g(x)/x
-  real(wp), parameter :: rounding = 1.0e-9_wp      !! of a slip that ends at the drag length, relative
+  !> of a slip that ends at the drag length, relative
+  real(wp), parameter :: rounding = 1.0e-9_wp
 
   !> What two surfaces are to each other.
   type, public :: contact_law_type
@@ -119,9 +120,9 @@ contains
 
   !> Slip that a contact takes along from one load step to the next.
   !>
-  !> Tanh with drag, and Coulomb: the part that fits into the law's rise. So no reversal need be found,
-  !> and the answer tends to Coulomb's law with smaller steps. With reset, as [Gu2020] has it: none where
-  !> the sliding has turned, else all of it. An open contact forgets.
+  !> Tanh with drag, and Coulomb: the part that fits into the law's rise. So no reversal need be
+  !> found, and with steps far above the stick length the answer is Coulomb's. With reset, as [Gu2020] has
+  !> it: none where the sliding has turned, else all of it. An open contact forgets.
   pure function carried_slip(law, slip, moved, pressing) result(carried)
     type(contact_law_type), intent(in) :: law
     real(wp), intent(in) :: slip(2)  !! at the end of the step [m]

@@ -63,7 +63,7 @@ contains
   !> $$ (\mathbf{R} - \mathbf{r}) \cdot \mathbf{r}_{,\xi} = 0, \qquad
   !>    (\mathbf{R} - \mathbf{r}) \cdot \mathbf{r}_{,\eta} = 0 $$
   !>
-  !> Newton-Raphson from the element's centre, so that the answer depends on nothing but positions.
+  !> Newton-Raphson from the centre, so that the answer depends on positions alone.
   !> Outside: the foot lies on the surface's continuation; where that ends (it folds over beyond a
   !> distorted element) at its end. Degenerate: an element that is collapsed, concave or crossed, or
   !> clockwise seen from the side it should face; or a point in or beyond the centre of curvature.
@@ -74,6 +74,7 @@ contains
     type(projection_type) :: projection
     type(surface_type) :: surface
     logical :: found
+    integer :: nearest
 
     surface = surface_of(corner)
     if (.not. is_element(surface)) return
@@ -81,6 +82,12 @@ contains
       if (.not. dot_product(surface%area, facing) > 0.0_wp) return
     end if
     call find_foot(surface, point, projection%coordinates, found)
+    if (.not. found .and. any(abs(projection%coordinates) > 1.0_wp)) then
+      ! A wild element's fold can stop the way from the centre to a foot within.
+      nearest = minloc(norm2(corner - spread(point, 2, master_nodes), 1), 1)
+      projection%coordinates = [node_xi(nearest), node_eta(nearest)]
+      call find_foot(surface, point, projection%coordinates, found)
+    end if
     if (any(abs(projection%coordinates) > 1.0_wp + edge_tolerance)) then
       projection%status = projection_outside
     else if (found) then
@@ -132,14 +139,13 @@ contains
   !> surface passes through the same points once more.
   pure subroutine find_foot(surface, point, place, found)
     type(surface_type), intent(in) :: surface
-    real(wp), intent(in) :: point(3)  !! [m]
-    real(wp), intent(out) :: place(2) !! xi, eta of the foot, or as near as could be got
+    real(wp), intent(in) :: point(3)    !! [m]
+    real(wp), intent(inout) :: place(2) !! xi, eta; in: start; out: foot, or as near as could be got
     logical, intent(out) :: found
     real(wp) :: step(2), trial(2), distance, noise, part, far
     logical :: positive
     integer :: i, halving
 
-    place = 0.0_wp
     found = .false.
     noise = rounding*(norm2(point - surface%centre) + surface%size)
     do i = 1, most_steps

@@ -92,9 +92,11 @@ contains
     character(len=*), intent(in) :: group
     type(case_array_type), intent(out) :: arrays(fields + 3)
 
-    character(len=*), parameter :: name(fields) = [character(len=12) :: 'normal_force', 'friction_x', &
+    character(len=*), parameter :: name(fields) = [character(len=12) :: 'normal_force', &
+      'friction_x', &
                                                    'friction_z', 'slip_x', 'slip_z', 'state']
-    character(len=*), parameter :: unit(fields) = [character(len=3) :: 'N/m', 'N/m', 'N/m', 'm', 'm', '1']
+    character(len=*), parameter :: unit(fields) = [character(len=3) :: 'N/m', 'N/m', 'N/m', 'm', &
+      'm', '1']
     character(len=*), parameter :: meaning(fields) = [character(len=64) :: &
       'pressing the foil, per length of contact line; step by node', &
       'on the foil, along the motion, per length of contact line', &
@@ -116,10 +118,13 @@ contains
     end associate
     values = fetch_entries(max(1, total), number, place, all_nodes)
     arrays(1) = case_array_type(group//'/line', '1', 'number of the contact line', values(1:1, :))
-    arrays(2) = case_array_type(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :))
-    arrays(3) = case_array_type(group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :))
+    arrays(2) = case_array_type(group//'/position_x', 'm', 'of the node, along the motion', &
+      values(2:2, :))
+    arrays(3) = case_array_type(group//'/position_z', 'm', 'of the node, along the axis', &
+      values(3:3, :))
     do field = 1, fields
-      values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), all_nodes)
+      values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), &
+        all_nodes)
       arrays(3 + field) = case_array_type(group//'/'//trim(name(field)), trim(unit(field)), &
                                           trim(meaning(field)), transpose(values))
     end do
@@ -133,7 +138,8 @@ contains
     integer :: lines
     real(wp) :: found(1)
 
-    found = real(maxval([0, pack(strip%contacts%point%line, strip%contacts%point%law == surface)]), wp)
+    found = real(maxval([0, pack(strip%contacts%point%line, &
+      strip%contacts%point%law == surface)]), wp)
     found = largest_over_ranks(found)
     lines = nint(found(1))
   end function largest_line

@@ -59,11 +59,12 @@ contains
     plan%pinned = strip .and. scene%bump_foil%fixed_edge == fixed_edge_none .and. &
                   .not. has_friction(scene)
     if (plan%pinned) then
-      call log%line('strip: fixed nowhere and without friction; its gliding on the sleeve is removed at '// &
-                    'one node')
+      call log%line('strip: fixed nowhere and without friction; its gliding on the sleeve is '// &
+                    'removed at one node')
     else if (scene%bump_foil%fixed_edge == fixed_edge_none .and. strip) then
       call log%line('strip: fixed nowhere; friction alone holds it')
-    else if (scene%bump_foil%fixed_edge == fixed_edge_none .and. scene%modes%part == part_strip) then
+    else if (scene%bump_foil%fixed_edge == fixed_edge_none .and. &
+             scene%modes%part == part_strip) then
       call log%line('strip: free; it has six rigid motions')
     end if
     if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
@@ -75,8 +76,10 @@ contains
     logical :: friction
 
     associate (contact => scene%contact)
-      friction = (contact%friction_sleeve > 0.0_wp .and. scene%strip_load%support /= support_held) .or. &
-                 contact%friction_top > 0.0_wp
+      friction = contact%friction_top > 0.0_wp
+      if (scene%strip_load%support /= support_held) then
+        friction = friction .or. contact%friction_sleeve > 0.0_wp
+      end if
     end associate
   end function has_friction
 

@@ -28,6 +28,7 @@ module gfb_strip_analysis
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
   use gfb_foil_plan, only: plan_foil
   use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
+  use gfb_strip_companions, only: companions_type, strip_companions, show_companions, companion_arrays
   use gfb_contact_output, only: contact_record_type, record_contacts, contact_arrays, contact_field
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
@@ -42,6 +43,7 @@ module gfb_strip_analysis
     type(strip_answer_type) :: full, last !! at the largest load, and of the last step
     type(history_row_type), allocatable :: history(:)
     type(contact_record_type) :: contacts
+    type(companions_type) :: companions
     integer :: steps = 0                  !! done
     logical :: converged = .true.
   end type strip_run_type
@@ -81,6 +83,7 @@ contains
     converged = run%converged
     summary = [answer_quantities(run%full, run%last, plates, converged), &
                cost_quantities(scene, strip, newton, start_time)]
+    run%companions = strip_companions(scene, run%full%force)
     call show_closing_block(log, run, plates)
     call warn(log, scene, run%full)
     call write_strip(scene, folder, command, strip, run, summary, log, error)
@@ -255,7 +258,7 @@ contains
     call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
     call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
     call add_stress(strip%foil, moved, grid)
-    arrays = contact_arrays(strip, run%contacts, run%steps)
+    arrays = [contact_arrays(strip, run%contacts, run%steps), companion_arrays(run%companions)]
     call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
                           [grid], log, error)
   end subroutine write_strip
@@ -290,12 +293,9 @@ contains
     type(run_log_type), intent(in) :: log
     type(strip_run_type), intent(in) :: run
     logical, intent(in) :: plates
-    integer :: bump
 
     call log%heading('answer')
-    do bump = 1, size(run%full%deflection)
-      call log%line('crest '//text(bump)//'  '//text(run%full%deflection(bump)*1.0e6_wp, 5)//' um')
-    end do
+    call show_companions(log, run%full%deflection, run%companions)
     if (plates) call log%line('plate travel '//text(run%full%travel*1.0e6_wp, 6)//' um')
     call log%line('force on all crests '//text(run%full%force, 5)//' N, '//text(rank_count())// &
                   ' rank(s), BLAS '//blas_in_use())

@@ -3,7 +3,8 @@ module gfb_strip_summary
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, truth_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
+    truth_quantity
   use gfb_strip_answer, only: strip_answer_type
   implicit none (type, external)
   private
@@ -60,10 +61,12 @@ contains
     type(strip_answer_type), intent(in) :: answer
     type(quantity_type), allocatable :: list(:)
 
-    list = [number_quantity('external_work', answer%external_work, 'J', 'of the load, since the start'), &
+    list = [number_quantity('external_work', answer%external_work, 'J', &
+      'of the load, since the start'), &
             number_quantity('strain_energy', answer%strain_energy, 'J', 'in the foil'), &
             number_quantity('penalty_energy', answer%penalty_energy, 'J', 'in the penetrations'), &
-            number_quantity('friction_work', answer%friction_work, 'J', 'done against friction, since the start')]
+            number_quantity('friction_work', answer%friction_work, 'J', &
+            'done against friction, since the start')]
   end function energy_quantities
 
   !> The summary: what holds at the full load, and what the cycle cost.
@@ -80,7 +83,8 @@ contains
             truth_quantity('converged', converged, 'whether the answer was found'), &
             crest_quantities(full), &
             number_quantity('maximum_deflection', largest, 'm', &
-                            trim(merge('travel of the plate     ', 'largest crest deflection', plates))), &
+                            trim(merge('travel of the plate     ', 'largest crest deflection', &
+                            plates))), &
             number_quantity('maximum_force', full%force, 'N', 'force on all crests')]
     if (largest > 0.0_wp) then
       list = [list, number_quantity('loading_stiffness', full%force/largest, 'N/m', &
@@ -107,7 +111,8 @@ contains
     character(len=160) :: line
 
     write (line, '(i7, f12.4, f25.5, 2x, 3i8, 2x, 3i7, i8, i9)') step, answer%force, &
-      max(answer%travel, maxval(answer%deflection))*micrometres, answer%count(:, 1), answer%count(:, 2), &
+      max(answer%travel, maxval(answer%deflection))*micrometres, answer%count(:, 1), &
+      answer%count(:, 2), &
       newton_iterations, factorizations
     call log%line(trim(line))
   end subroutine show_step

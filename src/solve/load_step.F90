@@ -1,10 +1,10 @@
 #include "gfb_petsc.h"
 !> One load step of a strip: from an answer to the next, and never to anything else.
 !>
-!> The start value is a straight line through the last two answers, exact where no contact changes its
-!> state under a load that grows in proportion. A step that fails is tried with a longer stick length that
-!> is shortened again, and then cut. Neither is loading: friction's memory stays as it is until the step
-!> is whole, so the answer does not depend on them.
+!> The start value is a straight line through the last two answers, exact where no contact changes
+!> its state under a load that grows in proportion. A step that fails is tried with a longer stick
+!> length that is shortened again, and then cut. Neither is loading: friction's memory stays as it
+!> is until the step is whole, so the answer does not depend on them.
 module gfb_load_step
   use petscvec
   use gfb_kinds, only: wp
@@ -40,8 +40,8 @@ contains
     PetscCallA(VecCopy(strip%state, path%before, ierr))
   end subroutine create_load_path
 
-  !> Brings the strip to a load factor. Where that fails the strip is back at the last answer. The caller
-  !> commits.
+  !> Brings the strip to a load factor. Where that fails the strip is back at the last answer. The
+  !> caller commits.
   subroutine take_load_step(strip, newton, target, path, report)
     type(strip_system_type), intent(inout) :: strip
     type(newton_type), target, intent(inout) :: newton

@@ -2,9 +2,10 @@
 !> Newton's method on a set of equations, by SNES.
 !>
 !> Steps are judged by their size: the method has come home when the last full step was small. The
-!> factors of an earlier matrix serve again while that makes the steps shrink fast; where matrices differ
-!> in few entries they precondition GMRES instead, as long as that needs few iterations. The line search
-!> is non-monotone: a residual may grow for a while, but not beyond the largest of the last few.
+!> factors of an earlier matrix serve again while that makes the steps shrink fast; where matrices
+!> differ in few entries they precondition GMRES instead, as long as that needs few iterations. The
+!> line search is non-monotone: a residual may grow for a while, but not beyond the largest of the
+!> last few.
 module gfb_newton
   use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, &
                                            ieee_set_halting_mode
@@ -232,8 +233,9 @@ contains
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
   end subroutine form_jacobian
 
-  !> SNES callback. Halves the step until it can be evaluated and the residual is not larger than the
-  !> largest of the last few. Where old factors gave the step, it is dropped and new ones follow.
+  !> SNES callback. Halves the step until it can be evaluated and the residual is not larger than
+  !> the largest of the last few. Where old factors gave the step, it is dropped and new ones
+  !> follow.
   subroutine search_line(search, newton, ierr)
     SNESLineSearch, intent(in) :: search
     type(newton_type), intent(inout) :: newton
@@ -321,7 +323,8 @@ contains
     newton%outdated = .not. solved .or. newton%spent > newton%dear
   end subroutine judge_krylov
 
-  !> How many GMRES iterations cost as much as the factors of a solver: by counts, so that runs repeat.
+  !> How many GMRES iterations cost as much as the factors of a solver: by counts, so that runs
+  !> repeat.
   subroutine price_factors(linear, dear, ierr)
     KSP, intent(in) :: linear
     integer, intent(out) :: dear

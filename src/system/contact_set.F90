@@ -1,9 +1,9 @@
 !> The contacts of this rank: nodes of a foil on the sleeve, under a plate, or under another foil.
 !>
-!> Geometry is that of the unloaded foils: displacements are small. Each contact remembers the place on
-!> its law where it is linearised. Within a Newton step its force is the law's tangent there, a pure
-!> function of the unknowns; `settle` moves the places after the step. So the matrix tells the whole
-!> of a step, and a contact that jumps from one state to another cannot spoil the line search.
+!> Geometry is that of the unloaded foils: displacements are small. Each contact remembers the place
+!> on its law where it is linearised. Within a Newton step its force is the law's tangent there, a
+!> pure function of the unknowns; `settle` moves the places after the step. So the matrix tells the
+!> whole of a step, and a contact that jumps from one state to another cannot spoil the line search.
 module gfb_contact_set
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &

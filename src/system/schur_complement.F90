@@ -1,6 +1,6 @@
 #include "gfb_petsc.h"
-!> Schur complement of a substructure's interior, by MUMPS: it eliminates the interior and stops there,
-!> 4 to 9 times faster than solving for every retained unknown.
+!> Schur complement of a substructure's interior, by MUMPS: it eliminates the interior and stops
+!> there, 4 to 9 times faster than solving for every retained unknown.
 module gfb_schur_complement
   use petscksp
   use gfb_kinds, only: wp

@@ -52,7 +52,8 @@ contains
     PetscCallA(VecCopy(strip%state, recorder%state, ierr))
   end subroutine start_recorder
 
-  !> The answer of a step that has converged and is not committed yet; works go on from the last one.
+  !> The answer of a step that has converged and is not committed yet; works go on from the last
+  !> one.
   subroutine read_answer(strip, full_force, recorder, answer)
     type(strip_system_type), intent(inout) :: strip
     real(wp), intent(in) :: full_force !! on all crests where it is given [N]

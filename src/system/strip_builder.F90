@@ -65,8 +65,8 @@ contains
 
   !> Mesh and supports.
   !>
-  !> Without friction nothing keeps a strip that is fixed nowhere from gliding: one node does then, which
-  !> no load asks for.
+  !> Without friction nothing keeps a strip that is fixed nowhere from gliding: one node does then,
+  !> which no load asks for.
   subroutine build_structure(scene, plan, structure, error)
     type(scene_type), intent(in) :: scene
     type(foil_plan_type), intent(in) :: plan
@@ -221,8 +221,7 @@ contains
     PetscErrorCode :: ierr
 
     solved = merge(0.5_wp, 1.0_wp, plan%half)/strip%scale%force ! forces in their unit
-    select case (strip%plate)
-    case (plate_none)
+    if (strip%plate == plate_none) then
       do bump = 1, scene%bump_foil%bumps
         line = node_set(strip%foil%mesh, crest_name(bump))
         share = line_shares(strip%foil%mesh, line)
@@ -233,9 +232,9 @@ contains
           PetscCallA(VecSetValue(strip%full_load, int(strip%foil%unknown(radial, line(i)), pint), -crest_force(scene, bump)*share(i)*solved, INSERT_VALUES, ierr))
         end do
       end do
-    case (plate_forced)
+    else if (strip%plate == plate_forced) then
       PetscCallA(VecSetValue(strip%full_load, int(strip%unknowns - 1, pint), -scene%strip_load%maximum_force*solved, INSERT_VALUES, ierr))
-    end select
+    end if
     PetscCallA(VecAssemblyBegin(strip%full_load, ierr))
     PetscCallA(VecAssemblyEnd(strip%full_load, ierr))
   end subroutine add_loads
@@ -258,7 +257,8 @@ contains
     name = 'crest_'//text(bump)
   end function crest_name
 
-  !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to one.
+  !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to
+  !> one.
   pure function line_shares(mesh, line) result(share)
     type(quad_mesh_type), intent(in) :: mesh
     integer, intent(in) :: line(:) !! nodes in order of z

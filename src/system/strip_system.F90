@@ -1,9 +1,9 @@
 #include "gfb_petsc.h"
 !> Equations of a bump strip between the sleeve and what presses on its crests.
 !>
-!> Unknowns: those of the foil, and after them the way of a plate where its force is given. Displacements
-!> are in units of a typical deflection, equations in units of the energy that goes with it, so that
-!> the matrix of a strip without friction stays symmetric.
+!> Unknowns: those of the foil, and after them the way of a plate where its force is given.
+!> Displacements are in units of a typical deflection, equations in units of the energy that goes
+!> with it, so that the matrix of a strip without friction stays symmetric.
 module gfb_strip_system
   use petscmat
   use gfb_kinds, only: wp

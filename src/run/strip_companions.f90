@@ -1,0 +1,134 @@
+!> What formulas say of a strip, beside the shells' answer.
+module gfb_strip_companions
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing, fixed_line_corner
+  use gfb_strip_load_case, only: crest_pressures, load_plates, bump_stiffness
+  use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
+  use gfb_curved_bump, only: curved_bump_stiffness
+  use gfb_case_file, only: case_array_type
+  implicit none (type, external)
+  private
+  public :: strip_companions, show_companions, companion_arrays
+
+  integer, parameter :: longest_chain = 60 !! bumps; longer ones can take seconds
+  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+  !> Deflections at the full load, [m].
+  type, public :: companions_type
+    real(wp), allocatable :: walowit_anno(:) !! (bumps), single bumps without friction
+    real(wp), allocatable :: curved_bump(:)  !! (bumps), exact single bumps, feet rub on the sleeve
+    real(wp), allocatable :: chain(:)        !! (bumps), planar chain; empty where there is none
+    logical :: chain_lifts = .false.         !! it holds corners down that would lift
+  end type companions_type
+
+contains
+
+  !> Computes them for the forces on the crests; a plate's force is shared evenly, as single bumps
+  !> do.
+  function strip_companions(scene, force) result(companions)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: force !! on all crests at the full load [N]
+    type(companions_type) :: companions
+    real(wp) :: crest_force(scene%bump_foil%bumps)
+
+    associate (foil => scene%bump_foil)
+      if (scene%strip_load%kind == load_plates) then
+        crest_force = force/foil%bumps
+      else
+        crest_force = crest_pressures(scene%strip_load, foil%bumps)*foil%pitch*foil%width
+      end if
+      companions%walowit_anno = crest_force/(bump_stiffness(foil)*foil%pitch*foil%width)
+      companions%curved_bump = crest_force/ &
+        curved_bump_stiffness(foil%youngs_modulus, foil%poissons_ratio, foil%thickness, &
+                              foil%half_length, foil%height, foil%width, &
+                              scene%contact%friction_sleeve)
+    end associate
+    call solve_chain(scene, crest_force, companions)
+  end function strip_companions
+
+  !> The planar chain, where it models the strip: crests with given forces, a bump at the fixed
+  !> edge.
+  subroutine solve_chain(scene, crest_force, companions)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: crest_force(:) !! [N]
+    type(companions_type), intent(inout) :: companions
+    type(bump_chain_type) :: chain
+    type(bump_chain_solution_type) :: solution
+    logical :: mirrored
+
+    allocate (companions%chain(0))
+    associate (foil => scene%bump_foil, contact => scene%contact)
+      if (foil%bumps > longest_chain .or. scene%strip_load%kind == load_plates) return
+      if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
+      mirrored = foil%fixed_edge == fixed_edge_trailing
+      chain = bump_chain_type(foil%half_length, foil%height, foil%thickness, foil%youngs_modulus, &
+                              foil%poissons_ratio, foil%pitch, foil%width, foil%bumps, &
+                              foil%fixed_edge /= fixed_edge_none, contact%friction_top, &
+                              contact%friction_sleeve)
+    end associate
+    if (mirrored) then
+      call solve_bump_chain(chain, crest_force(size(crest_force):1:-1), solution)
+      solution%crest_deflection = solution%crest_deflection(size(crest_force):1:-1)
+    else
+      call solve_bump_chain(chain, crest_force, solution)
+    end if
+    if (.not. solution%converged) return
+    companions%chain = solution%crest_deflection
+    companions%chain_lifts = solution%lifted
+  end subroutine solve_chain
+
+  !> A table of the crests: shells, chain, single bumps.
+  subroutine show_companions(log, deflection, companions)
+    type(run_log_type), intent(in) :: log
+    real(wp), intent(in) :: deflection(:) !! of the shells' crests [m]
+    type(companions_type), intent(in) :: companions
+    character(len=80) :: line
+    integer :: bump
+
+    call log%line('deflection [um]   shells   planar chain   curved bump   Walowit-Anno')
+    do bump = 1, size(deflection)
+      if (size(companions%chain) > 0) then
+        write (line, '(a, i4, 4x, f12.4, f15.4, f14.4, f15.4)') 'crest', bump, micrometres* &
+          [deflection(bump), companions%chain(bump), companions%curved_bump(bump), &
+          companions%walowit_anno(bump)]
+      else
+        write (line, '(a, i4, 4x, f12.4, a15, f14.4, f15.4)') 'crest', bump, &
+          micrometres*deflection(bump), '-', &
+          micrometres*[companions%curved_bump(bump), companions%walowit_anno(bump)]
+      end if
+      call log%line(trim(line))
+    end do
+    if (companions%chain_lifts) then
+      call log%line('the planar chain holds down corners that would lift')
+    end if
+  end subroutine show_companions
+
+  !> The same for the result file.
+  function companion_arrays(companions) result(arrays)
+    type(companions_type), intent(in) :: companions
+    type(case_array_type), allocatable :: arrays(:)
+    character(len=*), parameter :: group = '/companions/'
+
+    arrays = [row('walowit_anno', 'deflection of single bumps without friction', &
+      companions%walowit_anno), &
+              row('curved_bump', 'deflection of exact single bumps, feet rubbing', &
+              companions%curved_bump)]
+    if (size(companions%chain) > 0) then
+      arrays = [arrays, row('planar_chain', 'deflection of a planar chain of bumps', &
+        companions%chain)]
+    end if
+
+  contains
+
+    !> One number a bump.
+    function row(name, meaning, values) result(array)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: values(:) !! [m]
+      type(case_array_type) :: array
+      array = case_array_type(group//name, 'm', meaning, reshape(values, [size(values), 1]))
+    end function row
+  end function companion_arrays
+end module gfb_strip_companions
