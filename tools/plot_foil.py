@@ -10,6 +10,7 @@ from gfb_tools import stop
 SHARE = 0.4        # of the foil's height: how far the picture moves the node that sinks most, at most
 MODE_SHARE = 0.12  # of the foil's shorter side, for modes
 LEAST_SIDE = 0.22  # of a mode's box over its longest one, to show narrow foils
+ROUND_OFF = 1.0e-9 # of the foil's height: a smaller displacement is none
 LINES = 14         # of a wireframe along each direction, at most
 
 
@@ -73,8 +74,9 @@ def draw_strip(points, moved):
     rest, change = points[:, middle, :2], moved[:, middle, :2]
     height = numpy.ptp(rest[:, 1])
     largest = numpy.abs(change[:, 1]).max()
-    if not (height > 0.0 and largest > 0.0):
-        stop("nothing bends here: no bumps, or no displacement")
+    if not (height > 0.0 and largest > ROUND_OFF*height):
+        stop("nothing bends here: no bumps, or no displacement; a strip that is let go again shows it with "
+             "steps_down = 0")
     scale = round_scale(SHARE*height/largest)
     crests = crest_stations(rest[:, 1])
     figure = pyplot.figure(figsize=(10.0, 5.6), layout="constrained")

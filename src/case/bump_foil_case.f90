@@ -41,13 +41,14 @@ module gfb_bump_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass, with_pitch)
+  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass, with_pitch, with_width)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(out) :: foil
     type(bearing_case_type), intent(in) :: bearing
     logical, intent(in) :: as_shell   !! the strip is meshed: its shape must be known
     logical, intent(in) :: with_mass  !! and its density too
-    logical, intent(in) :: with_pitch !! more of it than an arc is meshed
+    logical, intent(in) :: with_pitch !! more of it than an arc is meshed, and no pad tells the pitch
+    logical, intent(in) :: with_width !! no bearing tells the width
 
     call keys%start_group('bump_foil', required=as_shell, optional=.true., &
                           present_in_file=foil%present)
@@ -66,7 +67,9 @@ contains
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
                        with_pitch, default='length of the pad / `bumps`')
-    call length_key('width', foil%width, 'width of the strip, along the axis')
+    if (as_shell .and. .not. with_width) foil%width = bearing%length
+    call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
+                       with_width, default='required for strips; a bearing''s length')
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'how the strip begins at its fixed edge')

@@ -5,7 +5,7 @@ module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_scene_case, only: analysis_strip, misplaced_group
+  use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
   use gfb_value_rules, only: from_to, positive
@@ -27,7 +27,8 @@ module gfb_contact_case
                                                  'coulomb']
 
   real(wp), parameter :: bumps_stiffness = 1.0e4_wp   !! contact's over that of a bump
-  real(wp), parameter :: stick_part = 1.0_wp/5.0e3_wp !! of the typical deflection
+  real(wp), parameter :: stick_part = 1.0_wp/5.0e3_wp !! of a strip's typical deflection
+  real(wp), parameter :: stick_in_bearing = 1.0_wp/300.0_wp !! of the clearance
   real(wp), parameter :: highest_friction = 10.0_wp
   real(wp), parameter :: lowest = 1.0e-60_wp, highest = 1.0e30_wp !! what a case file can hold
 
@@ -46,20 +47,29 @@ module gfb_contact_case
 contains
 
   !> Reads the group; a strip that touches nothing need not have it.
-  subroutine read_contact_case(keys, contact, load, foil, analysis)
+  subroutine read_contact_case(keys, contact, load, foil, clearance, analysis, shells)
     type(case_keys_type), intent(inout) :: keys
     type(contact_case_type), intent(out) :: contact
     type(strip_load_case_type), intent(in) :: load
     type(bump_foil_case_type), intent(in) :: foil
-    integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: strip
+    real(wp), intent(in) :: clearance !! of a bearing [m]
+    integer, intent(in) :: analysis   !! 0 where it is not known
+    logical, intent(in) :: shells     !! the foils are shells
+    character(len=:), allocatable :: misplaced
+    real(wp) :: deflection
+    logical :: strip, bearing
 
     strip = analysis == analysis_strip
-    call keys%start_group('contact', optional=.not. strip, present_in_file=contact%present, &
-                          misplaced=misplaced_group(analysis, strip))
+    bearing = is_bearing(analysis) .and. shells
+    misplaced = misplaced_group(analysis, strip .or. bearing)
+    if (is_bearing(analysis) .and. .not. shells) misplaced = "needs foil = 'shell' in &model"
+    deflection = typical_deflection(load, foil)
+    if (bearing) deflection = clearance
+    call keys%start_group('contact', optional=.not. (strip .or. bearing), &
+                          present_in_file=contact%present, misplaced=misplaced)
     call keys%real_key('exponent', contact%exponent, '1', &
                        'of the penetration in the normal force', from_to(1.0_wp, 3.0_wp))
-    contact%normal_stiffness = default_stiffness(load, foil, contact%exponent)
+    contact%normal_stiffness = default_stiffness(deflection, foil, contact%exponent)
     call scene_key('normal_stiffness', contact%normal_stiffness, 'N/m^(1+exponent)', &
                    'normal force per metre of contact line over penetration^exponent', &
                    "1e4 times a bump's, from Walowit-Anno")
@@ -71,10 +81,10 @@ contains
       call keys%complain('contact', 'friction_sleeve', "has no use with support = 'held' in "// &
                          '&strip_load: nothing presses on the sleeve')
     end if
-    contact%stick_length = stick_part*typical_deflection(load, foil)
+    contact%stick_length = merge(stick_in_bearing, stick_part, bearing)*deflection
     call scene_key('stick_length', contact%stick_length, 'm', &
                    'tangential way at which friction turns from stick to slip', &
-                   '1/5000 of the typical deflection')
+                   '1/5000 of the typical deflection; bearings: 1/300 of the clearance')
     call keys%choice_key('friction_law', contact%friction_law, law_words, &
                          'what sticks is dragged along, starts anew at a reversal, or sticks '// &
                          'elastically')
@@ -103,7 +113,8 @@ contains
       if (.not. right) value = 0.0_wp ! the echo could not be read again
       call keys%real_key(name, value, unit, meaning, positive, default=default, given=given)
       ! A foil whose numbers are missing or wrong is complained about elsewhere.
-      if (strip .and. bump_stiffness(foil) > 0.0_wp .and. .not. (right .or. given)) then
+      if ((strip .or. bearing) .and. bump_stiffness(foil) > 0.0_wp .and. deflection > 0.0_wp .and. &
+          .not. (right .or. given)) then
         call keys%complain('contact', name, 'must be given: its default for these bumps and '// &
                            'their load is out of range')
       end if
@@ -112,15 +123,15 @@ contains
 
   !> The stiffness with which a penetration of 1e-4 of the typical deflection carries what a bump
   !> carries at that deflection [N/m^(1 + exponent)]; 0 where it is not known.
-  elemental function default_stiffness(load, foil, exponent) result(stiffness)
-    type(strip_load_case_type), intent(in) :: load
+  elemental function default_stiffness(deflection, foil, exponent) result(stiffness)
+    real(wp), intent(in) :: deflection !! typical one [m]
     type(bump_foil_case_type), intent(in) :: foil
     real(wp), intent(in) :: exponent  !! of the penetration [1]
     real(wp) :: stiffness
     real(wp) :: penetration !! [m]
 
     stiffness = bumps_stiffness*bump_stiffness(foil)*foil%pitch
-    penetration = typical_deflection(load, foil)/bumps_stiffness
+    penetration = deflection/bumps_stiffness
     if (.not. stiffness > 0.0_wp .or. .not. penetration > 0.0_wp) then
       stiffness = 0.0_wp
     else if (exponent > 1.0_wp) then

@@ -54,10 +54,7 @@ contains
     call keys%start_group('model', required=is_bearing(analysis))
     if (is_structure(analysis)) model%foil = foil_shell
     call keys%choice_key('foil', model%foil, foil_words, 'model of the foils', is_bearing(analysis))
-    if (is_bearing(analysis) .and. model%foil == foil_shell) then
-      call keys%complain('model', 'foil', 'is for strips and modes; a bearing needs '// &
-                         "'rigid' or 'elastic_foundation'")
-    else if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
+    if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
       call keys%complain('model', 'foil', "must be 'shell' for strips and modes")
     end if
     call keys%choice_key('reduction', model%reduction, reduction_words, &

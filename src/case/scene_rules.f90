@@ -1,15 +1,17 @@
 !> What the groups of a scene ask of each other.
 module gfb_scene_rules
   use gfb_kinds, only: wp, long
-  use gfb_bearing_case, only: bearing_case_type
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, has_flats, bumps_overlap
+  use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, fixed_edge_none, has_flats, &
+                                bumps_overlap
   use gfb_case_keys, only: case_keys_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
-  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, half_width_yes
+  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
+                            half_width_yes
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
-                            analysis_modes
+                            analysis_modes, is_bearing
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
@@ -17,6 +19,7 @@ module gfb_scene_rules
   implicit none (type, external)
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
+  public :: check_shell_bearing
   public :: check_plates, is_symmetric
 
 contains
@@ -87,19 +90,21 @@ contains
   end subroutine check_foundation
 
   !> A bump foil that is meshed: its thickness, its flats, its size.
-  subroutine check_strip(keys, foil, mesh, modes, analysis)
+  subroutine check_strip(keys, foil, mesh, modes, analysis, model)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(in) :: foil
     type(mesh_case_type), intent(in) :: mesh
     type(modes_case_type), intent(in) :: modes
     integer, intent(in) :: analysis  !! 0 where it is not known
+    type(model_case_type), intent(in) :: model
     real(wp) :: diameter
     integer(long) :: elements
-    logical :: strip
+    logical :: strip, bearing
 
-    if (analysis /= analysis_strip .and. analysis /= analysis_modes) return
+    bearing = is_bearing(analysis) .and. model%foil == foil_shell
+    if (analysis /= analysis_strip .and. analysis /= analysis_modes .and. .not. bearing) return
     if (analysis == analysis_modes .and. modes%part == part_top_foil) return
-    strip = analysis == analysis_strip .or. modes%part == part_strip
+    strip = analysis == analysis_strip .or. modes%part == part_strip .or. bearing
     if (foil%half_length > 0.0_wp .and. foil%height > 0.0_wp) then
       diameter = (foil%half_length**2 + foil%height**2)/foil%height
       if (foil%thickness >= diameter) then
@@ -122,6 +127,30 @@ contains
                          ' elements are more than '//text(most_in_all)//' elements')
     end if
   end subroutine check_strip
+
+  !> A bearing with shells: its strip is fixed at an edge and as wide as the bearing, its pad is open.
+  subroutine check_shell_bearing(keys, foil, bearing, model, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    type(bearing_case_type), intent(in) :: bearing
+    type(model_case_type), intent(in) :: model
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of a width that is the bearing's, relative
+
+    if (.not. is_bearing(analysis) .or. model%foil /= foil_shell) return
+    if (foil%fixed_edge == fixed_edge_none) then
+      call keys%complain('bump_foil', 'fixed_edge', "must be 'leading' or 'trailing' in a bearing")
+    end if
+    if (bearing%leading_edge_condition == leading_edge_periodic) then
+      call keys%complain('bearing', 'leading_edge_condition', "must be 'slit' with foil = 'shell': "// &
+                         'a foil has edges')
+    end if
+    if (bearing%length > 0.0_wp .and. foil%width > 0.0_wp .and. &
+        abs(foil%width - bearing%length) > rounding*bearing%length) then
+      call keys%complain('bump_foil', 'width', 'must be the length of the bearing, '// &
+                         text(bearing%length)//' m')
+    end if
+  end subroutine check_shell_bearing
 
   !> Plates are either forced or moved.
   subroutine check_plates(keys, load, analysis)

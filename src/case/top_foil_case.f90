@@ -25,10 +25,11 @@ module gfb_top_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_top_foil_case(keys, foil, needed)
+  subroutine read_top_foil_case(keys, foil, needed, with_mass)
     type(case_keys_type), intent(inout) :: keys
     type(top_foil_case_type), intent(out) :: foil
-    logical, intent(in) :: needed !! the scene has the foil as a structure with mass
+    logical, intent(in) :: needed    !! the scene has the foil as a structure
+    logical, intent(in) :: with_mass !! its density must be known
 
     call keys%start_group('top_foil', required=needed, optional=.true., &
                           present_in_file=foil%present)
@@ -38,7 +39,7 @@ contains
                        needed, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
                        between(-1.0_wp, 0.5_wp), needed, default=no_default)
-    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needed, &
+    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
                        default=no_default)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the foil is fixed')
     call keys%finish_group()

@@ -3,7 +3,7 @@ module gfb_film_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: uniform_film_mesh, film_elements, interpolate_film
+  public :: uniform_film_mesh, film_mesh_at, film_elements, interpolate_film
 
   !> A film mesh by its stations along the shaft's motion and its rows along the axis.
   !>
@@ -49,6 +49,20 @@ contains
     ! Symmetric to the last digit about z = 0, so that mirrored scenes give mirrored answers.
     mesh%row_axial = [(0.5_wp*length*real(2*i - axial, wp)/real(axial, wp), i=first, axial)]
   end function uniform_film_mesh
+
+  !> Mesh of a pad with given stations.
+  pure function film_mesh_at(station_angle, radius, length, axial, half) result(mesh)
+    real(wp), intent(in) :: station_angle(:) !! theta, rising [rad]
+    real(wp), intent(in) :: radius           !! of the bearing [m]
+    real(wp), intent(in) :: length           !! whole width of the bearing [m]
+    integer, intent(in) :: axial             !! elements along the whole width
+    logical, intent(in) :: half              !! mesh z >= 0 only; axial is even then
+    type(film_mesh_type) :: mesh
+
+    mesh = uniform_film_mesh(radius, length, station_angle(1), 0.0_wp, size(station_angle) - 1, axial, &
+                             .false., half)
+    mesh%station_angle = station_angle
+  end function film_mesh_at
 
   !> Nodes of every element, counter-clockwise in (x, z); element numbers run along the axis first.
   pure function film_elements(mesh) result(element_nodes)

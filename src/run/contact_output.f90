@@ -125,8 +125,9 @@ contains
     do field = 1, fields
       values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), &
         all_nodes)
+      values = transpose(values)
       arrays(3 + field) = case_array_type(group//'/'//trim(name(field)), trim(unit(field)), &
-                                          trim(meaning(field)), transpose(values))
+                                          trim(meaning(field)), values)
     end do
   end subroutine surface_arrays
 

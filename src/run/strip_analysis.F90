@@ -129,6 +129,7 @@ contains
           exit
         end if
         call read_answer(strip, full_force(scene), recorder, run%last)
+        call record_contacts(strip, step, steps, run%contacts)
         call strip%commit()
         if (step <= load%steps_up) run%full = run%last
         run%steps = step
@@ -136,7 +137,6 @@ contains
         factorizations = newton%factorizations - factorizations
         row%quantity = step_quantities(run%last, step, load%kind == load_plates, iterations, factorizations)
         run%history = [run%history, row]
-        call record_contacts(strip, step, steps, run%contacts)
         call show_step(log, run%last, step, iterations, factorizations)
       end do
       if (path%homotopies + path%cuts > 0) then

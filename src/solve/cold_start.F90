@@ -7,7 +7,7 @@
 !> goes the same way itself only if that fails. Coarse meshes use SUPG, which comes home from far away
 !> at cell Peclet numbers where Galerkin's pressure becomes negative.
 module gfb_cold_start
-  use petscsys
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -31,6 +31,8 @@ module gfb_cold_start
 
   real(wp), parameter :: start_eccentricity = 0.5_wp !! of the free clearance, where none is given [1]
   real(wp), parameter :: start_attitude = 0.5_wp     !! of that position [rad]
+  real(wp), parameter :: first_stride = 10.0_wp      !! factor by which contacts are made harder
+  real(wp), parameter :: shortest_stride = 1.1_wp
   real(wp), parameter :: room_at_rest = 0.75_wp      !! way to begin with, over the clearance [1]
 
 contains
@@ -104,9 +106,43 @@ contains
         if (report%converged) return
       end if
     end if
+    call bearing%foil%set_hardness(bearing%foil%softest())
     call guess_position(bearing, scene, target)
     call find_way(bearing, newton, target, settings, report)
+    if (report%converged) call harden(bearing, newton, target, settings, report)
+    call bearing%foil%set_hardness(1.0_wp)
   end subroutine find_answer
+
+  !> Makes the contacts as hard as the scene has them, from an answer with soft ones.
+  subroutine harden(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(inout) :: report
+
+    Vec :: here
+    real(wp) :: hardness, stride
+    PetscErrorCode :: ierr
+
+    hardness = bearing%foil%softest()
+    stride = first_stride
+    PetscCallA(VecDuplicate(bearing%state, here, ierr))
+    do while (hardness < 1.0_wp)
+      PetscCallA(VecCopy(bearing%state, here, ierr))
+      call newton%log%detail('contacts harder: '//text(min(1.0_wp, hardness*stride), 3)//' of their stiffness')
+      call bearing%foil%set_hardness(min(1.0_wp, hardness*stride))
+      call solve_at(bearing, newton, target, .false., settings, report)
+      if (report%converged) then
+        hardness = min(1.0_wp, hardness*stride)
+      else
+        PetscCallA(VecCopy(here, bearing%state, ierr))
+        stride = sqrt(stride)
+        if (stride < shortest_stride) exit
+      end if
+    end do
+    PetscCallA(VecDestroy(here, ierr))
+  end subroutine harden
 
   !> Newton's method at a point, as a path of one step.
   subroutine solve_at(bearing, newton, target, held, settings, report)
@@ -258,7 +294,7 @@ contains
     integer :: solved
 
     solved = merge(plan%axial/2, plan%axial, plan%half)
-    can = modulo(plan%circumferential, 2) == 0 .and. modulo(solved, 2) == 0 .and. &
+    can = plan%may_coarsen .and. modulo(plan%circumferential, 2) == 0 .and. modulo(solved, 2) == 0 .and. &
       plan%circumferential >= 2*least_circumferential .and. solved >= 2*least_axial
   end function can_coarsen
 

@@ -25,6 +25,8 @@ module gfb_newton
   real(wp), parameter :: chord_step = 0.02_wp      !! smaller steps leave the factors as they are
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
   integer, parameter :: longest_krylov = 60         !! GMRES iterations with old factors at most
+  integer, parameter :: balances = 8                !! trials of a step's length for contacts
+  real(wp), parameter :: unbalanced = 2.0_wp        !! work at a step's end over that at its beginning
   integer, parameter :: cheap_krylov = 2            !! of a solve that new factors would not make shorter
   integer, parameter :: least_krylov = 5            !! new factors never pay before
   real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
@@ -218,6 +220,7 @@ contains
     PetscErrorCode, intent(out) :: ierr
 
     ierr = 0
+    call newton%system%begin_step()
     if (newton%system%slow_change) then
       ! To PETSc -2 is: new factors now, -1: none until told.
       PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%outdated), ierr))
@@ -283,12 +286,14 @@ contains
       newton%length = 0.5_wp*newton%length
     end do
     if (found) then
+      call newton%system%settle(trial, moved)
+      if (moved) then
+        PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+        call balance_work(newton, snes, x, f, y, trial, trial_residual, ierr)
+        CHKERRQ(ierr)
+      end if
       PetscCall(VecCopy(trial, x, ierr))
       PetscCall(VecCopy(trial_residual, f, ierr))
-      call newton%system%settle(x, moved)
-      if (moved) then
-        PetscCall(SNESComputeFunction(snes, x, f, ierr))
-      end if
     else
       newton%length = 0.0_wp
       if (newton%fresh .or. newton%system%slow_change) then
@@ -299,6 +304,36 @@ contains
     call choose_factors(newton)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine search_line
+
+  !> Shortens a step along which contacts change their state, where the forces on the structure turn
+  !> against it: to where they do little work along it. Without friction and film that is a search for the
+  !> least energy, which finds home from anywhere.
+  subroutine balance_work(newton, snes, x, f, y, trial, trial_residual, ierr)
+    type(newton_type), intent(inout) :: newton
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x, f, y               !! state, residual, step
+    Vec, intent(in) :: trial, trial_residual !! at the present length of the step
+    PetscErrorCode, intent(out) :: ierr
+    real(wp) :: start, low, high, work_low, work
+    integer :: attempt
+    logical :: moved
+
+    ierr = 0
+    start = newton%system%virtual_work(f, y)
+    work = newton%system%virtual_work(trial_residual, y)
+    low = 0.0_wp
+    work_low = start
+    high = newton%length
+    do attempt = 1, balances
+      if (.not. start > 0.0_wp .or. work >= -unbalanced*start) return
+      newton%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))
+      PetscCall(VecWAXPY(trial, -newton%length, y, x, ierr))
+      call newton%system%settle(trial, moved)
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      work = newton%system%virtual_work(trial_residual, y)
+      high = newton%length
+    end do
+  end subroutine balance_work
 
   !> Whether GMRES came home with the present factors, and whether they serve it further.
   subroutine judge_krylov(newton, snes, solved, ierr)

@@ -8,10 +8,13 @@ module gfb_bearing_builder
   use gfb_bearing_case, only: pad_angle, leading_edge_periodic
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_bump_foil_case, only: bump_foil_case_type
-  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, &
-                            foundation_pressure_axial_mean
+  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
+                            foundation_pressure_axial_mean, reduction_guyan
   use gfb_bump_stiffness, only: walowit_anno_stiffness
-  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh
+  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
+  use gfb_foil_builder, only: plate_stations
+  use gfb_shell_foil, only: shell_foil_type
+  use gfb_shell_foil_builder, only: create_shell_foil
   use gfb_foil_model, only: foil_model_type
   use gfb_rigid_foil, only: rigid_foil_type, create_rigid_foil
   use gfb_foundation_foil, only: foundation_foil_type, create_local_foundation, &
@@ -30,6 +33,7 @@ module gfb_bearing_builder
     logical :: upwind = .false.    !! SUPG instead of Galerkin
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
+    logical :: may_coarsen = .true. !! coarser meshes may find the way
   end type bearing_plan_type
 
 contains
@@ -45,25 +49,43 @@ contains
 
     class(foil_model_type), allocatable :: foil
 
-    call create_film_part(uniform_film_mesh(scene%bearing%radius, scene%bearing%length, &
-                                            scene%bearing%leading_edge_angle, pad_angle(scene%bearing), &
-                                            plan%circumferential, plan%axial, &
-                                            scene%bearing%leading_edge_condition == leading_edge_periodic, &
-                                            plan%half), &
-                          scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, &
-                          plan%upwind, bearing, error)
+    call create_film_part(film_mesh_of(scene, plan), scene%bearing%clearance, scene%gas%ambient_pressure, &
+                          scene%gas%viscosity, plan%upwind, bearing, error)
     if (allocated(error)) return
     bearing%point = operating_point(scene%operation)
-    call create_foil(scene, bearing, foil)
+    call create_foil(scene, bearing, foil, error)
+    if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)
   end subroutine build_bearing
 
+  !> The film's mesh: equal elements, or stations above the crests.
+  function film_mesh_of(scene, plan) result(mesh)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(film_mesh_type) :: mesh
+
+    associate (bearing => scene%bearing)
+      if (scene%model%foil == foil_shell .and. scene%mesh%align_crests) then
+        mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
+                            bearing%length, plan%axial, plan%half)
+      else
+        mesh = uniform_film_mesh(bearing%radius, bearing%length, bearing%leading_edge_angle, &
+                                 pad_angle(bearing), plan%circumferential, plan%axial, &
+                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half)
+      end if
+    end associate
+  end function film_mesh_of
+
   !> The foil model the scene asks for.
-  subroutine create_foil(scene, bearing, foil)
+  !>
+  !> Fails where an element of a foil is degenerate.
+  subroutine create_foil(scene, bearing, foil, error)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing !! with its film
     class(foil_model_type), allocatable, intent(out) :: foil
+    type(error_type), allocatable, intent(out) :: error
 
+    type(shell_foil_type), allocatable :: shells
     type(rigid_foil_type), allocatable :: rigid
     type(foundation_foil_type), allocatable :: foundation
     integer :: rank, ranks
@@ -88,6 +110,12 @@ contains
                                      scene%gas%ambient_pressure, foundation)
       end if
       call move_alloc(foundation, foil)
+    case (foil_shell)
+      allocate (shells)
+      call create_shell_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, &
+                             scene%model%reduction == reduction_guyan, shells, error)
+      if (allocated(error)) return
+      call move_alloc(shells, foil)
     case default
       error stop 'a foil model without equations'
     end select

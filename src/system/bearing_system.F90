@@ -14,7 +14,7 @@ module gfb_bearing_system
   use gfb_gas_film, only: gas_film_type, create_gas_film
   use gfb_film_geometry, only: film_nodes
   use gfb_film_load, only: film_forces
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure, any_rank
   use gfb_partition, only: partition_elements
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
@@ -41,11 +41,16 @@ module gfb_bearing_system
     real(wp) :: force_scale = 1.0_wp       !! size of a force [N]
     real(wp), allocatable, private :: unknown_scale(:)  !! of the local unknowns, in SI
     real(wp), allocatable, private :: equation_scale(:) !! of the local equations, in SI
+    Mat, private :: constant    !! what of the matrix never changes, in SI
     Vec, private :: left, right !! sizes of equations, inverted, and of unknowns
     type(local_exchange_type), private :: exchange
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
+    procedure :: settle => settle_bearing
+    procedure :: begin_step => begin_bearing_step
+    procedure :: virtual_work => work_on_foil
+    procedure :: commit => commit_bearing
     procedure :: get_unknowns
     procedure :: set_unknowns
     procedure :: local_size
@@ -119,7 +124,68 @@ contains
     call create_exchange(layout%global, bearing%state, bearing%exchange)
     call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%jacobian)
     call scale_unknowns(bearing)
+    if (bearing%foil%has_elastic) call fill_constant(bearing, layout)
   end subroutine create_bearing_system
+
+  !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
+  subroutine fill_constant(bearing, layout)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(unknown_layout_type), intent(in) :: layout
+
+    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
+    PetscInt :: first, last, row, entries, number(bearing%unknowns)
+    PetscScalar :: value(bearing%unknowns)
+    PetscInt :: equation(film_nodes), unknown(columns)
+    real(wp) :: zero(columns, film_nodes)
+    PetscErrorCode :: ierr
+    integer :: element, i
+
+    PetscCallA(MatGetOwnershipRange(bearing%foil%elastic, first, last, ierr))
+    do row = first, last - 1
+      PetscCallA(MatGetRow(bearing%foil%elastic, row, entries, number, value, ierr))
+      do i = 1, int(entries)
+        number(i) = layout%of_foil(int(number(i)) + 1)
+      end do
+      PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(layout%of_foil(int(row) + 1), pint)], entries, number, value, ADD_VALUES, ierr))
+      do i = 1, int(entries) ! as it came, for PETSc to take back
+        number(i) = 0
+      end do
+      PetscCallA(MatRestoreRow(bearing%foil%elastic, row, entries, number, value, ierr))
+    end do
+    call bearing%foil%add_constant(bearing%jacobian)
+    zero = 0.0_wp
+    do element = 1, size(bearing%film%element_nodes, 2)
+      call element_columns(bearing, element, equation, unknown)
+      call add_block(bearing%jacobian, equation, unknown, zero)
+    end do
+    if (bearing%floats) call add_shaft_jacobian(bearing, 0.0_wp)
+    do i = 1, size(bearing%mesh%mesh_node)
+      if (bearing%mesh%owned(i)) call add_block(bearing%jacobian, [int(i - 1, pint)], [int(i - 1, pint)], [0.0_wp])
+    end do
+    PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
+  end subroutine fill_constant
+
+  !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures, what
+  !> moves the foil, the shaft; -1 where there is none of its own.
+  pure subroutine element_columns(bearing, element, row, column)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: element
+    PetscInt, intent(out) :: row(film_nodes), column(2*film_nodes + shaft_unknowns)
+    integer :: b
+
+    column = -1 ! PETSc skips negative numbers
+    if (bearing%floats) column(2*film_nodes + 1:) = [(int(bearing%first_shaft + b, pint), b=0, 1)]
+    associate (nodes => bearing%film%element_nodes(:, element))
+      row = int(merge(-1, nodes - 1, bearing%film%fixed(nodes)), pint)
+      column(:film_nodes) = int(nodes - 1, pint)
+      do b = 1, film_nodes
+        if (bearing%foil%source(nodes(b)) == nodes(b)) cycle ! the pressure itself
+        column(film_nodes + b) = int(bearing%foil%source(nodes(b)) - 1, pint)
+      end do
+    end associate
+  end subroutine element_columns
 
   !> Sizes of unknowns and equations.
   subroutine scale_unknowns(bearing)
@@ -219,14 +285,68 @@ contains
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale
     gap = self%gap(unknown)
-    PetscCallA(MatZeroEntries(self%jacobian, ierr))
+    if (self%foil%has_elastic) then
+      PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
+    else
+      PetscCallA(MatZeroEntries(self%jacobian, ierr))
+    end if
     call add_film_jacobian(self, unknown(:size(gap)), gap, self%position(unknown))
     call self%foil%add_jacobian(unknown, self%jacobian)
-    if (self%floats) call add_shaft_jacobian(self)
+    if (self%floats) call add_shaft_jacobian(self, 1.0_wp)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
   end subroutine linearise_bearing
+
+  !> Moves the foil's contacts on their laws to where the foils have gone.
+  subroutine settle_bearing(self, state, moved)
+    class(bearing_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    logical, intent(out) :: moved
+    real(wp) :: unknown(self%local_size())
+    logical :: settled
+
+    call self%exchange%get(state, unknown)
+    call self%foil%settle(unknown*self%unknown_scale, moved, settled)
+    self%settled = settled
+    if (moved) self%settled = .not. any_rank(.not. settled)
+  end subroutine settle_bearing
+
+  !> A new Newton step begins where the foil's contacts are.
+  subroutine begin_bearing_step(self)
+    class(bearing_system_type), intent(inout) :: self
+    call self%foil%begin_step()
+  end subroutine begin_bearing_step
+
+  !> Work of the residual forces on the foil along a step, scaled.
+  function work_on_foil(self, residual, step) result(work)
+    class(bearing_system_type), intent(in) :: self
+    Vec, intent(in) :: residual, step
+    real(wp) :: work
+    real(wp) :: total(1)
+    PetscScalar, pointer :: force(:), way(:)
+    PetscErrorCode :: ierr
+
+    work = 0.0_wp
+    if (.not. self%foil%has_elastic) return
+    PetscCallA(GFB_VecGetArrayRead(residual, force, ierr))
+    PetscCallA(GFB_VecGetArrayRead(step, way, ierr))
+    associate (first => self%mesh%owned_unknowns + 1, last => self%mesh%owned_unknowns + self%foil%owned)
+      total = sum_over_ranks([dot_product(force(first:last), way(first:last))])
+    end associate
+    PetscCallA(GFB_VecRestoreArrayRead(step, way, ierr))
+    PetscCallA(GFB_VecRestoreArrayRead(residual, force, ierr))
+    work = total(1)
+  end function work_on_foil
+
+  !> Ends a load step of the scene: friction carries its slip along.
+  subroutine commit_bearing(self)
+    class(bearing_system_type), intent(inout) :: self
+    real(wp) :: unknown(self%local_size())
+
+    call self%get_unknowns(unknown)
+    call self%foil%commit(unknown)
+  end subroutine commit_bearing
 
   !> Film rows: pressures, what moves the foil, and the shaft.
   subroutine add_film_jacobian(self, pressure, gap, point)
@@ -242,24 +362,16 @@ contains
     PetscInt :: row(film_nodes), column(columns)
     integer :: element, b, node
 
-    column = -1 ! PETSc skips negative numbers
-    if (self%floats) column(2*film_nodes + 1:) = [(int(self%first_shaft + b, pint), b=0, 1)]
     do element = 1, size(self%film%element_nodes, 2)
+      call element_columns(self, element, row, column)
       associate (nodes => self%film%element_nodes(:, element))
         call self%film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
                                         by_eccentricity)
         block = 0.0_wp
+        block(:film_nodes, :) = transpose(by_pressure)
         do b = 1, film_nodes
-          node = nodes(b)
-          row(b) = int(merge(-1, node - 1, self%film%fixed(node)), pint)
-          column(b) = node - 1
-          block(b, :) = by_pressure(:, b)
-          if (self%foil%source(node) == node) then
-            block(b, :) = block(b, :) + self%foil%rate(node)*by_gap(:, b)
-          else
-            column(film_nodes + b) = self%foil%source(node) - 1
-            block(film_nodes + b, :) = self%foil%rate(node)*by_gap(:, b)
-          end if
+          node = merge(b, film_nodes + b, self%foil%source(nodes(b)) == nodes(b))
+          block(node, :) = block(node, :) + self%foil%rate(nodes(b))*by_gap(:, b)
         end do
         block(2*film_nodes + 1:, :) = transpose(by_eccentricity)
       end associate
@@ -273,8 +385,9 @@ contains
   end subroutine add_film_jacobian
 
   !> Shaft rows: weights of the pressures in the force, or the position where it is held.
-  subroutine add_shaft_jacobian(self)
+  subroutine add_shaft_jacobian(self, factor)
     class(bearing_system_type), intent(inout) :: self
+    real(wp), intent(in) :: factor !! 0: makes room
 
     PetscInt :: row(shaft_unknowns)
     PetscInt, allocatable :: column(:)
@@ -286,14 +399,14 @@ contains
     column = [(int(i - 1, pint), i=1, size(self%mesh%mesh_node))]
     allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
     if (.not. self%held) weight = transpose(self%film%force_weight(1:2, :))
-    call add_block(self%jacobian, row, column, weight)
+    call add_block(self%jacobian, row, column, factor*weight)
     diagonal = 0.0_wp ! the pattern stays the same when the shaft is let go
     if (self%last_rank) then
       if (self%held) then
         diagonal(1, 1) = self%force_scale/self%film%clearance
         diagonal(2, 2) = diagonal(1, 1)
       end if
-      call add_block(self%jacobian, row, row, diagonal)
+      call add_block(self%jacobian, row, row, factor*diagonal)
     end if
   end subroutine add_shaft_jacobian
 
@@ -402,6 +515,10 @@ contains
 
     if (.not. allocated(self%foil)) return
     PetscCallA(MatDestroy(self%jacobian, ierr))
+    if (self%foil%has_elastic) then
+      PetscCallA(MatDestroy(self%constant, ierr))
+    end if
+    call self%foil%destroy()
     call self%exchange%destroy()
     PetscCallA(VecDestroy(self%right, ierr))
     PetscCallA(VecDestroy(self%left, ierr))

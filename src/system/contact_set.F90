@@ -29,6 +29,7 @@ module gfb_contact_set
     real(wp) :: pressing = 0.0_wp              !! it [N]
     real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]
     real(wp) :: place(spatial) = 0.0_wp        !! approach where the law is linearised [m]
+    real(wp) :: anchor(spatial) = 0.0_wp       !! the place that the step began at [m]
     real(wp) :: force(spatial) = 0.0_wp        !! (t_1, t_2, f_n) there [N]
     real(wp) :: derivative(spatial, spatial) = 0.0_wp !! of the force by the approach there [N/m]
     real(wp) :: old_slip(2) = 0.0_wp           !! tangential displacement at the last commit [m]
@@ -44,11 +45,13 @@ module gfb_contact_set
     real(wp) :: floor_tangential = 0.0_wp      !! stiffness lent to a slave in the matrix, per length
     real(wp) :: floor_normal = 0.0_wp          !! [N/m2], so that a floating foil leaves it regular
     real(wp) :: softening = 1.0_wp             !! factor of the stick length, of a homotopy
+    real(wp) :: hardness = 1.0_wp              !! factor of the normal stiffness, of a homotopy
     logical :: glued = .false.                 !! closed whatever happens, free to slide: a first guess
     logical :: settled = .true.                !! every contact is linearised where it is
   contains
     procedure :: approach
     procedure :: settle
+    procedure :: drop_anchor
     procedure :: add_forces
     procedure :: point_block
     procedure :: point_unknowns
@@ -69,6 +72,7 @@ contains
 
     law = self%law(point%law)
     law%stick_length = law%stick_length*self%softening
+    law%normal_stiffness = law%normal_stiffness*self%hardness
   end function law_of
 
   !> Slip and penetration of a contact, (s_1, s_2, delta) [m].
@@ -122,7 +126,7 @@ contains
           cycle
         end if
         now = self%approach(i, displacement)
-        point%place = next_place(law, point%place, now)
+        point%place = next_place(law, point%anchor, now)
         if (point%pressed) then
           point%force = 0.0_wp
           point%derivative = 0.0_wp
@@ -135,6 +139,16 @@ contains
       end associate
     end do
   end subroutine settle
+
+  !> A new Newton step begins where the contacts are.
+  pure subroutine drop_anchor(self)
+    class(contact_set_type), intent(inout) :: self
+    integer :: i
+
+    do i = 1, size(self%point)
+      self%point(i)%anchor = self%point(i)%place
+    end do
+  end subroutine drop_anchor
 
   !> A spring both ways that does not rub.
   pure subroutine glue(set, point)
@@ -234,7 +248,8 @@ contains
         pressing = merge(point%pressing, point%force(3), point%pressed)
         total = now(:2) + point%shift
         point%shift = total - carried_slip(self%law(point%law), now(:2), total - point%old_slip, pressing)
-        point%place(:2) = total - point%shift
+        ! The place stays, for those who ask for the step's slip; the next step begins at the anchor.
+        point%anchor = [total - point%shift, point%place(3)]
         point%old_slip = total
         point%old_force = point%force(:2)
       end associate

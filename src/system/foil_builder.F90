@@ -20,7 +20,7 @@ module gfb_foil_builder
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
   implicit none (type)
   private
-  public :: build_part, strip_shape, section_of, symmetry_supports
+  public :: build_part, strip_shape, section_of, plate_section, plate_stations, symmetry_supports
 
   integer, parameter :: axial = 3                             !! component of a displacement
   integer, parameter :: about_tangent = 5                     !! rotation about the second axis

@@ -14,7 +14,9 @@ module gfb_foil_model
     integer :: owned = 0      !! unknowns of the foil this rank owns
     integer :: first = 0      !! local unknowns of the bearing before the foil's first
     integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
-    integer :: row_entries = 0 !! entries a row of the foil needs, at most
+    integer, allocatable :: row_entries(:) !! entries that the row of each owned unknown needs, at most
+    logical :: has_elastic = .false. !! linear equations of its own, in `elastic`
+    Mat :: elastic            !! their matrix, the foil's own numbers [SI]
     integer, allocatable :: global_unknown(:)  !! foil's own number of each local unknown, by owners
     real(wp), allocatable :: unknown_scale(:)  !! size of each local unknown, in its unit
     real(wp), allocatable :: equation_scale(:) !! size of each local equation, in its unit
@@ -27,6 +29,13 @@ module gfb_foil_model
     procedure(add_residual), deferred :: add_residual
     procedure(add_jacobian), deferred :: add_jacobian
     procedure(estimate), deferred :: estimate
+    procedure :: add_constant
+    procedure :: settle
+    procedure :: begin_step
+    procedure :: set_hardness
+    procedure :: softest
+    procedure :: commit
+    procedure :: destroy
     procedure :: place
     procedure :: local_unknowns
     procedure :: deflection
@@ -58,6 +67,52 @@ module gfb_foil_model
   end interface
 
 contains
+
+  !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for what
+  !> does; here nothing.
+  subroutine add_constant(self, jacobian)
+    class(foil_model_type), intent(in) :: self
+    Mat, intent(in) :: jacobian
+  end subroutine add_constant
+
+  !> Moves the contacts' places on their laws to where the foils have gone. `moved` where it has any;
+  !> `settled` where each is linearised where it is. Here none.
+  subroutine settle(self, unknown, moved, settled)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    logical, intent(out) :: moved, settled
+    moved = .false.
+    settled = .true.
+  end subroutine settle
+
+  !> Makes the contacts softer than the scene has them, for a first answer; here there are none.
+  subroutine set_hardness(self, hardness)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: hardness !! factor of their normal stiffness
+  end subroutine set_hardness
+
+  !> The hardness to begin with, 1 where there is nothing to soften.
+  pure function softest(self) result(hardness)
+    class(foil_model_type), intent(in) :: self
+    real(wp) :: hardness
+    hardness = 1.0_wp
+  end function softest
+
+  !> A new Newton step begins where the contacts are; here none.
+  subroutine begin_step(self)
+    class(foil_model_type), intent(inout) :: self
+  end subroutine begin_step
+
+  !> Ends a load step of the scene: friction carries its slip along; here none.
+  subroutine commit(self, unknown)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+  end subroutine commit
+
+  !> Frees what PETSc holds; here nothing.
+  subroutine destroy(self)
+    class(foil_model_type), intent(inout) :: self
+  end subroutine destroy
 
   !> Tells the foil where its unknowns stand among those of the bearing.
   pure subroutine place(self, first)

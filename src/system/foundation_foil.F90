@@ -42,7 +42,7 @@ contains
     foil%stiffness = stiffness
     foil%ambient_pressure = ambient_pressure
     allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
-    allocate (foil%owned_station(0), foil%averaged(0), foil%share(0))
+    allocate (foil%owned_station(0), foil%averaged(0), foil%share(0), foil%row_entries(0))
     foil%source = [(i, i=1, nodes)]
     allocate (foil%rate(nodes), source=1.0_wp/stiffness)
     allocate (foil%origin(nodes), source=ambient_pressure)
@@ -65,11 +65,11 @@ contains
     foil%stiffness = stiffness
     foil%ambient_pressure = ambient_pressure
     foil%couplings = 3 ! its own station and the two beside it
-    foil%row_entries = film%rows() + 1
     foil%stations = film%stations()
     first = rank*film%stations()/ranks + 1
     last = (rank + 1)*film%stations()/ranks
     foil%owned = last - first + 1
+    allocate (foil%row_entries(foil%owned), source=film%rows() + 1)
 
     allocate (local_of(film%stations()), source=0)
     local_of(first:last) = 1

@@ -2,6 +2,7 @@
 !> What Newton's method needs of a set of equations.
 module gfb_nonlinear_system
   use petscmat
+  use gfb_kinds, only: wp
   implicit none (type)
   private
 
@@ -15,6 +16,8 @@ module gfb_nonlinear_system
     logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
     procedure :: settle
+    procedure :: begin_step
+    procedure :: virtual_work
     procedure(evaluate), deferred :: evaluate
     procedure(linearise), deferred :: linearise
   end type nonlinear_system_type
@@ -47,4 +50,18 @@ contains
     logical, intent(out) :: moved
     moved = .false.
   end subroutine settle
+
+  !> Called before every step; `settle` may be called for several trials of it. Here nothing is kept.
+  subroutine begin_step(self)
+    class(nonlinear_system_type), intent(inout) :: self
+  end subroutine begin_step
+
+  !> Work of a structure's residual forces along a step, scaled; where a structure is in equilibrium it
+  !> changes its sign along the step. Here there is none.
+  function virtual_work(self, residual, step) result(work)
+    class(nonlinear_system_type), intent(in) :: self
+    Vec, intent(in) :: residual, step !! scaled
+    real(wp) :: work
+    work = 0.0_wp
+  end function virtual_work
 end module gfb_nonlinear_system

@@ -24,6 +24,7 @@ contains
     type(rigid_foil_type), intent(out) :: foil
 
     allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
+    allocate (foil%row_entries(0))
     allocate (foil%source(nodes), source=0)
     allocate (foil%rate(nodes), foil%origin(nodes), source=0.0_wp)
   end subroutine create_rigid_foil

@@ -8,7 +8,7 @@ module gfb_strip_builder
   use gfb_petsc_kinds, only: pint
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
-  use gfb_contact_case, only: case_law_tanh_drag => law_tanh_drag, case_law_coulomb => law_coulomb, &
+  use gfb_contact_case, only: contact_case_type, case_law_tanh_drag => law_tanh_drag, case_law_coulomb => law_coulomb, &
                               case_law_tanh_reset => law_tanh_reset, direction_motion
   use gfb_strip_load_case, only: crest_pressures, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
@@ -23,7 +23,7 @@ module gfb_strip_builder
                               plate_moved, contact_sleeve, contact_top
   implicit none (type)
   private
-  public :: build_strip, crest_name, line_shares
+  public :: build_strip, crest_name, line_shares, contact_laws
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
 
@@ -98,32 +98,36 @@ contains
   end subroutine build_structure
 
   !> What sleeve and top are to the bumps.
+  function contact_laws(contact) result(law)
+    type(contact_case_type), intent(in) :: contact
+    type(contact_law_type) :: law(contact_top)
+    integer :: kind
+
+    select case (contact%friction_law)
+    case (case_law_tanh_reset)
+      kind = law_tanh_reset
+    case (case_law_coulomb)
+      kind = law_coulomb
+    case default
+      kind = law_tanh_drag
+    end select
+    law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, contact%stick_length, kind, &
+                           contact%friction_direction == direction_motion)
+    law(contact_sleeve)%friction = contact%friction_sleeve
+    law(contact_top)%friction = contact%friction_top
+  end function contact_laws
+
+  !> Laws of the contacts, and what they lend to the matrix.
   subroutine set_laws(scene, strip)
     type(scene_type), intent(in) :: scene
     type(strip_system_type), intent(inout) :: strip
-    integer :: kind
     real(wp) :: stiffness
 
-    associate (contact => scene%contact, contacts => strip%contacts)
-      select case (contact%friction_law)
-      case (case_law_tanh_reset)
-        kind = law_tanh_reset
-      case (case_law_coulomb)
-        kind = law_coulomb
-      case default
-        kind = law_tanh_drag
-      end select
-      allocate (contacts%law(contact_top))
-      contacts%law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, &
-                                      contact%stick_length, kind, &
-                                      contact%friction_direction == direction_motion)
-      contacts%law(contact_sleeve)%friction = contact%friction_sleeve
-      contacts%law(contact_top)%friction = contact%friction_top
-      contacts%secant_penetration = first_penetration*strip%scale%length
-      stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-      contacts%floor_normal = normal_floor*stiffness
-      if (scene%bump_foil%fixed_edge == fixed_edge_none) contacts%floor_tangential = tangential_floor*stiffness
-    end associate
+    strip%contacts%law = contact_laws(scene%contact)
+    strip%contacts%secant_penetration = first_penetration*strip%scale%length
+    stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
+    strip%contacts%floor_normal = normal_floor*stiffness
+    if (scene%bump_foil%fixed_edge == fixed_edge_none) strip%contacts%floor_tangential = tangential_floor*stiffness
   end subroutine set_laws
 
   !> Contacts of this rank's corner and crest nodes.

@@ -51,6 +51,8 @@ module gfb_strip_system
     procedure :: evaluate
     procedure :: linearise
     procedure :: settle
+    procedure :: begin_step
+    procedure :: virtual_work
     procedure :: set_factor
     procedure :: commit
     procedure :: contact_displacements
@@ -252,6 +254,24 @@ contains
     self%settled = .not. any_rank(.not. self%contacts%settled)
     moved = .true.
   end subroutine settle
+
+  !> A new Newton step begins where the contacts are.
+  subroutine begin_step(self)
+    class(strip_system_type), intent(inout) :: self
+    call self%contacts%drop_anchor()
+  end subroutine begin_step
+
+  !> Work of the residual forces along a step, scaled.
+  function virtual_work(self, residual, step) result(work)
+    class(strip_system_type), intent(in) :: self
+    Vec, intent(in) :: residual, step
+    real(wp) :: work
+    PetscScalar :: product
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDot(residual, step, product, ierr))
+    work = product
+  end function virtual_work
 
   !> Sets the share of the full load.
   subroutine set_factor(self, factor)

@@ -18,6 +18,9 @@ module gfb_unknown_layout
     integer :: shaft = 0                !! of them the shaft's: 2 where it floats, 0 where it is held
     logical :: last_rank = .false.      !! this rank owns the shaft's equations
     PetscInt, allocatable :: global(:)  !! number, from 0, of every local unknown
+    integer, allocatable, private :: film_end(:), foil_end(:) !! (0:ranks) unknowns of the ranks so far
+  contains
+    procedure :: of_foil
   end type unknown_layout_type
 
 contains
@@ -29,7 +32,7 @@ contains
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
     type(unknown_layout_type), intent(out) :: layout
 
-    integer, allocatable :: film_end(:), foil_end(:), both(:, :)
+    integer, allocatable :: both(:, :)
     integer :: ranks, rank, owner, nodes, i
     PetscErrorCode :: ierr
 
@@ -41,25 +44,37 @@ contains
     if (layout%last_rank) layout%owned = layout%owned + layout%shaft
     allocate (both(2, ranks))
     call MPI_Allgather([mesh%owned_unknowns, foil%owned], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
-    film_end = [(sum(both(1, :i)), i=0, ranks)]
-    foil_end = [(sum(both(2, :i)), i=0, ranks)]
-    layout%unknowns = film_end(ranks + 1) + foil_end(ranks + 1) + layout%shaft
+    allocate (layout%film_end(0:ranks), layout%foil_end(0:ranks))
+    layout%film_end = [(sum(both(1, :i)), i=0, ranks)]
+    layout%foil_end = [(sum(both(2, :i)), i=0, ranks)]
+    layout%unknowns = layout%film_end(ranks) + layout%foil_end(ranks) + layout%shaft
 
     nodes = size(mesh%first_unknown)
     allocate (layout%global(nodes + foil%local_unknowns() + layout%shaft))
     owner = 1
     do i = 1, nodes
-      call find_owner(film_end, mesh%first_unknown(i), owner)
-      layout%global(i) = foil_end(owner) + mesh%first_unknown(i) - 1
+      call find_owner(layout%film_end, mesh%first_unknown(i), owner)
+      layout%global(i) = layout%foil_end(owner - 1) + mesh%first_unknown(i) - 1
     end do
     do i = 1, foil%local_unknowns()
-      call find_owner(foil_end, foil%global_unknown(i), owner)
-      layout%global(nodes + i) = film_end(owner + 1) + foil%global_unknown(i) - 1
+      layout%global(nodes + i) = layout%of_foil(foil%global_unknown(i))
     end do
     do i = 1, layout%shaft
       layout%global(size(layout%global) - layout%shaft + i) = layout%unknowns - layout%shaft + i - 1
     end do
   end subroutine create_layout
+
+  !> Number, from 0, in the bearing of a foil's own number, from 1.
+  pure function of_foil(self, number) result(global)
+    class(unknown_layout_type), intent(in) :: self
+    integer, intent(in) :: number
+    integer :: global
+    integer :: owner
+
+    owner = 1
+    call find_owner(self%foil_end, number, owner)
+    global = self%film_end(owner) + number - 1
+  end function of_foil
 
   !> Moves `owner` to the rank, from 1, in whose range a number lies.
   pure subroutine find_owner(range_end, number, owner)

@@ -1,0 +1,194 @@
+#include "gfb_petsc.h"
+!> Top foil and bump strip as shells under the film.
+!>
+!> Equations: elastic forces of both foils, the film's pressure on the top foil ([Gu2020] eq. 2), and
+!> the contacts of crests with the top foil and of corners with the sleeve. The top foil has the film's
+!> nodes; its deflection is \( h_f = -v \).
+module gfb_shell_foil
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  implicit none (type)
+  private
+
+  integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! the set's laws
+  integer, parameter :: corners = 4 !! of a film element
+
+  !> Both foils and this rank's part of their equations.
+  type, extends(foil_model_type), public :: shell_foil_type
+    type(foil_structure_type) :: top, bumps
+    integer, allocatable :: top_number(:, :)  !! (5, nodes) foil's own number of an unknown, 0: held
+    integer, allocatable :: bump_number(:, :) !! the same of the bump strip's; 0: held or condensed
+    type(contact_set_type) :: contacts        !! its unknowns are the local foil unknowns
+    real(wp) :: ambient_pressure = 0.0_wp     !! p_a [Pa]
+    integer, allocatable :: pressed(:, :)     !! (4, elements) film nodes of an element, local
+    integer, allocatable :: pushed(:, :)      !! (4, elements) local foil unknown v there, 0: held
+    real(wp), allocatable :: weight(:, :, :)  !! (4, 4, elements) of p - p_a in the force on v [m2]
+    integer, allocatable :: own_place(:)      !! local foil unknown of each owned one
+    real(wp) :: first_hardness = 1.0_wp       !! of contacts that are little harder than the bumps
+    Vec :: state, force                       !! of the owned unknowns, in SI
+  contains
+    procedure :: add_residual => shell_residual
+    procedure :: add_jacobian => shell_jacobian
+    procedure :: estimate => shell_estimate
+    procedure :: add_constant => shell_constant
+    procedure :: settle => shell_settle
+    procedure :: begin_step => shell_begin_step
+    procedure :: set_hardness => shell_set_hardness
+    procedure :: softest => shell_softest
+    procedure :: commit => shell_commit
+    procedure :: destroy => shell_destroy
+  end type shell_foil_type
+
+contains
+
+  !> Elastic forces, pressure and contacts.
+  subroutine shell_residual(self, unknown, residual)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    real(wp), intent(inout) :: residual(:)
+
+    real(wp) :: contact(self%local_unknowns()), load(corners)
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: element, i
+
+    PetscCallA(GFB_VecGetArray(self%state, values, ierr))
+    values = unknown(self%first + self%own_place)
+    PetscCallA(GFB_VecRestoreArray(self%state, values, ierr))
+    PetscCallA(MatMult(self%elastic, self%state, self%force, ierr))
+    PetscCallA(GFB_VecGetArrayRead(self%force, values, ierr))
+    residual(self%first + self%own_place) = residual(self%first + self%own_place) + values
+    PetscCallA(GFB_VecRestoreArrayRead(self%force, values, ierr))
+
+    do element = 1, size(self%pressed, 2)
+      load = matmul(self%weight(:, :, element), unknown(self%pressed(:, element)) - self%ambient_pressure)
+      do i = 1, corners
+        if (self%pushed(i, element) == 0) cycle
+        associate (row => self%first + self%pushed(i, element))
+          residual(row) = residual(row) + load(i) ! pressure pushes against v
+        end associate
+      end do
+    end do
+
+    contact = 0.0_wp
+    call self%contacts%add_forces(own_part(self, unknown), contact)
+    associate (mine => residual(self%first + 1:self%first + size(contact)))
+      mine = mine - contact
+    end associate
+  end subroutine shell_residual
+
+  !> The foil's part of the bearing's local unknowns.
+  pure function own_part(foil, unknown) result(part)
+    class(shell_foil_type), intent(in) :: foil
+    real(wp), intent(in) :: unknown(:)
+    real(wp) :: part(foil%local_unknowns())
+    part = unknown(foil%first + 1:foil%first + size(part))
+  end function own_part
+
+  !> Stiffness of the contacts as they are linearised.
+  subroutine shell_jacobian(self, unknown, jacobian)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    Mat, intent(in) :: jacobian
+    integer :: i
+
+    do i = 1, size(self%contacts%point)
+      call add_contact(self, i, 1.0_wp, jacobian)
+    end do
+  end subroutine shell_jacobian
+
+  !> Adds a contact's stiffness times a factor by local numbers.
+  subroutine add_contact(foil, i, factor, matrix)
+    class(shell_foil_type), intent(in) :: foil
+    integer, intent(in) :: i
+    real(wp), intent(in) :: factor !! 0: makes room
+    Mat, intent(in) :: matrix
+    integer, allocatable :: unknown(:)
+    PetscInt, allocatable :: number(:)
+    PetscErrorCode :: ierr
+
+    unknown = foil%contacts%point_unknowns(i)
+    number = int(merge(foil%first + unknown - 1, -1, unknown > 0), pint)
+    PetscCallA(MatSetValuesLocal(matrix, int(size(number), pint), number, int(size(number), pint), number, [factor*transpose(foil%contacts%point_block(i))], ADD_VALUES, ierr))
+  end subroutine add_contact
+
+  !> Pressure on the top foil, and room for the contacts.
+  subroutine shell_constant(self, jacobian)
+    class(shell_foil_type), intent(in) :: self
+    Mat, intent(in) :: jacobian
+    PetscInt :: row(corners), column(corners)
+    PetscErrorCode :: ierr
+    integer :: i
+
+    do i = 1, size(self%pressed, 2)
+      row = int(merge(self%first + self%pushed(:, i) - 1, -1, self%pushed(:, i) > 0), pint)
+      column = int(self%pressed(:, i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(jacobian, int(corners, pint), row, int(corners, pint), column, [transpose(self%weight(:, :, i))], ADD_VALUES, ierr))
+    end do
+    do i = 1, size(self%contacts%point)
+      call add_contact(self, i, 0.0_wp, jacobian)
+    end do
+  end subroutine shell_constant
+
+  !> The foils stay where they are: contacts find their way from there.
+  subroutine shell_estimate(self, unknown)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(inout) :: unknown(:)
+  end subroutine shell_estimate
+
+  !> Linearises every contact where the foils have gone.
+  subroutine shell_settle(self, unknown, moved, settled)
+    class(shell_foil_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:)
+    logical, intent(out) :: moved, settled
+
+    call self%contacts%settle(own_part(self, unknown))
+    moved = .true.
+    settled = self%contacts%settled
+  end subroutine shell_settle
+
+  !> Makes the contacts softer than the scene has them.
+  subroutine shell_set_hardness(self, hardness)
+    class(shell_foil_type), intent(inout) :: self
+    real(wp), intent(in) :: hardness
+    self%contacts%hardness = hardness
+  end subroutine shell_set_hardness
+
+  !> The hardness to begin with: bumps that float between open and closed find their state at once.
+  pure function shell_softest(self) result(hardness)
+    class(shell_foil_type), intent(in) :: self
+    real(wp) :: hardness
+    hardness = self%first_hardness
+  end function shell_softest
+
+  !> A new Newton step begins where the contacts are.
+  subroutine shell_begin_step(self)
+    class(shell_foil_type), intent(inout) :: self
+    call self%contacts%drop_anchor()
+  end subroutine shell_begin_step
+
+  !> Friction carries its slip along.
+  subroutine shell_commit(self, unknown)
+    class(shell_foil_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:)
+    call self%contacts%commit(own_part(self, unknown))
+  end subroutine shell_commit
+
+  !> Frees what PETSc holds.
+  subroutine shell_destroy(self)
+    class(shell_foil_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+
+    if (.not. self%has_elastic) return
+    PetscCallA(MatDestroy(self%elastic, ierr))
+    PetscCallA(VecDestroy(self%state, ierr))
+    PetscCallA(VecDestroy(self%force, ierr))
+    call destroy_foil_structure(self%top)
+    call destroy_foil_structure(self%bumps)
+    self%has_elastic = .false.
+  end subroutine shell_destroy
+end module gfb_shell_foil

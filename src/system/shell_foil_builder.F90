@@ -1,0 +1,472 @@
+#include "gfb_petsc.h"
+!> From a scene to the shells under its film: meshes, numbers, contacts, pressure.
+module gfb_shell_foil_builder
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_kinds, only: pint
+  use gfb_scene, only: scene_type
+  use gfb_strip_load_case, only: bump_stiffness
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh
+  use gfb_substructures, only: substructure_type, substructure, find_kinds
+  use gfb_foil_structure, only: foil_structure_type, create_foil_structure
+  use gfb_foil_builder, only: strip_shape, section_of, plate_section, symmetry_supports
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_bearing_case, only: pad_length
+  use gfb_contact_set, only: contact_point_type
+  use gfb_strip_builder, only: line_shares, contact_laws, crest_name
+  use gfb_master_search, only: find_masters
+  use gfb_projection, only: projection_type, project
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_shell_foil, only: shell_foil_type, contact_sleeve, contact_top
+  implicit none (type)
+  private
+  public :: create_shell_foil
+
+  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
+  integer, parameter :: corners = 4
+  real(wp), parameter :: first_penetration = 1.0e-4_wp !! that counts as touching, over the clearance
+  real(wp), parameter :: soft_contact = 20.0_wp        !! stiffness to begin with, over a bump's
+  real(wp), parameter :: normal_floor = 1.0e-7_wp      !! lent to slaves in the matrix, over a bump's stiffness
+
+contains
+
+  !> Both foils under a film.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine create_shell_foil(scene, film, mesh, element_nodes, reduced, foil, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
+    integer, intent(in) :: element_nodes(:, :)       !! (4, elements) its elements, local nodes
+    logical, intent(in) :: reduced                   !! bumps are condensed
+    type(shell_foil_type), intent(out) :: foil
+    type(error_type), allocatable, intent(out) :: error
+
+    logical, allocatable :: wanted(:)
+    integer :: first
+
+    foil%ambient_pressure = scene%gas%ambient_pressure
+    call build_top(scene, film, foil%top, error)
+    if (allocated(error)) return
+    call build_bumps(scene, film, reduced, foil%bumps, error)
+    if (allocated(error)) return
+    call number_unknowns(foil, first)
+    call join_stiffnesses(foil, first)
+    foil%contacts%law = contact_laws(scene%contact)
+    foil%contacts%secant_penetration = first_penetration*scene%bearing%clearance
+    foil%contacts%floor_normal = normal_floor*bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
+    foil%first_hardness = min(1.0_wp, soft_contact*bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch/ &
+                              (scene%contact%normal_stiffness* &
+                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
+    call add_contacts(scene, foil)
+    call list_wanted(foil, mesh, first, wanted)
+    call place_unknowns(foil, mesh, first, wanted)
+    call add_pressure(film, mesh, element_nodes, foil)
+    call size_unknowns(scene, film, foil, wanted)
+    call count_entries(foil, film)
+  end subroutine create_shell_foil
+
+  !> The top foil on the film's nodes.
+  subroutine build_top(scene, film, top, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(foil_structure_type), intent(out) :: top
+    type(error_type), allocatable, intent(out) :: error
+
+    type(quad_mesh_type) :: mesh
+    type(substructure_type), allocatable :: piece(:)
+    logical, allocatable :: fixed(:, :)
+    logical :: none(film%nodes())
+    integer :: i, k
+
+    none = .false.
+    ! Its mid-surface lies above the crests' by half of both thicknesses.
+    mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), scene%bump_foil%height + &
+                         0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half)
+    fixed = symmetry_supports(mesh)
+    if (scene%top_foil%fixed_edge == top_foil_leading) then
+      fixed(:, node_set(mesh, 'leading_edge')) = .true.
+    else
+      fixed(:, node_set(mesh, 'trailing_edge')) = .true.
+    end if
+    allocate (piece(film%circumferential()))
+    do i = 1, size(piece)
+      piece(i) = substructure(mesh, [((i - 1)*film%axial() + k, k=1, film%axial())], none)
+      piece(i)%kind = 1
+    end do
+    call create_foil_structure(mesh, plate_section(scene), fixed, piece, .false., top, error)
+  end subroutine build_top
+
+  !> The bump strip on the sleeve, from its fixed edge.
+  subroutine build_bumps(scene, film, reduced, bumps, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    logical, intent(in) :: reduced
+    type(foil_structure_type), intent(out) :: bumps
+    type(error_type), allocatable, intent(out) :: error
+
+    type(quad_mesh_type) :: mesh
+    type(strip_shape_type) :: shape
+    type(substructure_type), allocatable :: piece(:)
+    logical, allocatable :: fixed(:, :)
+
+    shape = strip_shape(scene)
+    if (shape%mirrored) shape%edge = pad_length(scene%bearing)
+    mesh = bump_strip_mesh(shape, film%row_axial, film%half)
+    piece = strip_substructures(shape, mesh)
+    fixed = symmetry_supports(mesh)
+    fixed(:, node_set(mesh, 'fixed_edge')) = .true.
+    call find_kinds(mesh, fixed, piece)
+    call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error)
+  end subroutine build_bumps
+
+  !> Numbers of both foils' unknowns, rank by rank: top foil, then bumps.
+  subroutine number_unknowns(foil, first)
+    type(shell_foil_type), intent(inout) :: foil
+    integer, intent(out) :: first !! unknowns of the ranks before this one
+
+    integer, allocatable :: both(:, :)
+    integer :: rank, ranks
+    PetscErrorCode :: ierr
+
+    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
+    allocate (both(2, ranks))
+    call MPI_Allgather([foil%top%part%owned_unknowns, foil%bumps%part%owned_unknowns], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
+    first = sum(both(:, :rank))
+    foil%owned = sum(both(:, rank + 1))
+    foil%top_number = numbers_of(foil%top, sum(both(1, :rank)), first)
+    foil%bump_number = numbers_of(foil%bumps, sum(both(2, :rank)), first + both(1, rank + 1))
+  end subroutine number_unknowns
+
+  !> The foil's own numbers of a structure's unknowns, known on all ranks.
+  function numbers_of(structure, before, first) result(number)
+    type(foil_structure_type), intent(in) :: structure
+    integer, intent(in) :: before !! the structure's unknowns on the ranks before this one
+    integer, intent(in) :: first  !! the foil's numbers before this rank's of this structure
+    integer, allocatable :: number(:, :) !! (5, nodes), from 1; 0: none
+    integer, allocatable :: mine(:, :)
+    PetscErrorCode :: ierr
+    integer :: local, node, component
+
+    allocate (mine(node_unknowns, size(structure%mesh%position, 2)), source=0)
+    do local = 1, size(structure%part%mesh_node)
+      if (.not. structure%part%owned(local)) cycle
+      node = structure%part%mesh_node(local)
+      do component = 1, node_unknowns
+        if (structure%unknown(component, node) < 0) cycle
+        mine(component, node) = structure%unknown(component, node) + 1 - before + first
+      end do
+    end do
+    allocate (number, mold=mine)
+    call MPI_Allreduce(mine, number, size(mine), MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
+  end function numbers_of
+
+  !> One matrix of both foils' stiffness.
+  subroutine join_stiffnesses(foil, first)
+    type(shell_foil_type), intent(inout) :: foil
+    integer, intent(in) :: first !! foil's unknowns of the ranks before this one
+    PetscInt, allocatable :: entries(:)
+    PetscErrorCode :: ierr
+
+    allocate (entries(foil%owned))
+    call count_rows(foil%top, entries(:foil%top%part%owned_unknowns))
+    call count_rows(foil%bumps, entries(foil%top%part%owned_unknowns + 1:))
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
+    PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, 0_pint, entries, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, 0_pint, min(entries, int(foil%owned, pint)), 0_pint, entries, ierr))
+    call copy_rows(foil%top, foil%top_number, foil%elastic)
+    call copy_rows(foil%bumps, foil%bump_number, foil%elastic)
+    PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
+    PetscCallA(MatDestroy(foil%top%stiffness, ierr))
+    PetscCallA(MatDestroy(foil%bumps%stiffness, ierr))
+    foil%has_elastic = .true.
+    foil%row_entries = int(entries)
+  end subroutine join_stiffnesses
+
+  !> Entries of a structure's own rows.
+  subroutine count_rows(structure, entries)
+    type(foil_structure_type), intent(in) :: structure
+    PetscInt, intent(out) :: entries(:)
+    PetscInt :: first, last, row, found, column(structure%unknowns)
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
+    do row = first, last - 1
+      PetscCallA(MatGetRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
+      entries(row - first + 1) = found
+      PetscCallA(MatRestoreRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
+    end do
+  end subroutine count_rows
+
+  !> A structure's rows with the foil's own numbers.
+  subroutine copy_rows(structure, number, matrix)
+    type(foil_structure_type), intent(in) :: structure
+    integer, intent(in) :: number(:, :) !! (5, nodes)
+    Mat, intent(in) :: matrix
+
+    integer :: renumbered(0:structure%unknowns - 1)
+    PetscInt :: first, last, row, entries, column(structure%unknowns)
+    PetscScalar :: value(structure%unknowns)
+    PetscErrorCode :: ierr
+
+    call map_numbers(structure, number, renumbered)
+    PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
+    do row = first, last - 1
+      PetscCallA(MatGetRow(structure%stiffness, row, entries, column, value, ierr))
+      PetscCallA(MatSetValues(matrix, 1_pint, [int(renumbered(row), pint)], entries, int(renumbered(column(:entries)), pint), value, INSERT_VALUES, ierr))
+      PetscCallA(MatRestoreRow(structure%stiffness, row, entries, column, value, ierr))
+    end do
+  end subroutine copy_rows
+
+  !> From a structure's numbers, from 0, to the foil's, from 0.
+  subroutine map_numbers(structure, number, renumbered)
+    type(foil_structure_type), intent(in) :: structure
+    integer, intent(in) :: number(:, :)   !! (5, nodes)
+    integer, intent(out) :: renumbered(0:)
+    integer :: mine(0:size(renumbered) - 1), local, component
+    PetscErrorCode :: ierr
+
+    mine = 0
+    associate (part => structure%part)
+      do local = 1, size(part%mesh_node)
+        if (.not. part%owned(local)) cycle
+        do component = 1, node_unknowns
+          if (structure%unknown(component, part%mesh_node(local)) < 0) cycle
+          mine(structure%unknown(component, part%mesh_node(local))) = number(component, part%mesh_node(local)) - 1
+        end do
+      end do
+    end associate
+    call MPI_Allreduce(mine, renumbered, size(mine), MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
+  end subroutine map_numbers
+
+  !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
+  subroutine add_contacts(scene, foil)
+    type(scene_type), intent(in) :: scene
+    type(shell_foil_type), intent(inout) :: foil
+
+    type(contact_point_type), allocatable :: point(:)
+    integer, allocatable :: line(:)
+    integer :: bump, i, rows, found
+
+    associate (mesh => foil%bumps%mesh)
+      rows = mesh%rows
+      line = node_set(mesh, 'corners')
+      allocate (point(size(line) + size(node_set(mesh, 'crests'))))
+      found = 0
+      do i = 1, size(line)/rows
+        call add_line(foil, line((i - 1)*rows + 1:i*rows), contact_sleeve, i, point, found)
+      end do
+      do bump = 1, scene%bump_foil%bumps
+        call add_line(foil, node_set(mesh, crest_name(bump)), contact_top, bump, point, found)
+      end do
+      foil%contacts%point = point(:found)
+    end associate
+    call find_masters_of_crests(scene, foil)
+  end subroutine add_contacts
+
+  !> Contacts of a line's own nodes that are not held everywhere.
+  subroutine add_line(foil, line, law, number, point, found)
+    type(shell_foil_type), intent(in) :: foil
+    integer, intent(in) :: line(:)
+    integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
+    integer, intent(in) :: number !! of the line
+    type(contact_point_type), intent(inout) :: point(:)
+    integer, intent(inout) :: found
+
+    real(wp), allocatable :: length(:)
+    integer :: i, local
+
+    associate (mesh => foil%bumps%mesh)
+      length = line_shares(mesh, line)*(mesh%position(axial, line(size(line))) - mesh%position(axial, line(1)))
+    end associate
+    do i = 1, size(line)
+      local = foil%bumps%local_node(line(i))
+      if (local == 0) cycle
+      if (.not. foil%bumps%part%owned(local) .or. .not. any(foil%bump_number(:axial, line(i)) > 0)) cycle
+      found = found + 1
+      point(found) = contact_point_type(law=law, node=line(i), line=number, length=length(i))
+      point(found)%slave = foil%bump_number(:axial, line(i))
+      point(found)%frame(tangential, 1) = 1.0_wp
+      point(found)%frame(axial, 2) = 1.0_wp
+      point(found)%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
+      allocate (point(found)%master(axial, 0), point(found)%share(0))
+    end do
+  end subroutine add_line
+
+  !> The top foil's elements above the crests.
+  subroutine find_masters_of_crests(scene, foil)
+    type(scene_type), intent(in) :: scene
+    type(shell_foil_type), intent(inout) :: foil
+
+    type(projection_type) :: foot
+    real(wp), allocatable :: place(:, :), coordinates(:, :)
+    integer, allocatable :: crest(:), element(:), kept(:)
+    integer :: i, k
+
+    crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
+    allocate (element(size(crest)), coordinates(2, size(crest)))
+    associate (mesh => foil%top%mesh)
+      place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
+      call find_masters(place, mesh%position, mesh%element_nodes, scene%bump_foil%height, element, coordinates)
+      do i = 1, size(crest)
+        if (element(i) == 0) cycle
+        associate (point => foil%contacts%point(crest(i)), nodes => mesh%element_nodes(:, element(i)))
+          foot = project(mesh%position(:, nodes), place(:, i))
+          point%share = foot%shape
+          point%master = reshape([(foil%top_number(:axial, nodes(k)), k=1, corners)], [axial, corners])
+        end associate
+      end do
+    end associate
+    ! A crest beyond the top foil's edge touches nothing.
+    kept = [(i, i=1, size(foil%contacts%point))]
+    kept = pack(kept, foil%contacts%point%law == contact_sleeve .or. has_master(foil%contacts%point))
+    foil%contacts%point = foil%contacts%point(kept)
+  end subroutine find_masters_of_crests
+
+  !> Whether a contact has a master of its own.
+  elemental function has_master(point) result(has)
+    type(contact_point_type), intent(in) :: point
+    logical :: has
+    has = size(point%share) > 0
+  end function has_master
+
+  !> Marks the foil's unknowns that this rank needs.
+  subroutine list_wanted(foil, mesh, first, wanted)
+    type(shell_foil_type), intent(in) :: foil
+    type(local_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: first !! foil's unknowns of the ranks before this one
+    logical, allocatable, intent(out) :: wanted(:) !! by the foil's own numbers
+    integer :: i
+
+    allocate (wanted(0:foil%top%unknowns + foil%bumps%unknowns), source=.false.)
+    wanted(first + 1:first + foil%owned) = .true.
+    call mark(foil%top_number(radial, mesh%mesh_node), wanted)
+    do i = 1, size(foil%contacts%point)
+      call mark(foil%contacts%point_unknowns(i), wanted)
+    end do
+    wanted(0) = .false.
+  end subroutine list_wanted
+
+  !> Marks numbers in a list.
+  pure subroutine mark(number, marked)
+    integer, intent(in) :: number(:)
+    logical, intent(inout) :: marked(0:)
+    integer :: i
+
+    do i = 1, size(number)
+      marked(number(i)) = .true.
+    end do
+  end subroutine mark
+
+  !> Gives the needed unknowns their places, and the contacts and film nodes theirs.
+  subroutine place_unknowns(foil, mesh, first, wanted)
+    type(shell_foil_type), intent(inout) :: foil
+    type(local_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: first
+    logical, intent(in) :: wanted(0:)
+    integer :: place(0:ubound(wanted, 1)), i, k
+
+    foil%global_unknown = pack([(i, i=0, ubound(wanted, 1))], wanted)
+    place = 0
+    do i = 1, size(foil%global_unknown)
+      place(foil%global_unknown(i)) = i
+    end do
+    foil%own_place = place(first + 1:first + foil%owned)
+    foil%source = -place(foil%top_number(radial, mesh%mesh_node))
+    allocate (foil%rate(size(foil%source)), source=-1.0_wp)
+    allocate (foil%origin(size(foil%source)), source=0.0_wp)
+    do i = 1, size(foil%contacts%point)
+      associate (point => foil%contacts%point(i))
+        point%slave = place(point%slave)
+        do k = 1, size(point%share)
+          point%master(:, k) = place(point%master(:, k))
+        end do
+      end associate
+    end do
+    foil%contacts%global = foil%global_unknown
+  end subroutine place_unknowns
+
+  !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
+  subroutine add_pressure(film, mesh, element_nodes, foil)
+    type(film_mesh_type), intent(in) :: film
+    type(local_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: element_nodes(:, :) !! (4, elements), local nodes
+    type(shell_foil_type), intent(inout) :: foil
+
+    real(wp), parameter :: bilinear(corners, corners) = reshape([ &
+      4.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 1.0_wp, &
+      1.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 4.0_wp], [corners, corners])/36.0_wp
+    integer :: i, station(corners), row(corners)
+    real(wp) :: area
+
+    foil%pressed = element_nodes
+    allocate (foil%pushed(corners, size(element_nodes, 2)))
+    allocate (foil%weight(corners, corners, size(element_nodes, 2)))
+    do i = 1, size(element_nodes, 2)
+      foil%pushed(:, i) = -foil%source(element_nodes(:, i))
+      station = (mesh%mesh_node(element_nodes(:, i)) - 1)/film%rows() + 1
+      row = modulo(mesh%mesh_node(element_nodes(:, i)) - 1, film%rows()) + 1
+      area = film%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
+             (maxval(film%row_axial(row)) - minval(film%row_axial(row)))
+      foil%weight(:, :, i) = area*bilinear
+    end do
+  end subroutine add_pressure
+
+  !> Sizes of displacements and forces.
+  subroutine size_unknowns(scene, film, foil, wanted)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(shell_foil_type), intent(inout) :: foil
+    logical, intent(in) :: wanted(0:)
+    logical :: turns(0:ubound(wanted, 1))
+    real(wp) :: force, scale(0:ubound(wanted, 1))
+
+    turns = .false.
+    call mark(pack(foil%top_number(axial + 1:, :), .true.), turns)
+    call mark(pack(foil%bump_number(axial + 1:, :), .true.), turns)
+    scale = merge(scene%bump_foil%half_length, 1.0_wp, turns)
+    force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
+            scene%bearing%length/scene%mesh%axial_elements
+    foil%unknown_scale = scene%bearing%clearance/scale(foil%global_unknown)
+    foil%equation_scale = force*scale(foil%global_unknown)
+  end subroutine size_unknowns
+
+  !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
+  subroutine count_entries(foil, film)
+    type(shell_foil_type), intent(inout) :: foil
+    type(film_mesh_type), intent(in) :: film
+    integer, parameter :: around = 9    !! a node and its neighbours
+    integer, parameter :: per_crest = 15 !! unknowns of a contact
+    integer :: crests
+
+    foil%couplings = around
+    ! Elements of the film that are wide against the bumps can hold several crests.
+    crests = 4*(1 + maxval([0, count_crests(foil)]))
+    foil%row_entries = foil%row_entries + around + per_crest*crests
+  end subroutine count_entries
+
+  !> Crests over the element that has most of them, on this rank.
+  function count_crests(foil) result(most)
+    type(shell_foil_type), intent(in) :: foil
+    integer :: most
+    integer :: tally(size(foil%global_unknown)), i
+
+    tally = 0
+    do i = 1, size(foil%contacts%point)
+      associate (point => foil%contacts%point(i))
+        if (size(point%share) == 0) cycle
+        if (point%master(radial, 1) > 0) tally(point%master(radial, 1)) = tally(point%master(radial, 1)) + 1
+      end associate
+    end do
+    most = maxval(tally)
+  end function count_crests
+end module gfb_shell_foil_builder

@@ -1,0 +1,193 @@
+"""Tests of tools/plot on strips: what stands in the pictures, and what it says to wrong calls.
+
+Files are made up here with known numbers; one is gfb's own, of a small strip.
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
+os.environ["MPLBACKEND"] = "Agg"
+sys.path.insert(0, str(PROJECT/"tools"))
+
+import plot_strip  # noqa: E402 (found only now)
+
+SMALL = """&scene analysis = 'strip' /
+&bump_foil thickness = 0.127e-3 youngs_modulus = 207.0e9 poissons_ratio = 0.3 half_length = 3.3e-3
+  height = 0.9e-3 pitch = 7.0e-3 bumps = 2 width = 18.0e-3 fixed_edge = '{edge}' /
+&contact friction_top = 0.2 friction_sleeve = 0.2 /
+&strip_load kind = 'plates' maximum_force = 50.0 steps_up = 4 steps_down = 4 /
+&mesh arc_elements = 4 flat_elements = 1 axial_elements = 8 /
+"""
+
+
+def used(friction, law="'tanh_drag' ! law (default)"):
+    """An echo of a case, as far as labels need it."""
+    return (f"&scene\n  title = 'mu = {friction}' ! title\n/\n&contact\n  friction_sleeve = {friction} ! [1] mu\n"
+            f"  stick_length = {1.0 + friction} ! [m] follows the load (default)\n  friction_law = {law}\n/\n")
+
+
+def strip_file(path, force, deflection, echo=used(0.1), travel=None, states=None):
+    """A strip's result file; deflection: (steps, bumps) [m]; states: (steps, lines, rows) of half a width."""
+    with h5py.File(path, "w") as file:
+        def put(name, values, unit):
+            file[name] = values
+            file[name].attrs.update(unit=unit, meaning="made up")
+        put("history/step", numpy.arange(1.0, len(force) + 1.0), "1")
+        put("history/force", numpy.array(force), "N")
+        for bump, column in enumerate(numpy.array(deflection).T, start=1):
+            put(f"history/crest_deflection_{bump}", column, "m")
+        if travel is not None:
+            put("history/plate_travel", numpy.array(travel), "m")
+            put("summary/dissipated_energy", 2.5e-3, "J")
+        file.require_group("summary")
+        file["scene/used"] = echo
+        if states is not None:
+            states = numpy.array(states, dtype=float)
+            lines, rows = states.shape[1:]
+            number = numpy.repeat(numpy.arange(1.0, lines + 1.0), rows)
+            number[:rows] = 0.0  # the first line is held
+            put("contact/sleeve/line", number, "1")
+            put("contact/sleeve/position_z", numpy.tile(numpy.linspace(0.0, 0.01, rows), lines), "m")
+            put("contact/sleeve/state", states.reshape(len(states), -1), "1")
+    return path
+
+
+class PlotTest(unittest.TestCase):
+    """The made-up strip: two bumps, four steps up to 30 N and down again."""
+
+    force = (10.0, 30.0, 12.0, 0.0)
+    deflection = ((1.0e-6, 2.0e-6), (3.0e-6, -6.0e-6), (2.0e-6, 5.0e-6), (0.0, 0.0))
+    travel = (1.5e-6, 4.5e-6, 4.0e-6, 0.0)
+    states = [[[0, 0, 0], [1, 1, 0], [1, 2, 0]], [[0, 0, 0], [2, 2, 0], [1, 2, 2]],
+              [[0, 0, 0], [1, 2, 0], [1, 1, 1]], [[0, 0, 0], [0, 0, 0], [0, 0, 0]]]
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(plot_strip.pyplot.close, "all")
+        self.folder = pathlib.Path(folder.name)
+        self.loop = strip_file(self.folder/"a_strip.h5", self.force, self.deflection, used(0.0), self.travel,
+                               self.states)
+        self.up = strip_file(self.folder/"a_strip_up.h5", self.force[:2], self.deflection[:2], used(0.1))
+
+    def figure(self, paths, kind=None, steps=()):
+        """A picture drawn in this process."""
+        files = [h5py.File(path, "r") for path in paths]
+        try:
+            return plot_strip.draw(paths, files, kind, list(steps))
+        finally:
+            for file in files:
+                file.close()
+
+    def call(self, *words):
+        """tools/plot as a user calls it: status, and what it said."""
+        done = subprocess.run([sys.executable, PROJECT/"tools/plot", *words], cwd=self.folder, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return done.returncode, done.stdout
+
+    def test_bars_are_the_deflections_at_the_largest_force(self):
+        axes = self.figure([self.loop, self.up], "bumps").axes[0]
+        heights = [[bar.get_height() for bar in bars] for bars in axes.containers if len(bars)]
+        numpy.testing.assert_allclose(heights, [[3.0, -6.0], [3.0, -6.0]], rtol=1e-12)
+        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],
+                         ["friction_sleeve = 0.0", "friction_sleeve = 0.1"])
+
+    def test_bars_of_a_step(self):
+        axes = self.figure([self.loop], "bumps", [3]).axes[0]
+        numpy.testing.assert_allclose([bar.get_height() for bar in axes.containers[0]], [2.0, 5.0], rtol=1e-12)
+        self.assertIn("step 3", axes.get_title())
+
+    def test_loop_starts_unloaded_and_shows_the_lost_work(self):
+        chart, opened = self.figure([self.loop]).axes
+        numpy.testing.assert_allclose(chart.lines[0].get_xdata(), [0.0, 1.5, 4.5, 4.0, 0.0], rtol=1e-12)
+        numpy.testing.assert_allclose(chart.lines[0].get_ydata(), [0.0, *self.force])
+        numpy.testing.assert_allclose(opened.lines[0].get_ydata(), [0.0, 0.0, 0.0, 12.0 - 30.0*4.0/4.5, 0.0],
+                                      atol=1e-12)
+        self.assertIn("2.5 mJ", chart.get_legend().get_texts()[0].get_text())
+        self.assertIn("plate", chart.get_xlabel())
+
+    def test_without_plates_the_largest_crest_deflection_moves(self):
+        chart = self.figure([self.up], "loop").axes[0]
+        numpy.testing.assert_allclose(chart.lines[0].get_xdata(), [0.0, 2.0, 3.0], rtol=1e-12)
+        self.assertIn("crest", chart.get_xlabel())
+
+    def test_what_is_drawn_unasked_follows_the_load(self):
+        self.assertEqual(len(self.figure([self.loop]).axes), 2)
+        self.assertEqual(len(self.figure([self.loop, self.up]).axes), 1)
+
+    def test_contact_map_is_the_whole_width_without_the_held_line(self):
+        chart = self.figure([self.loop], "contact", [2]).axes[0]
+        columns = [mesh.get_array().ravel().tolist() for mesh in chart.collections]
+        self.assertEqual(columns, [[0, 2, 2, 2, 0], [2, 2, 1, 2, 2]])
+        self.assertEqual([tick.get_text() for tick in chart.get_xticklabels()], ["2", "3"])
+        self.assertAlmostEqual(chart.collections[0].get_coordinates()[0, 0, 1], -10.0)
+
+    def test_contact_map_has_a_row_a_step(self):
+        titles = [chart.get_title() for chart in self.figure([self.loop], "contact", [1, 3]).axes]
+        self.assertEqual(titles, ["step 1, 10 N: sleeve", "step 3, 12 N: sleeve"])
+
+    def test_files_that_differ_in_nothing_are_told_apart_by_name(self):
+        other = strip_file(self.folder/"b.h5", self.force, self.deflection, used(0.0), self.travel)
+        with h5py.File(self.loop) as one, h5py.File(other) as two:
+            self.assertEqual(plot_strip.labels([self.loop, other], [one, two]), ["a_strip", "b"])
+
+    def test_a_key_that_one_file_leaves_to_its_default_is_in_the_label(self):
+        other = strip_file(self.folder/"b.h5", self.force, self.deflection, used(0.0, "'coulomb' ! law"))
+        with h5py.File(self.loop) as one, h5py.File(other) as two:
+            self.assertEqual(plot_strip.labels([self.loop, other], [one, two]),
+                             ["friction_law = 'tanh_drag'", "friction_law = 'coulomb'"])
+
+    def test_calls(self):
+        for words, picture in ((("a_strip.h5",), "a_strip.h5.png"),
+                               (("a_strip.h5", "a_strip_up.h5", "-o", "b.png"), "b.png"),
+                               (("a_strip.h5", "--show", "contact", "--step", "1,2", "-o", "c.png"), "c.png"),
+                               (("a_strip.h5", "force", "plate_travel", "-o", "d.png"), "d.png")):
+            status, said = self.call(*words)
+            self.assertEqual((status, said), (0, f"drawn: {picture}\n"))
+            self.assertEqual((self.folder/picture).read_bytes()[:4], b"\x89PNG")
+        status, said = self.call("a_strip.h5", "--list")
+        self.assertEqual((status, "plate_travel" in said), (0, True))
+
+    def test_wrong_calls_are_told(self):
+        for words, text in ((("none.h5",), "there is no such file"),
+                            (("a_strip.h5", "none.h5"), "there is no such file"),
+                            (("a_strip.h5", "torque"), "no column torque"),
+                            (("a_strip.h5", "a_strip_up.h5", "force"), "columns are drawn of one file"),
+                            (("a_strip.h5", "--show", "bumps", "--step", "5"), "no step 5; there are 1 to 4"),
+                            (("a_strip.h5", "--show", "loop", "--step", "2"), "a loop is of all steps"),
+                            (("a_strip.h5", "a_strip_up.h5", "--show", "contact"), "one file at a time"),
+                            (("a_strip_up.h5", "--show", "contact"), "no contacts")):
+            status, said = self.call(*words)
+            self.assertEqual((status, text in said), (1, True), f"{words}: {said}")
+        status, said = self.call("a_strip.h5", "--step", "two")
+        self.assertEqual((status, "whole numbers" in said), (2, True), said)
+
+    def test_map_of_gfb_agrees_with_its_counts(self):
+        for edge in ("none", "leading"):
+            case = self.folder/f"small_{edge}.nml"
+            case.write_text(SMALL.format(edge=edge), encoding="utf-8")
+            subprocess.run([os.environ["GFB"], "--quiet", "--output", self.folder, case], check=True,
+                           stdout=subprocess.DEVNULL)
+            slipping = 0
+            with h5py.File(case.with_suffix(".h5"), "r") as file:
+                for surface in ("sleeve", "top"):
+                    node = plot_strip.line_table(file[f"contact/{surface}"])[2]
+                    for row, state in enumerate(file[f"contact/{surface}/state"][...]):
+                        found = [int(numpy.count_nonzero(state[node] == value)) for value in range(3)]
+                        told = [int(file[f"history/{surface}_{word}"][row]) for word in ("open", "stick", "slip")]
+                        self.assertEqual(found, told, f"{edge}, {surface}, step {row + 1}")
+                        slipping += found[2]
+            self.assertGreater(slipping, 0)
+            self.assertEqual(self.call(f"small_{edge}.h5", "--show", "contact")[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
