@@ -40,8 +40,8 @@ MODELS = {"full order, full width": ("none", "no"), "full order, half width": ("
           "reduced, full width": ("guyan", "no"), "reduced, half width": ("guyan", "yes")}
 REFERENCE, LEAST = "full order, full width", "reduced, half width"
 
-# Parts of the time in PETSc's log: inside Newton's method they do not overlap. The log has wall times, which other
-# jobs stretch; the process' CPU time is shared out as they are.
+# Parts of the time in PETSc's log, which do not overlap. The log has wall times, which other jobs stretch; the
+# process' CPU time is shared out as they are.
 PARTS = {"factorization": ("MatLUFactorSym", "MatLUFactorNum"), "triangular solves": ("MatSolve",),
          "matrix products": ("MatMult",), "matrix entries": ("SNESJacobianEval",)}
 NEWTON = "SNESSolve"
@@ -95,8 +95,7 @@ def measure(gfb, scene, model, folder):
     if NEWTON not in events:
         stop("PETSc's log has no solve in it: is it built without logging?", 3)
     parts = {name: sum(events[event][1] for event in of) for name, of in PARTS.items()}
-    parts["rest of Newton"] = events[NEWTON][1] - sum(parts.values())
-    parts["set-up, files"] = whole - events[NEWTON][1]
+    parts["set-up, files, rest"] = whole - sum(parts.values())
     return {"summary": done.summary, "cpu": done.cpu, "answers": read_answers(pathlib.Path(folder)/"strip.h5"),
             "parts": {name: done.cpu*seconds/whole for name, seconds in parts.items()},
             "solves": events["MatSolve"][0]}

@@ -12,8 +12,8 @@ program gfb_bench_condensation
   use gfb_shell_geometry, only: shell_geometry_type, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_substructures, only: substructure_type, find_kinds, kind_count
-  use gfb_foil_structure, only: foil_structure_type, create_foil_structure, destroy_foil_structure, &
-                                element_geometry, assemble_piece, retained_in_piece
+  use gfb_foil_structure, only: foil_structure_type, create_foil_structure, destroy_foil_structure
+  use gfb_foil_pieces, only: element_geometry, assemble_piece, retained_in_piece
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
   use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost
   implicit none (type)
@@ -122,9 +122,9 @@ contains
     apart = 0.0_wp
     do kind = 1, kind_count(piece)
       associate (one => piece(findloc(piece%kind, kind, 1)))
-        call assemble_piece(foil, one, .false., stiffness, error)
+        call assemble_piece(foil%mesh, foil%section, foil%free, one, .false., stiffness, error)
         call stop_on(error)
-        is_retained = retained_in_piece(foil, one)
+        is_retained = retained_in_piece(foil%free, one)
       end associate
       call cpu_time(start)
       call condense(stiffness, is_retained, 'super_', super)

@@ -5,7 +5,8 @@ module gfb_foil_grid
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_shell_geometry, only: shell_unknowns
   use gfb_shell_stress, only: shell_stress_type, shell_stress, lower_face, upper_face
-  use gfb_foil_structure, only: foil_structure_type, element_geometry
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_pieces, only: element_geometry
   use gfb_grid_file, only: grid_field_type, block_bounds
   use gfb_result_set, only: result_grid_type, add_grid_field
   implicit none (type, external)

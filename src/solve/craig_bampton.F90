@@ -13,8 +13,8 @@ module gfb_craig_bampton
   use gfb_petsc_kinds, only: pint
   use gfb_shell_geometry, only: node_unknowns
   use gfb_substructures, only: substructure_type, kind_count
-  use gfb_foil_structure, only: foil_structure_type, assemble_piece, retained_in_piece, &
-                                add_symmetric_block
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_pieces, only: assemble_piece, retained_in_piece, add_symmetric_block
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   implicit none (type)
@@ -65,11 +65,11 @@ contains
     PetscErrorCode :: ierr
     integer :: i, kept
 
-    call assemble_piece(foil, piece, .false., stiffness, error)
+    call assemble_piece(foil%mesh, foil%section, foil%free, piece, .false., stiffness, error)
     if (allocated(error)) return
-    call assemble_piece(foil, piece, .true., mass, error)
+    call assemble_piece(foil%mesh, foil%section, foil%free, piece, .true., mass, error)
     if (allocated(error)) return
-    call condense(stiffness, retained_in_piece(foil, piece), 'super_', super)
+    call condense(stiffness, retained_in_piece(foil%free, piece), 'super_', super)
     call interior_modes(super, mass, modes_kept, modes)
     kept = size(super%retained)
     allocate (basis(kept + size(super%interior), kept + size(modes%eigenvalue)), source=0.0_wp)

@@ -10,18 +10,18 @@ module gfb_foil_structure
   use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: share_failure
-  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, node_unknowns, &
-                                shell_unknowns
+  use gfb_shell_geometry, only: shell_section_type, shell_nodes, node_unknowns, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_substructures, only: substructure_type
   use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
-  use gfb_super_element, only: super_element_type, condense, destroy_super_element
+  use gfb_foil_pieces, only: number_slots, condense_piece, piece_unknowns, element_geometry, &
+                             add_symmetric_block, create_foil_matrix, element_row
+  use gfb_super_element, only: super_element_type, destroy_super_element
   implicit none (type)
   private
-  public :: create_foil_structure, destroy_foil_structure, element_geometry, assemble_piece, &
-            retained_in_piece, add_symmetric_block
+  public :: create_foil_structure, destroy_foil_structure
 
   !> One foil and this rank's part of it.
   type, public :: foil_structure_type
@@ -66,7 +66,8 @@ contains
     structure%reduced = reduced
     structure%substructure = substructure
     structure%free = .not. fixed
-    call number_slots(structure)
+    call number_slots(structure%free, substructure, reduced, structure%slot)
+    structure%unknowns = count(structure%slot > 0)
     call distribute_foil(structure)
     if (reduced) call condense_kinds(structure, error)
     call share_failure(error)
@@ -74,33 +75,6 @@ contains
     call structure%assemble_stiffness(structure%stiffness, error)
     structure%created = .not. allocated(error)
   end subroutine create_foil_structure
-
-  !> Gives each free unknown of a kept node its place.
-  subroutine number_slots(structure)
-    type(foil_structure_type), intent(inout) :: structure
-    logical :: kept(size(structure%mesh%position, 2))
-    integer :: node, i, component, slots
-
-    kept = .not. structure%reduced
-    if (structure%reduced) then
-      do i = 1, size(structure%substructure)
-        associate (one => structure%substructure(i))
-          kept(pack(one%nodes, one%retained)) = .true.
-        end associate
-      end do
-    end if
-    allocate (structure%slot(node_unknowns, size(kept)), source=0)
-    do node = 1, size(kept)
-      if (.not. kept(node)) cycle
-      slots = 0
-      do component = 1, node_unknowns
-        if (.not. structure%free(component, node)) cycle
-        slots = slots + 1
-        structure%slot(component, node) = slots
-      end do
-    end do
-    structure%unknowns = count(structure%slot > 0)
-  end subroutine number_slots
 
   !> Whole substructures go to a rank, neighbours together.
   subroutine distribute_foil(structure)
@@ -154,91 +128,14 @@ contains
     do i = 1, size(structure%mine)
       associate (one => structure%substructure(structure%mine(i)))
         if (allocated(structure%super(one%kind)%stiffness)) cycle
-        call condense_substructure(structure, one, structure%super(one%kind), error)
+        call condense_piece(structure%mesh, structure%section, structure%free, one, &
+                            structure%super(one%kind), error)
         call add_context(error, 'substructure '//text(structure%mine(i)))
         if (allocated(error)) return
         structure%condensations = structure%condensations + 1
       end associate
     end do
   end subroutine condense_kinds
-
-  !> Assembles a substructure on its own and condenses it.
-  subroutine condense_substructure(structure, substructure, super, error)
-    type(foil_structure_type), intent(in) :: structure
-    type(substructure_type), intent(in) :: substructure
-    type(super_element_type), intent(out) :: super
-    type(error_type), allocatable, intent(out) :: error
-    Mat :: stiffness
-    PetscErrorCode :: ierr
-
-    call assemble_piece(structure, substructure, .false., stiffness, error)
-    if (allocated(error)) return
-    call condense(stiffness, retained_in_piece(structure, substructure), 'super_', super)
-    PetscCallA(MatDestroy(stiffness, ierr))
-  end subroutine condense_substructure
-
-  !> Stiffness or mass of a substructure on this rank alone, all of its unknowns.
-  !>
-  !> Fails where an element is clockwise or degenerate.
-  subroutine assemble_piece(structure, substructure, mass, matrix, error)
-    type(foil_structure_type), intent(in) :: structure
-    type(substructure_type), intent(in) :: substructure
-    logical, intent(in) :: mass !! instead of stiffness
-    Mat, intent(out) :: matrix
-    type(error_type), allocatable, intent(out) :: error
-
-    integer, parameter :: row_entries = 9*node_unknowns ! a node and its neighbours
-    integer, allocatable :: number(:, :)
-    logical, allocatable :: has(:, :)
-    real(wp) :: block(shell_unknowns, shell_unknowns)
-    PetscErrorCode :: ierr
-    integer :: i, component, unknowns
-
-    unknowns = 0
-    allocate (number(node_unknowns, size(structure%mesh%position, 2)), source=0)
-    has = piece_unknowns(structure, substructure)
-    do i = 1, size(substructure%nodes)
-      do component = 1, node_unknowns
-        if (.not. has(component, i)) cycle
-        unknowns = unknowns + 1
-        number(component, substructure%nodes(i)) = unknowns
-      end do
-    end do
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(row_entries, pint), PETSC_NULL_INTEGER, matrix, ierr))
-    do i = 1, size(substructure%elements)
-      associate (nodes => structure%mesh%element_nodes(:, substructure%elements(i)), &
-                 geometry => element_geometry(structure%mesh, substructure%elements(i)))
-        if (mass) then
-          call shell_mass(geometry, structure%section, block, error)
-        else
-          call shell_stiffness(geometry, structure%section, block, error)
-        end if
-        if (allocated(error)) return
-        call add_symmetric_block(matrix, reshape(number(:, nodes), [shell_unknowns]) - 1, block)
-      end associate
-    end do
-    PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
-  end subroutine assemble_piece
-
-  !> Which of a substructure's unknowns are kept.
-  pure function retained_in_piece(structure, substructure) result(is_retained)
-    type(foil_structure_type), intent(in) :: structure
-    type(substructure_type), intent(in) :: substructure
-    logical, allocatable :: is_retained(:)
-
-    is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(structure, substructure))
-  end function retained_in_piece
-
-  !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there does
-  !> not make it another kind, and the free ones inside.
-  pure function piece_unknowns(structure, substructure) result(has)
-    type(foil_structure_type), intent(in) :: structure
-    type(substructure_type), intent(in) :: substructure
-    logical :: has(node_unknowns, size(substructure%nodes))
-
-    has = structure%free(:, substructure%nodes) .or. spread(substructure%retained, 1, node_unknowns)
-  end function piece_unknowns
 
   !> Stiffness of the whole foil in its numbered unknowns.
   !>
@@ -252,7 +149,7 @@ contains
     PetscErrorCode :: ierr
     integer :: i
 
-    call create_foil_matrix(self, matrix)
+    call create_foil_matrix(self%part%owned_unknowns, self%unknowns, row_entries(self), matrix)
     if (self%reduced) then
       do i = 1, size(self%mine)
         associate (one => self%substructure(self%mine(i)))
@@ -285,7 +182,7 @@ contains
     integer :: i
 
     if (self%reduced) error stop 'a condensed foil has no mass matrix of its own'
-    call create_foil_matrix(self, matrix)
+    call create_foil_matrix(self%part%owned_unknowns, self%unknowns, row_entries(self), matrix)
     do i = 1, size(self%my_elements)
       call shell_mass(element_geometry(self%mesh, self%my_elements(i)), self%section, block, error)
       if (allocated(error)) exit
@@ -297,45 +194,20 @@ contains
     PetscCallA(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE, ierr))
   end subroutine assemble_mass
 
-  !> An empty matrix with room for what a row couples.
-  subroutine create_foil_matrix(structure, matrix)
+  !> Entries of a row of a foil's matrix, at most.
+  pure function row_entries(structure) result(entries)
     type(foil_structure_type), intent(in) :: structure
-    Mat, intent(out) :: matrix
-
-    integer, parameter :: element_row = 9*node_unknowns ! a node and its neighbours
-    PetscInt :: inside, outside, owned
-    PetscErrorCode :: ierr
-    integer :: i, entries, retained
+    integer :: entries
+    integer :: i, retained
 
     entries = element_row
-    if (structure%reduced) then
-      retained = 0
-      do i = 1, size(structure%substructure)
-        retained = max(retained, count(structure%substructure(i)%retained))
-      end do
-      entries = 2*retained*node_unknowns ! the two substructures that share a line
-    end if
-    owned = structure%part%owned_unknowns
-    inside = min(int(entries, pint), owned)
-    outside = min(int(entries, pint), int(structure%unknowns, pint) - owned)
-    PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
-    PetscCallA(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(matrix, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(matrix, inside, PETSC_NULL_INTEGER, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(matrix, inside, PETSC_NULL_INTEGER, outside, PETSC_NULL_INTEGER, ierr))
-  end subroutine create_foil_matrix
-
-  !> Adds a symmetric block by global numbers, from 0; negative ones are skipped.
-  subroutine add_symmetric_block(matrix, number, block)
-    Mat, intent(in) :: matrix
-    integer, intent(in) :: number(:)
-    real(wp), intent(in) :: block(size(number)*size(number))
-    PetscInt :: index(size(number))
-    PetscErrorCode :: ierr
-
-    index = int(number, pint)
-    PetscCallA(MatSetValues(matrix, int(size(index), pint), index, int(size(index), pint), index, block, ADD_VALUES, ierr))
-  end subroutine add_symmetric_block
+    if (.not. structure%reduced) return
+    retained = 0
+    do i = 1, size(structure%substructure)
+      retained = max(retained, count(structure%substructure(i)%retained))
+    end do
+    entries = 2*retained*node_unknowns ! the two substructures that share a line
+  end function row_entries
 
   !> Global number, from 0, of a component at a node of this rank; -1 where it has none.
   pure function unknown(self, component, node) result(number)
@@ -438,7 +310,7 @@ contains
     do i = 1, size(structure%mine)
       associate (one => structure%substructure(structure%mine(i)))
         associate (super => structure%super(one%kind), local => structure%local_node(one%nodes))
-          has = piece_unknowns(structure, one)
+          has = piece_unknowns(structure%free, one)
           all_unknowns = pack(moved(:, local), has)
           known = all_unknowns(super%retained)
           call super%recover(known, all_unknowns)
@@ -447,20 +319,6 @@ contains
       end associate
     end do
   end subroutine recover_interior
-
-  !> Where an element of a mesh is.
-  pure function element_geometry(mesh, element) result(geometry)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: element
-    type(shell_geometry_type) :: geometry
-
-    associate (nodes => mesh%element_nodes(:, element))
-      geometry%position = mesh%position(:, nodes)
-      geometry%director = mesh%director(:, :, element)
-      geometry%axis(:, 1, :) = mesh%axis_1(:, nodes)
-      geometry%axis(:, 2, :) = mesh%axis_2(:, nodes)
-    end associate
-  end function element_geometry
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_foil_structure(structure)

@@ -20,18 +20,25 @@ contains
     IS :: retained
     KSP :: solver
     PC :: factors
-    Mat :: factor, complement
+    Mat :: unit_sized, factor, complement
     MatFactorSchurStatus :: status
     PetscScalar, pointer :: values(:, :)
+    PetscReal :: norm
     PetscErrorCode :: ierr
+    real(wp) :: unit
     integer :: i, j
     integer, allocatable :: kept(:)
 
     kept = pack([(i, i=1, size(is_retained))], is_retained)
     PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(kept), pint), int(kept - 1, pint), PETSC_COPY_VALUES, retained, ierr))
-    PetscCallA(MatSetOption(stiffness, MAT_SPD, PETSC_TRUE, ierr)) ! of the interior, all that is factored
+    ! MUMPS takes pivots near 1e-20 for none, whatever the size of the rest. A power of two loses no digit.
+    PetscCallA(MatNorm(stiffness, NORM_INFINITY, norm, ierr))
+    unit = 2.0_wp**exponent(norm)
+    PetscCallA(MatDuplicate(stiffness, MAT_COPY_VALUES, unit_sized, ierr))
+    PetscCallA(MatScale(unit_sized, 1.0_wp/unit, ierr))
+    PetscCallA(MatSetOption(unit_sized, MAT_SPD, PETSC_TRUE, ierr)) ! of the interior, all that is factored
     PetscCallA(KSPCreate(PETSC_COMM_SELF, solver, ierr))
-    PetscCallA(KSPSetOperators(solver, stiffness, stiffness, ierr))
+    PetscCallA(KSPSetOperators(solver, unit_sized, unit_sized, ierr))
     PetscCallA(KSPSetType(solver, KSPPREONLY, ierr))
     PetscCallA(KSPGetPC(solver, factors, ierr))
     PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
@@ -44,12 +51,13 @@ contains
     PetscCallA(GFB_MatDenseGetArray(complement, values, ierr))
     allocate (condensed(size(kept), size(kept)))
     do j = 1, size(kept)
-      condensed(j:, j) = values(j:, j) ! only the lower triangle is filled
-      condensed(j, j + 1:) = values(j + 1:, j)
+      condensed(j:, j) = unit*values(j:, j) ! only the lower triangle is filled
+      condensed(j, j + 1:) = unit*values(j + 1:, j)
     end do
     PetscCallA(GFB_MatDenseRestoreArray(complement, values, ierr))
     PetscCallA(MatFactorRestoreSchurComplement(factor, complement, status, ierr))
     PetscCallA(KSPDestroy(solver, ierr))
+    PetscCallA(MatDestroy(unit_sized, ierr))
     PetscCallA(ISDestroy(retained, ierr))
   end subroutine form_schur_complement
 end module gfb_schur_complement

@@ -14,28 +14,31 @@ from gfb_run import Checks, largest_difference, namelist_value, run_file
 REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"strip.json").read_text(encoding="utf-8"))
 FOIL = {"thickness": 0.102e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "half_length": 1.778e-3,
         "height": 0.508e-3, "pitch": 4.572e-3, "bumps": 10, "width": 38.1e-3, "fixed_edge": "leading"}
+HELD = {"support": "held"}  # the checks here are those of the linear structure
 MICROMETRE = 1.0e-6
 
 
-def solve(folder, name, ranks=1, **groups):
-    """Writes a case of the reference strip with changed groups, and runs it."""
+def solve(folder, name, ranks=1, status=0, **groups):
+    """Writes a case of the reference strip with changed groups, and runs it; corner lines cannot lift
+    where no load is given."""
     content = {"scene": {"analysis": "strip"}, "bump_foil": dict(FOIL), "model": {},
                "mesh": {"arc_elements": 12, "flat_elements": 3, "axial_elements": 50}}
     for group, keys in groups.items():
         content.setdefault(group, {}).update(keys)
     if content["scene"]["analysis"] == "strip" and "strip_load" not in content:
-        content["strip_load"] = {"pressure": 0.2e6}
+        content["strip_load"] = {"pressure": 0.2e6, **HELD}
     text = ""
     for group, keys in content.items():
         text += f"&{group}\n" + "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items()) + "/\n"
     path = pathlib.Path(folder)/f"{name}.nml"
     path.write_text(text, encoding="utf-8")
-    return run_file(path, folder, ranks=ranks, options=["--quiet"])
+    return run_file(path, folder, ranks=ranks, options=["--quiet"], status=status)
 
 
 def crests(answer):
     """Crest deflections in the order of the bumps."""
-    return numpy.array([answer[f"crest_deflection_{bump}"] for bump in range(1, FOIL["bumps"] + 1)])
+    bumps = sum(name.startswith("crest_deflection_") for name in answer.summary)
+    return numpy.array([answer[f"crest_deflection_{bump}"] for bump in range(1, bumps + 1)])
 
 
 def fields(answer):
@@ -59,7 +62,7 @@ def compare(checks, words, one, other, limit):
 
 
 def check_reference(checks, folder):
-    """Ten bumps of case 1 without friction; the corner lines cannot lift here, nor did they there."""
+    """Ten bumps of case 1 without friction; no corner line lifts there under the uniform load."""
     wanted = numpy.array(REFERENCE["case1"]["crest_deflection_um"]["friction 0"])*MICROMETRE
     strip = solve(folder, "reference")
     checks.below("case 1, friction 0: every crest", numpy.abs(crests(strip)/wanted - 1.0).max(), 1.0e-2)
@@ -69,13 +72,13 @@ def check_reference(checks, folder):
                 == REFERENCE["case1"]["distinct_super_elements"])
     checks.below("largest crest", strip["maximum_deflection"]/crests(strip).max() - 1.0, 1.0e-15)
     table = REFERENCE["case1"]["increasing_decreasing_peak_0.4MPa_um"]["friction 0"]
-    ramp = solve(folder, "ramp", strip_load={"pressure": 0.4e6, "distribution": "increasing_decreasing"})
-    # There the corner lines can lift from the sleeve, as they do beside the clamped and lightly loaded bump 1.
+    ramp = solve(folder, "ramp", strip_load={"pressure": 0.4e6, "distribution": "increasing_decreasing", **HELD})
+    # In the reference the corner lines beside the clamped and lightly loaded bump 1 lift from the sleeve.
     off = crests(ramp)/(numpy.array(table)*MICROMETRE) - 1.0
     print("       increasing-decreasing, friction 0, off by", " ".join(f"{value:.1e}" for value in off))
     checks.below("increasing-decreasing, friction 0: crests 3 to 10", numpy.abs(off[2:]).max(), 1.0e-2)
     same = [0.08e6*min(n, 11 - n) for n in range(1, 11)]
-    listed = solve(folder, "listed", strip_load={"distribution": "table", "bump_pressure": same})
+    listed = solve(folder, "listed", strip_load={"distribution": "table", "bump_pressure": same, **HELD})
     checks.below("the same as a table", largest_difference(crests(ramp), crests(listed)), 1.0e-12)
     return strip
 
@@ -90,7 +93,7 @@ def check_same(checks, folder, strip):
     compare(checks, "full, 3 ranks", solve(folder, "full_3", ranks=3, model={"reduction": "none"}), full, 1.0e-8)
     mirrored = solve(folder, "mirrored", bump_foil={"fixed_edge": "trailing"})
     checks.below("mirrored strip", largest_difference(crests(mirrored)[::-1], crests(strip)), 1.0e-9)
-    twice = solve(folder, "twice", strip_load={"pressure": 0.4e6})
+    twice = solve(folder, "twice", strip_load={"pressure": 0.4e6, **HELD})
     checks.below("twice the load", largest_difference(crests(twice), 2.0*crests(strip)), 1.0e-12)
     for line in ("flat", "half_flat"):
         one = solve(folder, line, bump_foil={"fixed_line": line})
