@@ -26,11 +26,11 @@ module gfb_newton
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
   integer, parameter :: longest_krylov = 60         !! GMRES iterations with old factors at most
   integer, parameter :: balances = 8                !! trials of a step's length for contacts
-  real(wp), parameter :: unbalanced = 2.0_wp        !! work at a step's end over that at its beginning
+  real(wp), parameter :: unbalanced = 10.0_wp        !! work at a step's end over that at its beginning
   integer, parameter :: cheap_krylov = 2            !! of a solve that new factors would not make shorter
   integer, parameter :: least_krylov = 5            !! new factors never pay before
   real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
-  real(wp), parameter :: krylov_tolerance = 1.0e-11_wp !! of the preconditioned residual, relative
+  real(wp), parameter :: krylov_tolerance = 1.0e-3_wp !! of the preconditioned residual, relative
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
 
   !> When to stop.
@@ -66,6 +66,7 @@ module gfb_newton
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
     real(wp), private :: unknowns = 1.0_wp   !! their number
+    real(wp), private :: size_x = 1.0_wp     !! largest unknown, at least 1
     real(wp), private :: step = 0.0_wp       !! last relative step, before it was shortened
     real(wp), private :: step_before = 0.0_wp
     real(wp), private :: length = 1.0_wp     !! share of the step that was gone
@@ -116,6 +117,7 @@ contains
     PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', system%symmetric)), ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
+    if (system%slow_change) call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
     ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
     ! or minimum degree that sets dense rows aside.
     call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('6', '2', system%dense_rows))
@@ -151,6 +153,7 @@ contains
     newton%step = huge(1.0_wp)
     newton%step_before = huge(1.0_wp)
     newton%length = 1.0_wp
+    newton%size_x = 1.0_wp
     newton%past = 0.0_wp
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
     ! PETSc marks what it cannot evaluate or solve with one over zero.
@@ -257,7 +260,8 @@ contains
     PetscCall(VecNorm(x, NORM_INFINITY, size_x, ierr))
     PetscCall(VecNorm(y, NORM_INFINITY, size_y, ierr))
     newton%step_before = newton%step
-    newton%step = size_y/max(1.0_wp, size_x)
+    newton%size_x = max(1.0_wp, size_x)
+    newton%step = size_y/newton%size_x
     newton%past = [before, newton%past(:memory - 1)]
     newton%length = 1.0_wp
     found = .false.
@@ -417,10 +421,10 @@ contains
     end if
     if (newton%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%step <= newton%settings%step_tolerance
-    if (newton%fresh .and. newton%step <= stagnation) then
+    if ((newton%fresh .or. newton%system%slow_change) .and. newton%step <= stagnation) then
       small = small .or. newton%step > 0.5_wp*newton%step_before
     end if
-    if (small .and. residual <= newton%settings%residual_tolerance) reason = SNES_CONVERGED_SNORM_RELATIVE
+    if (small .and. residual <= newton%settings%residual_tolerance*newton%size_x) reason = SNES_CONVERGED_SNORM_RELATIVE
   end subroutine test_convergence
 
   !> A line of the table of iterations.

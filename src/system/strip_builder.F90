@@ -29,7 +29,7 @@ module gfb_strip_builder
 
   ! Lent to slaves in the matrix alone, relative to a bump's stiffness: a foil that floats, or slides
   ! everywhere at its friction limit, leaves it regular.
-  real(wp), parameter :: tangential_floor = 1.0e-5_wp
+  real(wp), parameter :: tangential_floor = 1.0e-7_wp
   real(wp), parameter :: normal_floor = 1.0e-7_wp
   real(wp), parameter :: first_penetration = 1.0e-4_wp !! of the deflection, in the first guess
 
