@@ -26,6 +26,8 @@ module gfb_bearing_analysis
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
+  use gfb_contact_output, only: contact_record_type
+  use gfb_shell_output, only: add_shell_grids, record_shell_contacts, shell_contact_arrays, shell_quantities
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -55,16 +57,17 @@ contains
     type(quantity_type), allocatable :: summary(:)
     type(result_grid_type), allocatable :: grids(:)
     type(cost_type) :: cost
+    type(contact_record_type) :: contacts
 
     converged = .false.
     call plan_bearing(scene, log, plan)
     call log%heading('solution')
-    call solve_scene(scene, plan, log, bearing, newton, history, converged, error)
+    call solve_scene(scene, plan, log, bearing, newton, history, contacts, converged, error)
     if (allocated(error)) return
     answer = bearing_answer(bearing)
     cost = cost_of(bearing, newton, start_time)
     summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-                                 bearing%force_scale), cost_quantities(cost)]
+                                 bearing%force_scale), shell_quantities(bearing), cost_quantities(cost)]
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -72,20 +75,22 @@ contains
     end if
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)
+    call add_shell_grids(bearing, grids)
     call write_result_set(scene, folder, converged, provenance(command), summary, history, &
-                          [case_array_type ::], grids, log, error)
+                          shell_contact_arrays(bearing, contacts, size(history)), grids, log, error)
     call destroy_newton(newton)
     call bearing%destroy()
   end subroutine run_bearing
 
   !> The first answer, and those of the sweep, each from its neighbour.
-  subroutine solve_scene(scene, plan, log, bearing, newton, history, converged, error)
+  subroutine solve_scene(scene, plan, log, bearing, newton, history, contacts, converged, error)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(history_row_type), allocatable, intent(out) :: history(:)
+    type(contact_record_type), intent(inout) :: contacts
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
 
@@ -113,14 +118,14 @@ contains
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
-      call add_row(scene, bearing, 0, converged, history)
+      call add_row(scene, bearing, 0, converged, history, contacts)
       return
     end if
     if (converged .and. scene%sweep%hold_position) then
       call hold_shaft(bearing, log)
       path%touch_down_gap = 0.0_wp
     else if (converged) then
-      call add_row(scene, bearing, 1, converged, history)
+      call add_row(scene, bearing, 1, converged, history, contacts)
       call show_progress(log, scene%sweep, 1, begun)
     end if
     do point = first, size(scene%sweep%values)
@@ -128,7 +133,7 @@ contains
       call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
       converged = report%converged
       if (.not. converged) call explain(log, scene, bearing, report)
-      if (converged) call add_row(scene, bearing, point, converged, history)
+      if (converged) call add_row(scene, bearing, point, converged, history, contacts)
       if (converged) call show_progress(log, scene%sweep, point, begun)
       if (point == 1) begun = wall_time()
     end do
@@ -179,12 +184,13 @@ contains
   end subroutine explain
 
   !> Adds the present state to the history.
-  subroutine add_row(scene, bearing, point, converged, history)
+  subroutine add_row(scene, bearing, point, converged, history, contacts)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: point !! of the sweep; 0 without one
     logical, intent(in) :: converged
     type(history_row_type), allocatable, intent(inout) :: history(:)
+    type(contact_record_type), intent(inout) :: contacts
     type(history_row_type) :: row
 
     row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
@@ -196,6 +202,7 @@ contains
       end if
     end if
     history = [history, row]
+    call record_shell_contacts(bearing, size(history), max(1, size(scene%sweep%values)), contacts)
   end subroutine add_row
 
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.

@@ -71,7 +71,25 @@ contains
             'smallest absolute pressure'), &
             number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
                             'largest cell Peclet number of the film')]
+    if (answer%has_foils) list = [list, foil_quantities(answer)]
   end function answer_quantities
+
+  !> What foils that are structures add.
+  function foil_quantities(answer) result(list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type) :: list(5)
+    character(len=*), parameter :: meaning = 'way of the top foil''s edge towards the shaft, '
+
+    list(1) = number_quantity('leading_edge_lift', answer%leading_edge_lift(1), 'm', meaning//'at z = 0')
+    list(2) = number_quantity('leading_edge_lift_edge', answer%leading_edge_lift(2), 'm', &
+                              meaning//'at the ends of the bearing')
+    list(3) = number_quantity('trailing_edge_lift', answer%trailing_edge_lift(1), 'm', &
+                              meaning//'at z = 0')
+    list(4) = number_quantity('trailing_edge_lift_edge', answer%trailing_edge_lift(2), 'm', &
+                              meaning//'at the ends of the bearing')
+    list(5) = number_quantity('lifted_length', answer%lifted_length, '1', &
+                              'crest length without contact over all of it')
+  end function foil_quantities
 
   !> Quantities of what it cost.
   function cost_quantities(cost) result(list)
@@ -127,6 +145,12 @@ contains
     call log%line('pressure         '//engineering_text(answer%minimum_pressure, 'to', &
       1.0e-6_wp)//' '// &
                   engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
+    if (answer%has_foils) then
+      call log%line('top foil edges   leading '//lifts(answer%leading_edge_lift)//', trailing '// &
+                    lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
+      call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
+                    ' % of their length touch nothing')
+    end if
     call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
                   '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
     call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
@@ -136,6 +160,13 @@ contains
                   text(cost%peak_memory*1.0e-6_wp, &
                   3)//' MB, '//text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
+
+  !> Lifts at midplane and ends [um].
+  pure function lifts(value) result(words)
+    real(wp), intent(in) :: value(2) !! [m]
+    character(len=:), allocatable :: words
+    words = '('//text(value(1)*1.0e6_wp, 3)//', '//text(value(2)*1.0e6_wp, 3)//')'
+  end function lifts
 
   !> Two numbers with their unit.
   pure function pair(numbers, unit, scale) result(words)

@@ -1,9 +1,11 @@
-!> The contacts of a strip, step by step, for `/contact` of the result file.
+!> The contacts of a foil, step by step, for `/contact` of the result file.
 module gfb_contact_output
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: fetch_entries
   use gfb_case_file, only: case_array_type
-  use gfb_strip_system, only: strip_system_type, contact_sleeve, contact_top
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_strip_system, only: contact_sleeve, contact_top
   implicit none (type, external)
   private
   public :: record_contacts, contact_arrays, contact_field
@@ -18,58 +20,60 @@ module gfb_contact_output
 contains
 
   !> Adds the present step.
-  subroutine record_contacts(strip, step, steps, record)
-    type(strip_system_type), intent(in) :: strip
+  subroutine record_contacts(contacts, step, steps, record)
+    type(contact_set_type), intent(in) :: contacts
     integer, intent(in) :: step
     integer, intent(in) :: steps !! that there will be
     type(contact_record_type), intent(inout) :: record
     integer :: i
 
     if (.not. allocated(record%value)) then
-      allocate (record%value(fields, size(strip%contacts%point), steps), source=0.0_wp)
+      allocate (record%value(fields, size(contacts%point), steps), source=0.0_wp)
     end if
-    do i = 1, size(strip%contacts%point)
-      associate (point => strip%contacts%point(i))
-        record%value(:, i, step) = [normal_line_force(strip, i), point%force(:2)/point%length, &
-                                    point%place(:2), real(strip%contacts%state_of(i), wp)]
+    do i = 1, size(contacts%point)
+      associate (point => contacts%point(i))
+        record%value(:, i, step) = [normal_line_force(contacts, i), point%force(:2)/point%length, &
+                                    point%place(:2), real(contacts%state_of(i), wp)]
       end associate
     end do
   end subroutine record_contacts
 
   !> Normal force of a contact per length of its line [N/m].
-  pure function normal_line_force(strip, i) result(force)
-    type(strip_system_type), intent(in) :: strip
+  pure function normal_line_force(contacts, i) result(force)
+    type(contact_set_type), intent(in) :: contacts
     integer, intent(in) :: i
     real(wp) :: force
 
-    associate (point => strip%contacts%point(i))
+    associate (point => contacts%point(i))
       force = merge(point%pressing, point%force(3), point%pressed)/point%length
     end associate
   end function normal_line_force
 
   !> Force vectors and states at this rank's nodes of the mesh.
-  subroutine contact_field(strip, force, state)
-    type(strip_system_type), intent(in) :: strip
+  subroutine contact_field(contacts, structure, force, state)
+    type(contact_set_type), intent(in) :: contacts
+    type(foil_structure_type), intent(in) :: structure !! the slaves'
     real(wp), allocatable, intent(out) :: force(:, :) !! (3, local nodes) along (x, v, z) [N/m]
     real(wp), allocatable, intent(out) :: state(:, :) !! (1, local nodes)
     real(wp) :: local(3)
     integer :: i, node
 
-    allocate (force(3, size(strip%foil%part%mesh_node)), source=0.0_wp)
-    allocate (state(1, size(strip%foil%part%mesh_node)), source=0.0_wp)
-    do i = 1, size(strip%contacts%point)
-      associate (point => strip%contacts%point(i))
-        node = strip%foil%local_node(point%node)
-        local = [point%force(:2)/point%length, normal_line_force(strip, i)]
+    allocate (force(3, size(structure%part%mesh_node)), source=0.0_wp)
+    allocate (state(1, size(structure%part%mesh_node)), source=0.0_wp)
+    do i = 1, size(contacts%point)
+      associate (point => contacts%point(i))
+        node = structure%local_node(point%node)
+        local = [point%force(:2)/point%length, normal_line_force(contacts, i)]
         force(:, node) = matmul(point%frame, local)
-        state(1, node) = real(strip%contacts%state_of(i), wp)
+        state(1, node) = real(contacts%state_of(i), wp)
       end associate
     end do
   end subroutine contact_field
 
   !> Everything about the contacts, on the first rank's behalf.
-  function contact_arrays(strip, record, steps) result(arrays)
-    type(strip_system_type), intent(in) :: strip
+  function contact_arrays(contacts, structure, record, steps) result(arrays)
+    type(contact_set_type), intent(in) :: contacts
+    type(foil_structure_type), intent(in) :: structure !! the slaves'
     type(contact_record_type), intent(in) :: record
     integer, intent(in) :: steps !! recorded
     type(case_array_type), allocatable :: arrays(:)
@@ -77,15 +81,16 @@ contains
 
     allocate (arrays(0))
     if (.not. allocated(record%value)) return
-    call surface_arrays(strip, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
-    call surface_arrays(strip, record, steps, contact_top, '/contact/top', top)
+    call surface_arrays(contacts, structure, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
+    call surface_arrays(contacts, structure, record, steps, contact_top, '/contact/top', top)
     if (size(sleeve(1)%values) > 0) arrays = [arrays, sleeve]
     if (size(top(1)%values) > 0) arrays = [arrays, top]
   end function contact_arrays
 
   !> The arrays of one surface; a column a node, a row a step.
-  subroutine surface_arrays(strip, record, steps, surface, group, arrays)
-    type(strip_system_type), intent(in) :: strip
+  subroutine surface_arrays(contacts, structure, record, steps, surface, group, arrays)
+    type(contact_set_type), intent(in) :: contacts
+    type(foil_structure_type), intent(in) :: structure
     type(contact_record_type), intent(in) :: record
     integer, intent(in) :: steps
     integer, intent(in) :: surface !! `contact_sleeve` or `contact_top`
@@ -107,10 +112,10 @@ contains
     integer, allocatable :: number(:), own(:), all_nodes(:)
     integer :: i, total, field
 
-    associate (point => strip%contacts%point, mesh => strip%foil%mesh)
+    associate (point => contacts%point, mesh => structure%mesh)
       own = pack([(i, i=1, size(point))], point%law == surface)
       number = (point(own)%line - 1)*mesh%rows + modulo(point(own)%node - 1, mesh%rows) + 1
-      total = largest_line(strip, surface)*mesh%rows
+      total = largest_line(contacts, surface)*mesh%rows
       all_nodes = [(i, i=1, total)]
       allocate (place(3, size(own)))
       place(1, :) = real(point(own)%line, wp)
@@ -132,15 +137,15 @@ contains
   end subroutine surface_arrays
 
   !> Number of a surface's contact lines.
-  function largest_line(strip, surface) result(lines)
+  function largest_line(contacts, surface) result(lines)
     use gfb_petsc_session, only: largest_over_ranks
-    type(strip_system_type), intent(in) :: strip
+    type(contact_set_type), intent(in) :: contacts
     integer, intent(in) :: surface
     integer :: lines
     real(wp) :: found(1)
 
-    found = real(maxval([0, pack(strip%contacts%point%line, &
-      strip%contacts%point%law == surface)]), wp)
+    found = real(maxval([0, pack(contacts%point%line, &
+      contacts%point%law == surface)]), wp)
     found = largest_over_ranks(found)
     lines = nint(found(1))
   end function largest_line

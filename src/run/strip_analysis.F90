@@ -129,7 +129,7 @@ contains
           exit
         end if
         call read_answer(strip, full_force(scene), recorder, run%last)
-        call record_contacts(strip, step, steps, run%contacts)
+        call record_contacts(strip%contacts, step, steps, run%contacts)
         call strip%commit()
         if (step <= load%steps_up) run%full = run%last
         run%steps = step
@@ -252,13 +252,13 @@ contains
     call strip%foil_solution(solution)
     call strip%foil%displacements(solution, moved)
     PetscCallA(VecDestroy(solution, ierr))
-    call contact_field(strip, force, state)
+    call contact_field(strip%contacts, strip%foil, force, state)
     call create_foil_grid(strip%foil, 'bump_foil', grid)
     call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
     call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
     call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
     call add_stress(strip%foil, moved, grid)
-    arrays = [contact_arrays(strip, run%contacts, run%steps), companion_arrays(run%companions)]
+    arrays = [contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps), companion_arrays(run%companions)]
     call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
                           [grid], log, error)
   end subroutine write_strip

@@ -26,7 +26,9 @@ module gfb_newton
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
   integer, parameter :: longest_krylov = 60         !! GMRES iterations with old factors at most
   integer, parameter :: balances = 8                !! trials of a step's length for contacts
-  real(wp), parameter :: unbalanced = 10.0_wp        !! work at a step's end over that at its beginning
+  integer, parameter :: patience = 12               !! steps after which contacts are taken to cycle
+  real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
+  !! beginning, before and after that
   integer, parameter :: cheap_krylov = 2            !! of a solve that new factors would not make shorter
   integer, parameter :: least_krylov = 5            !! new factors never pay before
   real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
@@ -66,6 +68,7 @@ module gfb_newton
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
     real(wp), private :: unknowns = 1.0_wp   !! their number
+    integer, private :: steps = 0            !! of the present solve
     real(wp), private :: size_x = 1.0_wp     !! largest unknown, at least 1
     real(wp), private :: step = 0.0_wp       !! last relative step, before it was shortened
     real(wp), private :: step_before = 0.0_wp
@@ -154,6 +157,7 @@ contains
     newton%step_before = huge(1.0_wp)
     newton%length = 1.0_wp
     newton%size_x = 1.0_wp
+    newton%steps = 0
     newton%past = 0.0_wp
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
     ! PETSc marks what it cannot evaluate or solve with one over zero.
@@ -259,6 +263,7 @@ contains
     PetscCall(VecNorm(f, NORM_2, before, ierr))
     PetscCall(VecNorm(x, NORM_INFINITY, size_x, ierr))
     PetscCall(VecNorm(y, NORM_INFINITY, size_y, ierr))
+    newton%steps = newton%steps + 1
     newton%step_before = newton%step
     newton%size_x = max(1.0_wp, size_x)
     newton%step = size_y/newton%size_x
@@ -321,15 +326,17 @@ contains
     real(wp) :: start, low, high, work_low, work
     integer :: attempt
     logical :: moved
+    real(wp) :: allowed
 
     ierr = 0
+    allowed = merge(unbalanced(1), unbalanced(2), newton%steps <= patience)
     start = newton%system%virtual_work(f, y)
     work = newton%system%virtual_work(trial_residual, y)
     low = 0.0_wp
     work_low = start
     high = newton%length
     do attempt = 1, balances
-      if (.not. start > 0.0_wp .or. work >= -unbalanced*start) return
+      if (.not. start > 0.0_wp .or. work >= -allowed*start) return
       newton%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))
       PetscCall(VecWAXPY(trial, -newton%length, y, x, ierr))
       call newton%system%settle(trial, moved)

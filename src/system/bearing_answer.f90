@@ -24,6 +24,10 @@ module gfb_bearing_answer
     real(wp) :: maximum_pressure = 0.0_wp          !! [Pa]
     real(wp) :: minimum_pressure = 0.0_wp          !! [Pa]
     real(wp) :: maximum_peclet = 0.0_wp            !! of the film's cells [1]
+    logical :: has_foils = .false.                 !! the foils are structures
+    real(wp) :: leading_edge_lift(2) = 0.0_wp      !! towards the shaft, at z = 0 and at the ends [m]
+    real(wp) :: trailing_edge_lift(2) = 0.0_wp     !! the same of the other edge [m]
+    real(wp) :: lifted_length = 0.0_wp             !! crest length without contact over all of it [1]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
   end type bearing_answer_type
 
@@ -53,6 +57,7 @@ contains
       largest(7) = film%peclet(pressure, gap, rough_step)
       largest = largest_over_ranks(largest)
     end associate
+    if (bearing%foil%has_elastic) call read_lifts(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces)
     answer%force_without_suction = total(film_forces + 1:2*film_forces)
@@ -66,6 +71,42 @@ contains
     answer%maximum_peclet = largest(6)
     answer%rough_peclet = largest(7)
   end function bearing_answer
+
+  !> How far the edges of the top foil stand off the bumps, and how much of the crests touches nothing.
+  subroutine read_lifts(bearing, unknown, answer)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(bearing_answer_type), intent(inout) :: answer
+    real(wp) :: lift(size(bearing%mesh%mesh_node)), middle, share(2), sums(8)
+    integer :: i, station, row
+
+    lift = -bearing%foil%deflection(unknown)
+    sums = 0.0_wp
+    associate (whole => bearing%whole)
+      middle = minval(abs(whole%row_axial))
+      do i = 1, size(lift)
+        if (.not. bearing%mesh%owned(i)) cycle
+        station = (bearing%mesh%mesh_node(i) - 1)/whole%rows() + 1
+        row = bearing%mesh%mesh_node(i) - (station - 1)*whole%rows()
+        if (station /= 1 .and. station /= whole%stations()) cycle
+        share = [merge(1.0_wp, 0.0_wp, abs(whole%row_axial(row)) <= middle), &
+                 merge(1.0_wp, 0.0_wp, row == whole%rows() .or. (row == 1 .and. .not. whole%half))]
+        if (station == 1) then
+          sums(:2) = sums(:2) + share*lift(i)
+          sums(3:4) = sums(3:4) + share
+        else
+          sums(5:6) = sums(5:6) + share*lift(i)
+          sums(7:8) = sums(7:8) + share
+        end if
+      end do
+    end associate
+    sums = sum_over_ranks(sums)
+    answer%has_foils = .true.
+    answer%leading_edge_lift = sums(:2)/sums(3:4)
+    answer%trailing_edge_lift = sums(5:6)/sums(7:8)
+    share = sum_over_ranks(bearing%foil%crest_lengths())
+    if (share(2) > 0.0_wp) answer%lifted_length = share(1)/share(2)
+  end subroutine read_lifts
 
   !> Rows of the whole width, also where half of it is solved.
   pure function full_rows(bearing) result(position)

@@ -34,6 +34,7 @@ module gfb_foil_model
     procedure :: begin_step
     procedure :: set_hardness
     procedure :: softest
+    procedure :: crest_lengths
     procedure :: commit
     procedure :: destroy
     procedure :: place
@@ -97,6 +98,13 @@ contains
     real(wp) :: hardness
     hardness = 1.0_wp
   end function softest
+
+  !> Length of this rank's crest lines that touches nothing, and of all of them [m]; here there are none.
+  pure function crest_lengths(self) result(length)
+    class(foil_model_type), intent(in) :: self
+    real(wp) :: length(2)
+    length = 0.0_wp
+  end function crest_lengths
 
   !> A new Newton step begins where the contacts are; here none.
   subroutine begin_step(self)

@@ -8,6 +8,7 @@ module gfb_shell_foil
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_contact_law, only: state_open
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
@@ -39,6 +40,8 @@ module gfb_shell_foil
     procedure :: begin_step => shell_begin_step
     procedure :: set_hardness => shell_set_hardness
     procedure :: softest => shell_softest
+    procedure :: crest_lengths => shell_crest_lengths
+    procedure :: split_displacements
     procedure :: commit => shell_commit
     procedure :: destroy => shell_destroy
   end type shell_foil_type
@@ -164,6 +167,52 @@ contains
     real(wp) :: hardness
     hardness = self%first_hardness
   end function shell_softest
+
+  !> Length of this rank's crest lines that touches nothing, and of all of them [m].
+  pure function shell_crest_lengths(self) result(length)
+    class(shell_foil_type), intent(in) :: self
+    real(wp) :: length(2)
+    integer :: i
+
+    length = 0.0_wp
+    do i = 1, size(self%contacts%point)
+      associate (point => self%contacts%point(i))
+        if (point%law /= contact_top) cycle
+        length(2) = length(2) + point%length
+        if (self%contacts%state_of(i) == state_open) length(1) = length(1) + point%length
+      end associate
+    end do
+  end function shell_crest_lengths
+
+  !> Displacements of all this rank's nodes of both foils, condensed ones recovered.
+  subroutine split_displacements(self, unknown, top, bumps)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) [m], [1]
+    integer :: mine
+
+    mine = self%top%part%owned_unknowns
+    call expand(self%top, unknown(self%first + self%own_place(:mine)), top)
+    call expand(self%bumps, unknown(self%first + self%own_place(mine + 1:)), bumps)
+  end subroutine split_displacements
+
+  !> Displacements of one structure's nodes from its owned unknowns.
+  subroutine expand(structure, owned, moved)
+    type(foil_structure_type), intent(in) :: structure
+    real(wp), intent(in) :: owned(:) !! in SI
+    real(wp), allocatable, intent(out) :: moved(:, :)
+    Vec :: solution
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    allocate (moved(size(structure%slot, 1), size(structure%part%mesh_node)))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(size(owned), pint), PETSC_DETERMINE, solution, ierr))
+    PetscCallA(GFB_VecGetArray(solution, values, ierr))
+    values = owned
+    PetscCallA(GFB_VecRestoreArray(solution, values, ierr))
+    call structure%displacements(solution, moved)
+    PetscCallA(VecDestroy(solution, ierr))
+  end subroutine expand
 
   !> A new Newton step begins where the contacts are.
   subroutine shell_begin_step(self)
