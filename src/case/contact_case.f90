@@ -5,6 +5,7 @@ module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: foil_shell
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
@@ -47,22 +48,24 @@ module gfb_contact_case
 contains
 
   !> Reads the group; a strip that touches nothing need not have it.
-  subroutine read_contact_case(keys, contact, load, foil, clearance, analysis, shells)
+  subroutine read_contact_case(keys, contact, load, foil, clearance, analysis, model)
     type(case_keys_type), intent(inout) :: keys
     type(contact_case_type), intent(out) :: contact
     type(strip_load_case_type), intent(in) :: load
     type(bump_foil_case_type), intent(in) :: foil
     real(wp), intent(in) :: clearance !! of a bearing [m]
     integer, intent(in) :: analysis   !! 0 where it is not known
-    logical, intent(in) :: shells     !! the foils are shells
+    integer, intent(in) :: model      !! of the foils, `foil_rigid`, ...; 0 where it is not known
     character(len=:), allocatable :: misplaced
     real(wp) :: deflection
     logical :: strip, bearing
 
     strip = analysis == analysis_strip
-    bearing = is_bearing(analysis) .and. shells
-    misplaced = misplaced_group(analysis, strip .or. bearing)
-    if (is_bearing(analysis) .and. .not. shells) misplaced = "needs foil = 'shell' in &model"
+    bearing = is_bearing(analysis) .and. model == foil_shell
+    misplaced = misplaced_group(analysis, strip .or. is_bearing(analysis))
+    if (is_bearing(analysis) .and. .not. any(model == [0, foil_shell])) then
+      misplaced = "needs foil = 'shell' in &model"
+    end if
     deflection = typical_deflection(load, foil)
     if (bearing) deflection = clearance
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &
@@ -116,7 +119,8 @@ contains
       if ((strip .or. bearing) .and. bump_stiffness(foil) > 0.0_wp .and. deflection > 0.0_wp .and. &
           .not. (right .or. given)) then
         call keys%complain('contact', name, 'must be given: its default for these bumps and '// &
-                           'their load is out of range')
+                           trim(merge('this clearance', 'their load    ', bearing))// &
+                           ' is out of range')
       end if
     end subroutine scene_key
   end subroutine read_contact_case

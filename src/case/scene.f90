@@ -130,7 +130,7 @@ contains
                                bumps .and. .not. arc .and. .not. shells, bumps .and. .not. shells)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
-                             scene%bearing%clearance, analysis, scene%model%foil == foil_shell)
+                             scene%bearing%clearance, analysis, scene%model%foil)
     end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
     call read_solver_case(keys, scene%solver, scene%bearing)

@@ -250,6 +250,7 @@ contains
     value = 0.0_wp
     point = self%position(unknown)
     valid = self%film%is_open(unknown(:nodes), gap, point)
+    if (self%foil%has_elastic) valid = .not. any_rank(.not. valid) ! its matrix is spread over the ranks
     if (valid) then
       call self%film%add_residual(unknown(:nodes), gap, point, value)
       where (self%film%fixed .and. self%mesh%owned)
