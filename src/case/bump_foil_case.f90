@@ -47,7 +47,7 @@ contains
     type(bearing_case_type), intent(in) :: bearing
     logical, intent(in) :: as_shell   !! the strip is meshed: its shape must be known
     logical, intent(in) :: with_mass  !! and its density too
-    logical, intent(in) :: with_pitch !! more of it than an arc is meshed, and no pad tells the pitch
+    logical, intent(in) :: with_pitch !! more of it than an arc is meshed; no pad tells the pitch
     logical, intent(in) :: with_width !! no bearing tells the width
 
     call keys%start_group('bump_foil', required=as_shell, optional=.true., &

@@ -5,7 +5,7 @@ module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: foil_shell
+  use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
@@ -61,10 +61,10 @@ contains
     logical :: strip, bearing
 
     strip = analysis == analysis_strip
-    bearing = is_bearing(analysis) .and. model == foil_shell
+    bearing = is_bearing(analysis) .and. meshes_foils(model)
     misplaced = misplaced_group(analysis, strip .or. is_bearing(analysis))
-    if (is_bearing(analysis) .and. .not. any(model == [0, foil_shell])) then
-      misplaced = "needs foil = 'shell' in &model"
+    if (is_bearing(analysis) .and. .not. (model == 0 .or. meshes_foils(model))) then
+      misplaced = "needs foil = 'shell' in &model, or 'beam'"
     end if
     deflection = typical_deflection(load, foil)
     if (bearing) deflection = clearance

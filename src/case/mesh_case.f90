@@ -4,7 +4,7 @@ module gfb_mesh_case
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: model_case_type, foil_shell
+  use gfb_model_case, only: model_case_type, meshes_foils
   use gfb_text, only: text
   use gfb_value_rules, only: from_to
   implicit none (type, external)
@@ -55,16 +55,16 @@ contains
     end if
     call keys%integer_key('flat_elements', mesh%flat_elements, &
                           'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
-    can_align = model%foil == foil_shell .and. foil%bumps > 0 .and. foil%pitch > 0.0_wp .and. &
+    can_align = meshes_foils(model%foil) .and. foil%bumps > 0 .and. foil%pitch > 0.0_wp .and. &
                 foil%half_length > 0.0_wp .and. foil%height > 0.0_wp
     mesh%align_crests = can_align
     call keys%logical_key('align_crests', mesh%align_crests, &
                           'lines of nodes of film and top foil above the crests; their number '// &
                           'then follows circumferential_elements nearly', &
-                          default='`.true.` for shells with bumps')
+                          default='`.true.` for shells and beams with bumps')
     if (mesh%align_crests .and. .not. can_align .and. model%foil > 0) then
       call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch, "// &
-                         'half_length and height in &bump_foil')
+                         "half_length and height in &bump_foil; 'beam' will do, too")
     end if
     if (int(mesh%circumferential_elements, long)*mesh%axial_elements > most_in_all) then
       call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &

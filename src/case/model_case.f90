@@ -6,11 +6,12 @@ module gfb_model_case
   use gfb_value_rules, only: positive
   implicit none (type, external)
   private
-  public :: model_case_type, read_model_case
+  public :: model_case_type, read_model_case, meshes_foils
 
   integer, parameter, public :: foil_rigid = 1
   integer, parameter, public :: foil_elastic_foundation = 2 !! independent bump springs
   integer, parameter, public :: foil_shell = 3              !! both foils as shells
+  integer, parameter, public :: foil_beam = 4               !! both foils as planar beams
 
   integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
@@ -27,7 +28,7 @@ module gfb_model_case
   integer, parameter, public :: foundation_pressure_axial_mean = 2
 
   character(len=*), parameter :: foil_words(*) = [character(len=18) :: &
-                                                  'rigid', 'elastic_foundation', 'shell']
+                                                  'rigid', 'elastic_foundation', 'shell', 'beam']
   character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
@@ -70,4 +71,11 @@ contains
                          'what deflects the foundation: the pressure there, or its axial mean')
     call keys%finish_group()
   end subroutine read_model_case
+
+  !> Whether top foil and bumps have meshes of their own.
+  elemental function meshes_foils(foil) result(meshes)
+    integer, intent(in) :: foil !! the model's, 0 where it is not known
+    logical :: meshes
+    meshes = foil == foil_shell .or. foil == foil_beam
+  end function meshes_foils
 end module gfb_model_case

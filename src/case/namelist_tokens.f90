@@ -103,23 +103,26 @@ contains
     type(token_type), intent(inout) :: token
     type(complaints_type), intent(inout) :: complaints
     character(len=1) :: quote
-    integer :: line_end
+    logical :: closed
 
     quote = words(at:at)
-    line_end = end_of_line(words, at)
+    closed = .false.
     token%kind = token_string
     token%first = at + 1
     at = at + 1
-    do while (at < line_end)
+    ! The line's end is not sought ahead: a long line can hold very many strings.
+    do while (at <= len(words))
+      if (scan(words(at:at), line_ends) > 0) exit
       if (words(at:at) == quote) then
-        if (at + 1 >= line_end) exit
-        if (words(at + 1:at + 1) /= quote) exit
+        closed = at == len(words)
+        if (.not. closed) closed = words(at + 1:at + 1) /= quote
+        if (closed) exit
         at = at + 1
       end if
       at = at + 1
     end do
     token%last = at - 1
-    if (at < line_end) then
+    if (closed) then
       at = at + 1
     else
       call complaints%add(token%line, 'a string without its closing quote: '//quote// &

@@ -8,7 +8,7 @@ module gfb_scene
   use gfb_contact_case, only: contact_case_type, read_contact_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, read_mesh_case
-  use gfb_model_case, only: model_case_type, read_model_case, foil_shell
+  use gfb_model_case, only: model_case_type, read_model_case, meshes_foils
   use gfb_operation_case, only: operation_case_type, read_operation_case
   use gfb_output_case, only: output_case_type, read_output_case
   use gfb_modes_case, only: modes_case_type, read_modes_case, part_half_arc, part_arc, part_flat, &
@@ -83,8 +83,10 @@ contains
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
-    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, scene%model)
-    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, scene%general%analysis)
+    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
+                     scene%model)
+    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
+                             scene%general%analysis)
     call check_plates(keys, scene%strip_load, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
@@ -108,7 +110,7 @@ contains
     logical :: modes !! they are asked for, and of what is known
     logical :: plate !! of the top foil
     logical :: bumps !! the bump foil is meshed
-    logical :: shells !! of a bearing: both foils are meshed
+    logical :: both  !! of a bearing: both foils are meshed
     logical :: arc   !! an arc of it alone
 
     call read_scene_case(keys, scene%general)
@@ -117,17 +119,17 @@ contains
     associate (analysis => scene%general%analysis, part => scene%modes%part)
       modes = analysis == analysis_modes .and. part /= 0
       plate = modes .and. part == part_top_foil
-      shells = is_bearing(analysis) .and. scene%model%foil == foil_shell
-      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. shells
+      both = is_bearing(analysis) .and. meshes_foils(scene%model%foil)
+      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. both
       arc = modes .and. (part == part_half_arc .or. part == part_arc)
       call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
                              is_bearing(analysis), bearing_misplaced(analysis, part))
       call read_gas_case(keys, scene%gas, analysis)
       call read_operation_case(keys, scene%operation, analysis)
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, plate .or. shells, plate)
+      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
-                               bumps .and. .not. arc .and. .not. shells, bumps .and. .not. shells)
+                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)

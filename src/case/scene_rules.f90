@@ -2,12 +2,12 @@
 module gfb_scene_rules
   use gfb_kinds, only: wp, long
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, fixed_edge_none, has_flats, &
-                                bumps_overlap
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, fixed_edge_none, &
+                                has_flats, bumps_overlap
   use gfb_case_keys, only: case_keys_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
-                            half_width_yes
+                            meshes_foils, half_width_yes
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
@@ -101,7 +101,7 @@ contains
     integer(long) :: elements
     logical :: strip, bearing
 
-    bearing = is_bearing(analysis) .and. model%foil == foil_shell
+    bearing = is_bearing(analysis) .and. meshes_foils(model%foil)
     if (analysis /= analysis_strip .and. analysis /= analysis_modes .and. .not. bearing) return
     if (analysis == analysis_modes .and. modes%part == part_top_foil) return
     strip = analysis == analysis_strip .or. modes%part == part_strip .or. bearing
@@ -128,7 +128,7 @@ contains
     end if
   end subroutine check_strip
 
-  !> A bearing with shells: its strip is fixed at an edge and as wide as the bearing, its pad is open.
+  !> A bearing of shells or beams: its strip is fixed at an edge and as wide as it, its pad open.
   subroutine check_shell_bearing(keys, foil, bearing, model, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(in) :: foil
@@ -137,13 +137,14 @@ contains
     integer, intent(in) :: analysis  !! 0 where it is not known
     real(wp), parameter :: rounding = 1.0e-9_wp !! of a width that is the bearing's, relative
 
-    if (.not. is_bearing(analysis) .or. model%foil /= foil_shell) return
+    if (.not. is_bearing(analysis) .or. .not. meshes_foils(model%foil)) return
     if (foil%fixed_edge == fixed_edge_none) then
       call keys%complain('bump_foil', 'fixed_edge', "must be 'leading' or 'trailing' in a bearing")
     end if
     if (bearing%leading_edge_condition == leading_edge_periodic) then
-      call keys%complain('bearing', 'leading_edge_condition', "must be 'slit' with foil = 'shell': "// &
-                         'a foil has edges')
+      call keys%complain('bearing', 'leading_edge_condition', "must be 'slit' with foil = '"// &
+                         trim(merge('shell', 'beam ', model%foil == foil_shell))// &
+                         "': a foil has edges")
     end if
     if (bearing%length > 0.0_wp .and. foil%width > 0.0_wp .and. &
         abs(foil%width - bearing%length) > rounding*bearing%length) then

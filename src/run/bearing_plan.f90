@@ -6,7 +6,8 @@ module gfb_bearing_plan
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: is_symmetric
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
-  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_shell, half_width_auto, half_width_yes, &
+  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, &
+                            meshes_foils, half_width_auto, half_width_yes, &
                             film_scheme_supg, film_scheme_auto, foundation_pressure_axial_mean
   use gfb_bearing_case, only: pad_length
   use gfb_operation_case, only: angular_speed
@@ -36,7 +37,7 @@ contains
 
     plan%circumferential = scene%mesh%circumferential_elements
     plan%axial = scene%mesh%axial_elements
-    plan%may_coarsen = scene%model%foil /= foil_shell
+    plan%may_coarsen = .not. meshes_foils(scene%model%foil)
     plan%floats = scene%general%analysis == analysis_equilibrium
     call log%heading('what the scene needs')
     call describe_foil(scene, log)
@@ -78,6 +79,9 @@ contains
       end if
     else if (scene%model%foil == foil_shell) then
       call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps as shells in contact')
+    else if (scene%model%foil == foil_beam) then
+      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)// &
+                    ' bumps as planar beams in contact, under the axial mean of the pressure')
     end if
   end subroutine describe_foil
 

@@ -29,7 +29,11 @@ module gfb_cold_start
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
 
-  real(wp), parameter :: start_eccentricity = 0.5_wp !! of the free clearance, where none is given [1]
+  !> Eccentricities to begin with where none is given, over the free clearance: with foils that can lift
+  !> a position near the answer does best.
+  real(wp), parameter :: start_eccentricity(3) = [0.5_wp, 0.9_wp, 0.25_wp]
+  integer, parameter :: order_with_contacts(3) = [2, 1, 3]
+  real(wp), parameter :: shortest_trial = 0.02_wp    !! step of a start while others are left [1]
   real(wp), parameter :: start_attitude = 0.5_wp     !! of that position [rad]
   real(wp), parameter :: first_stride = 10.0_wp      !! factor by which contacts are made harder
   real(wp), parameter :: shortest_stride = 1.1_wp
@@ -106,12 +110,39 @@ contains
         if (report%converged) return
       end if
     end if
-    call bearing%foil%set_hardness(bearing%foil%softest())
-    call guess_position(bearing, scene, target)
-    call find_way(bearing, newton, target, settings, report)
-    if (report%converged) call harden(bearing, newton, target, settings, report)
-    call bearing%foil%set_hardness(1.0_wp)
+    if (bearing%foil%softest() < 1.0_wp) then
+      call find_with_contacts(scene, target, settings, bearing, newton, report)
+    else
+      call guess_position(bearing, scene, target, start_eccentricity(1))
+      call find_way(bearing, newton, target, settings, report)
+    end if
   end subroutine find_answer
+
+  !> From nothing with foils in contact: soft contacts first, and several positions to begin with.
+  subroutine find_with_contacts(scene, target, settings, bearing, newton, report)
+    type(scene_type), intent(in) :: scene
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(path_report_type), intent(out) :: report
+    type(path_settings_type) :: trial
+    integer :: attempt, attempts
+
+    attempts = size(start_eccentricity)
+    if (scene%operation%eccentricity_given .or. .not. bearing%floats) attempts = 1
+    do attempt = 1, attempts
+      trial = settings
+      if (attempt < attempts) trial%smallest_step = max(trial%smallest_step, shortest_trial)
+      call bearing%foil%set_hardness(bearing%foil%softest())
+      call guess_position(bearing, scene, target, start_eccentricity(order_with_contacts(attempt)))
+      call find_way(bearing, newton, target, trial, report)
+      if (report%converged) call harden(bearing, newton, target, settings, report)
+      call bearing%foil%set_hardness(1.0_wp)
+      if (report%converged) return
+      if (attempt < attempts) call newton%log%line('no answer from this start ('//report%reason//'): another one')
+    end do
+  end subroutine find_with_contacts
 
   !> Makes the contacts as hard as the scene has them, from an answer with soft ones.
   subroutine harden(bearing, newton, target, settings, report)
@@ -248,10 +279,11 @@ contains
   end subroutine put_at_rest
 
   !> A position to begin with: the scene's, or halfway to where a film would carry the load.
-  subroutine guess_position(bearing, scene, target)
+  subroutine guess_position(bearing, scene, target, eccentricity)
     type(bearing_system_type), intent(inout) :: bearing
     type(scene_type), intent(in) :: scene
     type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
     real(wp) :: direction, free, unknown(bearing%local_size())
 
     bearing%point%eccentricity = target%eccentricity
@@ -260,7 +292,7 @@ contains
       free = scene%bearing%clearance - 0.5_wp*scene%bearing%length*norm2(target%tilt)
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
-      bearing%point%eccentricity = -start_eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
+      bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
     end if
     unknown = 0.0_wp
     unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity

@@ -33,6 +33,7 @@ module gfb_newton
   integer, parameter :: least_krylov = 5            !! new factors never pay before
   real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
   real(wp), parameter :: krylov_tolerance = 1.0e-3_wp !! of the preconditioned residual, relative
+  real(wp), parameter :: hopeless_krylov = 1.0e10_wp !! growth of that residual that ends a solve
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
 
   !> When to stop.
@@ -113,7 +114,7 @@ contains
     if (system%slow_change) then
       PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
       PetscCallA(KSPGMRESSetRestart(linear, int(longest_krylov, pint), ierr))
-      PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, huge(1.0_wp), int(longest_krylov, pint), ierr))
+      PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, hopeless_krylov, int(longest_krylov, pint), ierr))
       PetscCallA(SNESSetMaxLinearSolveFailures(newton%snes, huge(1_pint), ierr))
     end if
     PetscCallA(KSPGetPC(linear, factors, ierr))

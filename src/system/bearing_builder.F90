@@ -9,12 +9,14 @@ module gfb_bearing_builder
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
-                            foundation_pressure_axial_mean, reduction_guyan
+                            foil_beam, meshes_foils, foundation_pressure_axial_mean, reduction_guyan
   use gfb_bump_stiffness, only: walowit_anno_stiffness
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations
   use gfb_shell_foil, only: shell_foil_type
   use gfb_shell_foil_builder, only: create_shell_foil
+  use gfb_beam_foil, only: beam_foil_type
+  use gfb_beam_foil_builder, only: create_beam_foil
   use gfb_foil_model, only: foil_model_type
   use gfb_rigid_foil, only: rigid_foil_type, create_rigid_foil
   use gfb_foundation_foil, only: foundation_foil_type, create_local_foundation, &
@@ -65,7 +67,7 @@ contains
     type(film_mesh_type) :: mesh
 
     associate (bearing => scene%bearing)
-      if (scene%model%foil == foil_shell .and. scene%mesh%align_crests) then
+      if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half)
       else
@@ -86,6 +88,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     type(shell_foil_type), allocatable :: shells
+    type(beam_foil_type), allocatable :: beams
     type(rigid_foil_type), allocatable :: rigid
     type(foundation_foil_type), allocatable :: foundation
     integer :: rank, ranks
@@ -116,6 +119,10 @@ contains
                              scene%model%reduction == reduction_guyan, shells, error)
       if (allocated(error)) return
       call move_alloc(shells, foil)
+    case (foil_beam)
+      allocate (beams)
+      call create_beam_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, beams)
+      call move_alloc(beams, foil)
     case default
       error stop 'a foil model without equations'
     end select

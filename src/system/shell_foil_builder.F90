@@ -6,31 +6,28 @@ module gfb_shell_foil_builder
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_scene, only: scene_type
-  use gfb_strip_load_case, only: bump_stiffness
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
-  use gfb_foil_builder, only: strip_shape, section_of, plate_section, symmetry_supports
+  use gfb_foil_builder, only: section_of, plate_section, symmetry_supports
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bearing_case, only: pad_length
   use gfb_contact_set, only: contact_point_type
-  use gfb_strip_builder, only: line_shares, contact_laws, crest_name
+  use gfb_strip_builder, only: line_shares, crest_name
   use gfb_master_search, only: find_masters
   use gfb_projection, only: projection_type, project
   use gfb_shell_geometry, only: node_unknowns
   use gfb_shell_foil, only: shell_foil_type, contact_sleeve, contact_top
+  use gfb_foil_places, only: top_mesh, shape_on_pad, set_laws, list_wanted, place_unknowns, &
+                             add_pressure, size_unknowns
   implicit none (type)
   private
   public :: create_shell_foil
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
   integer, parameter :: corners = 4
-  real(wp), parameter :: first_penetration = 1.0e-4_wp !! that counts as touching, over the clearance
-  real(wp), parameter :: soft_contact = 20.0_wp        !! stiffness to begin with, over a bump's
-  real(wp), parameter :: normal_floor = 1.0e-7_wp      !! lent to slaves in the matrix, over a bump's stiffness
 
 contains
 
@@ -56,12 +53,7 @@ contains
     if (allocated(error)) return
     call number_unknowns(foil, first)
     call join_stiffnesses(foil, first)
-    foil%contacts%law = contact_laws(scene%contact)
-    foil%contacts%secant_penetration = first_penetration*scene%bearing%clearance
-    foil%contacts%floor_normal = normal_floor*bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-    foil%first_hardness = min(1.0_wp, soft_contact*bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch/ &
-                              (scene%contact%normal_stiffness* &
-                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
+    call set_laws(scene, foil)
     call add_contacts(scene, foil)
     call list_wanted(foil, mesh, first, wanted)
     call place_unknowns(foil, mesh, first, wanted)
@@ -84,9 +76,7 @@ contains
     integer :: i, k
 
     none = .false.
-    ! Its mid-surface lies above the crests' by half of both thicknesses.
-    mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), scene%bump_foil%height + &
-                         0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half)
+    mesh = top_mesh(scene, film)
     fixed = symmetry_supports(mesh)
     if (scene%top_foil%fixed_edge == top_foil_leading) then
       fixed(:, node_set(mesh, 'leading_edge')) = .true.
@@ -114,8 +104,7 @@ contains
     type(substructure_type), allocatable :: piece(:)
     logical, allocatable :: fixed(:, :)
 
-    shape = strip_shape(scene)
-    if (shape%mirrored) shape%edge = pad_length(scene%bearing)
+    shape = shape_on_pad(scene)
     mesh = bump_strip_mesh(shape, film%row_axial, film%half)
     piece = strip_substructures(shape, mesh)
     fixed = symmetry_supports(mesh)
@@ -338,107 +327,6 @@ contains
     logical :: has
     has = size(point%share) > 0
   end function has_master
-
-  !> Marks the foil's unknowns that this rank needs.
-  subroutine list_wanted(foil, mesh, first, wanted)
-    type(shell_foil_type), intent(in) :: foil
-    type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: first !! foil's unknowns of the ranks before this one
-    logical, allocatable, intent(out) :: wanted(:) !! by the foil's own numbers
-    integer :: i
-
-    allocate (wanted(0:foil%top%unknowns + foil%bumps%unknowns), source=.false.)
-    wanted(first + 1:first + foil%owned) = .true.
-    call mark(foil%top_number(radial, mesh%mesh_node), wanted)
-    do i = 1, size(foil%contacts%point)
-      call mark(foil%contacts%point_unknowns(i), wanted)
-    end do
-    wanted(0) = .false.
-  end subroutine list_wanted
-
-  !> Marks numbers in a list.
-  pure subroutine mark(number, marked)
-    integer, intent(in) :: number(:)
-    logical, intent(inout) :: marked(0:)
-    integer :: i
-
-    do i = 1, size(number)
-      marked(number(i)) = .true.
-    end do
-  end subroutine mark
-
-  !> Gives the needed unknowns their places, and the contacts and film nodes theirs.
-  subroutine place_unknowns(foil, mesh, first, wanted)
-    type(shell_foil_type), intent(inout) :: foil
-    type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: first
-    logical, intent(in) :: wanted(0:)
-    integer :: place(0:ubound(wanted, 1)), i, k
-
-    foil%global_unknown = pack([(i, i=0, ubound(wanted, 1))], wanted)
-    place = 0
-    do i = 1, size(foil%global_unknown)
-      place(foil%global_unknown(i)) = i
-    end do
-    foil%own_place = place(first + 1:first + foil%owned)
-    foil%source = -place(foil%top_number(radial, mesh%mesh_node))
-    allocate (foil%rate(size(foil%source)), source=-1.0_wp)
-    allocate (foil%origin(size(foil%source)), source=0.0_wp)
-    do i = 1, size(foil%contacts%point)
-      associate (point => foil%contacts%point(i))
-        point%slave = place(point%slave)
-        do k = 1, size(point%share)
-          point%master(:, k) = place(point%master(:, k))
-        end do
-      end associate
-    end do
-    foil%contacts%global = foil%global_unknown
-  end subroutine place_unknowns
-
-  !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
-  subroutine add_pressure(film, mesh, element_nodes, foil)
-    type(film_mesh_type), intent(in) :: film
-    type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: element_nodes(:, :) !! (4, elements), local nodes
-    type(shell_foil_type), intent(inout) :: foil
-
-    real(wp), parameter :: bilinear(corners, corners) = reshape([ &
-      4.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 1.0_wp, &
-      1.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 4.0_wp], [corners, corners])/36.0_wp
-    integer :: i, station(corners), row(corners)
-    real(wp) :: area
-
-    foil%pressed = element_nodes
-    allocate (foil%pushed(corners, size(element_nodes, 2)))
-    allocate (foil%weight(corners, corners, size(element_nodes, 2)))
-    do i = 1, size(element_nodes, 2)
-      foil%pushed(:, i) = -foil%source(element_nodes(:, i))
-      station = (mesh%mesh_node(element_nodes(:, i)) - 1)/film%rows() + 1
-      row = modulo(mesh%mesh_node(element_nodes(:, i)) - 1, film%rows()) + 1
-      area = film%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
-             (maxval(film%row_axial(row)) - minval(film%row_axial(row)))
-      foil%weight(:, :, i) = area*bilinear
-    end do
-  end subroutine add_pressure
-
-  !> Sizes of displacements and forces.
-  subroutine size_unknowns(scene, film, foil, wanted)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(shell_foil_type), intent(inout) :: foil
-    logical, intent(in) :: wanted(0:)
-    logical :: turns(0:ubound(wanted, 1))
-    real(wp) :: force, scale(0:ubound(wanted, 1))
-
-    turns = .false.
-    call mark(pack(foil%top_number(axial + 1:, :), .true.), turns)
-    call mark(pack(foil%bump_number(axial + 1:, :), .true.), turns)
-    scale = merge(scene%bump_foil%half_length, 1.0_wp, turns)
-    force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
-            scene%bearing%length/scene%mesh%axial_elements
-    foil%unknown_scale = scene%bearing%clearance/scale(foil%global_unknown)
-    foil%equation_scale = force*scale(foil%global_unknown)
-  end subroutine size_unknowns
 
   !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
   subroutine count_entries(foil, film)

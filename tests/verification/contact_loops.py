@@ -99,14 +99,16 @@ def check_contacts(checks, folder):
             checks.that(f"{surface}: as many {state} as the history counts",
                         (((found["state"] == number)*twice).sum(axis=(1, 2)) == rows[f"{surface}_{state}"]).all())
         pressing = line_sums(found["normal_force"], z)
-        checks.below(f"{surface}: normal forces against the plate's", largest_difference(pressing, rows["force"]), 1.0e-9)
+        checks.below(f"{surface}: normal forces against the plate's", largest_difference(pressing, rows["force"]),
+                     1.0e-9)
         friction = friction + line_sums(found["friction_x"], z)
         limit = 0.2*found["normal_force"]
         size = numpy.hypot(found["friction_x"], found["friction_z"])
         checks.that(f"{surface}: friction stays within Coulomb's limit", (size <= limit*(1.0 + 1.0e-9)).all())
         # A contact that stays closed carries tanh(3) of the limit from its drag length on.
         slides = found["state"][:10] == 2
-        checks.that(f"{surface}: what slides has reached it", (size[:10] >= 0.99*limit[:10])[slides].all() and slides.any())
+        checks.that(f"{surface}: what slides has reached it",
+                    (size[:10] >= 0.99*limit[:10])[slides].all() and slides.any())
     checks.below("friction of sleeve and plate cancel", numpy.abs(friction).max()/rows["force"].max(), 1.0e-9)
     loaded = squeezed(folder, "loaded", steps=5, down=0, mesh=SMALL)
     rows, state = loaded.history(), fields(loaded)["contact_state"]
@@ -196,7 +198,8 @@ def check_path(checks, folder):
             cut = run(solver={"maximum_iterations": fewest})
         checks.that(f"{words}: at most {fewest} iterations make detours", "cuts" in cut.log and "cuts" not in whole.log)
         checks.below(f"{words}: crests after detours", largest_difference(crests(cut), crests(whole)), 1.0e-8)
-        checks.below(f"{words}: energy after detours", cut["dissipated_energy"]/whole["dissipated_energy"] - 1.0, 1.0e-8)
+        checks.below(f"{words}: energy after detours", cut["dissipated_energy"]/whole["dissipated_energy"] - 1.0,
+                     1.0e-8)
     differences = []
     lengths = [2.0e-9, 5.0e-10, 1.25e-10]
     for length in lengths:

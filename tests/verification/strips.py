@@ -128,7 +128,8 @@ def check_modes(checks, folder):
     checks.that("a free strip has six rigid modes", free["rigid_modes"] == 6)
     errors = []
     for kept in (0, 10):
-        strip = solve(folder, f"kept_{kept}", bump_foil=density, modes={"count": 10, "substructure_modes": kept}, **case)
+        strip = solve(folder, f"kept_{kept}", bump_foil=density, modes={"count": 10, "substructure_modes": kept},
+                      **case)
         full, reduced = (numpy.array([strip[f"{kind}frequency_{i}"] for i in range(1, 11)])
                          for kind in ("", "craig_bampton_"))
         errors.append(numpy.abs(reduced/full - 1.0).max())
@@ -169,7 +170,8 @@ def check_reader(checks, folder, strip):
     grid = reader.GetOutput()
     checks.that("vtk: 151 x 51 points", grid.GetNumberOfPoints() == 151*51)
     checks.that("vtk: 150 x 50 cells", grid.GetNumberOfCells() == 150*50)
-    checks.that("vtk: displacement is a vector", grid.GetPointData().GetArray("displacement").GetNumberOfComponents() == 3)
+    checks.that("vtk: displacement is a vector",
+                grid.GetPointData().GetArray("displacement").GetNumberOfComponents() == 3)
 
 
 def main():

@@ -1,0 +1,258 @@
+#include "gfb_petsc.h"
+!> From a scene to the beams under its film: stations, numbers, stiffness, contacts, pressure.
+!>
+!> Beams are so small beside the film that the first rank owns all of them, and their contacts.
+module gfb_beam_foil_builder
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_scene, only: scene_type
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_foil_mesh, only: bump_strip_mesh
+  use gfb_planar_beam, only: beam_section_type, plane_strain_section, linear_beam_stiffness, &
+                             bent_beam_stiffness, beam_unknowns
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_contact_set, only: contact_point_type
+  use gfb_strip_builder, only: crest_name
+  use gfb_shell_foil, only: contact_sleeve, contact_top
+  use gfb_foil_places, only: top_mesh, shape_on_pad, set_laws, list_wanted, place_unknowns, &
+                             add_pressure, size_unknowns
+  use gfb_beam_foil, only: beam_foil_type
+  implicit none (type)
+  private
+  public :: create_beam_foil
+
+  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
+  integer, parameter :: about_axis = 4                        !! the turn among a node's unknowns
+  integer, parameter :: component(beam_unknowns) = [tangential, radial, about_axis] !! that a beam has
+  integer, parameter :: ends = 2
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of crests at the top foil's edge, over the pitch
+
+contains
+
+  !> Both foils under a film.
+  subroutine create_beam_foil(scene, film, mesh, element_nodes, foil)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(local_mesh_type), intent(in) :: mesh  !! this rank's part of the film
+    integer, intent(in) :: element_nodes(:, :) !! (4, elements) its elements, local nodes
+    type(beam_foil_type), intent(out) :: foil
+
+    logical, allocatable :: wanted(:)
+    integer :: rank, first
+    PetscErrorCode :: ierr
+
+    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+    foil%ambient_pressure = scene%gas%ambient_pressure
+    foil%top%mesh = top_mesh(scene, film)
+    foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half)
+    call number_unknowns(foil, scene%top_foil%fixed_edge == top_foil_leading)
+    first = foil%top%unknowns + foil%bumps%unknowns
+    foil%owned = merge(first, 0, rank == 0)
+    if (rank == 0) first = 0
+    call set_laws(scene, foil)
+    call add_contacts(scene, foil)
+    call create_stiffness(scene, foil)
+    call list_wanted(foil, mesh, first, wanted)
+    call place_unknowns(foil, mesh, first, wanted)
+    call add_pressure(film, mesh, element_nodes, foil)
+    call size_unknowns(scene, film, foil, wanted)
+    foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
+    call count_entries(foil, film)
+  end subroutine create_beam_foil
+
+  !> Numbers the unknowns of both foils, the same for all nodes of a station.
+  pure subroutine number_unknowns(foil, leading)
+    type(beam_foil_type), intent(inout) :: foil
+    logical, intent(in) :: leading !! the top foil is fixed at its leading edge, else at the trailing one
+    integer :: last
+
+    last = 0
+    if (leading) then
+      call number_stations(foil%top%mesh, 'leading_edge', last, foil%top_number)
+    else
+      call number_stations(foil%top%mesh, 'trailing_edge', last, foil%top_number)
+    end if
+    foil%top%unknowns = last
+    call number_stations(foil%bumps%mesh, 'fixed_edge', last, foil%bump_number)
+    foil%bumps%unknowns = last - foil%top%unknowns
+  end subroutine number_unknowns
+
+  !> Numbers the unknowns of a foil, station by station.
+  pure subroutine number_stations(mesh, fixed_set, last, number)
+    type(quad_mesh_type), intent(in) :: mesh
+    character(len=*), intent(in) :: fixed_set         !! name of the nodes that are clamped
+    integer, intent(inout) :: last                    !! number in use
+    integer, allocatable, intent(out) :: number(:, :) !! (5, nodes), from 1; 0: held
+    logical :: fixed(size(mesh%position, 2))
+    integer :: node, k
+
+    allocate (number(node_unknowns, size(fixed)), source=0)
+    fixed = .false.
+    fixed(node_set(mesh, fixed_set)) = .true.
+    do node = 1, size(fixed), mesh%rows
+      if (fixed(node)) cycle
+      do k = 1, beam_unknowns
+        last = last + 1
+        number(component(k), node:node + mesh%rows - 1) = last
+      end do
+    end do
+  end subroutine number_stations
+
+  !> One matrix of both foils' stiffness, on the solved width.
+  subroutine create_stiffness(scene, foil)
+    type(scene_type), intent(in) :: scene
+    type(beam_foil_type), intent(inout) :: foil
+
+    integer, parameter :: around = 3*beam_unknowns !! unknowns of a station and its neighbours
+    type(beam_section_type) :: section(2)
+    PetscErrorCode :: ierr
+
+    associate (top => scene%top_foil, bumps => scene%bump_foil)
+      section = plane_strain_section([top%thickness, bumps%thickness], &
+                                     [top%youngs_modulus, bumps%youngs_modulus], &
+                                     [top%poissons_ratio, bumps%poissons_ratio])
+    end associate
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
+    PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER, 0_pint, PETSC_NULL_INTEGER, ierr))
+    if (foil%owned > 0) then
+      ! Film and crests see the top foil as a straight line between stations, the bumps show nodes only.
+      call add_beam(foil%top%mesh, section(1), .false., foil%top_number, foil%elastic)
+      call add_beam(foil%bumps%mesh, section(2), .true., foil%bump_number, foil%elastic)
+    end if
+    PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
+    foil%has_elastic = .true.
+    allocate (foil%row_entries(foil%owned), source=around)
+  end subroutine create_stiffness
+
+  !> Adds the stiffness of a beam through a mesh's stations.
+  subroutine add_beam(mesh, section, bent, number, matrix)
+    type(quad_mesh_type), intent(in) :: mesh
+    type(beam_section_type), intent(in) :: section
+    logical, intent(in) :: bent         !! elements bend between their ends
+    integer, intent(in) :: number(:, :) !! (5, nodes)
+    Mat, intent(in) :: matrix
+
+    real(wp) :: stiffness(ends*beam_unknowns, ends*beam_unknowns)
+    PetscInt :: row(ends*beam_unknowns)
+    PetscErrorCode :: ierr
+    integer :: here, next
+
+    do here = 1, size(mesh%position, 2) - mesh%rows, mesh%rows
+      next = here + mesh%rows
+      if (bent) then
+        stiffness = bent_beam_stiffness(section, mesh%position(:radial, [here, next]))
+      else
+        stiffness = linear_beam_stiffness(section, mesh%position(:radial, [here, next]))
+      end if
+      row = int([number(component, here), number(component, next)] - 1, pint)
+      PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness], ADD_VALUES, ierr))
+    end do
+  end subroutine add_beam
+
+  !> Width that is solved [m].
+  pure function width_of(mesh) result(width)
+    type(quad_mesh_type), intent(in) :: mesh
+    real(wp) :: width
+    width = mesh%position(axial, mesh%rows) - mesh%position(axial, 1)
+  end function width_of
+
+  !> One contact a line; their unknowns stand as the foil's own numbers for now.
+  subroutine add_contacts(scene, foil)
+    type(scene_type), intent(in) :: scene
+    type(beam_foil_type), intent(inout) :: foil
+
+    integer, allocatable :: line(:)
+    integer :: bump, i
+
+    allocate (foil%contacts%point(0))
+    if (foil%owned == 0) return
+    associate (mesh => foil%bumps%mesh)
+      line = node_set(mesh, 'corners')
+      do i = 1, size(line)/mesh%rows
+        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp)
+      end do
+      do bump = 1, scene%bump_foil%bumps
+        line = node_set(mesh, crest_name(bump))
+        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch)
+      end do
+    end associate
+  end subroutine add_contacts
+
+  !> Contact of a line that is not held, nor beyond the top foil.
+  subroutine add_line(foil, node, law, number, overhang)
+    type(beam_foil_type), intent(inout) :: foil
+    integer, intent(in) :: node     !! first of the line
+    integer, intent(in) :: law      !! `contact_sleeve` or `contact_top`
+    integer, intent(in) :: number   !! of the line
+    real(wp), intent(in) :: overhang !! a crest so far beyond the top foil lies at its edge [m]
+
+    type(contact_point_type) :: point
+
+    if (.not. any(foil%bump_number(:, node) > 0)) return
+    point%law = law
+    point%node = node
+    point%line = number
+    point%length = width_of(foil%bumps%mesh)
+    point%slave = foil%bump_number(:axial, node)
+    point%frame(tangential, 1) = 1.0_wp
+    point%frame(axial, 2) = 1.0_wp
+    point%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
+    if (law == contact_sleeve) then
+      allocate (point%master(axial, 0), point%share(0))
+    else
+      call find_master(foil, overhang, point)
+      if (.not. allocated(point%share)) return
+    end if
+    foil%contacts%point = [foil%contacts%point, point]
+  end subroutine add_line
+
+  !> The top foil's element above a crest, where there is one.
+  pure subroutine find_master(foil, overhang, point)
+    type(beam_foil_type), intent(in) :: foil
+    real(wp), intent(in) :: overhang !! [m]
+    type(contact_point_type), intent(inout) :: point
+    real(wp) :: along
+    integer :: here, next
+
+    associate (mesh => foil%top%mesh, x => foil%bumps%mesh%position(tangential, point%node))
+      if (x < mesh%position(tangential, 1) - overhang) return
+      do here = 1, size(mesh%position, 2) - mesh%rows, mesh%rows
+        next = here + mesh%rows
+        if (x > mesh%position(tangential, next) + overhang) cycle
+        along = (x - mesh%position(tangential, here))/ &
+                (mesh%position(tangential, next) - mesh%position(tangential, here))
+        along = min(1.0_wp, max(0.0_wp, along))
+        point%share = [1.0_wp - along, along]
+        point%master = foil%top_number(:axial, [here, next])
+        return
+      end do
+    end associate
+  end subroutine find_master
+
+  !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
+  subroutine count_entries(foil, film)
+    type(beam_foil_type), intent(inout) :: foil
+    type(film_mesh_type), intent(in) :: film
+
+    integer, parameter :: around = 3 !! a station and its neighbours
+    integer :: tally(0:size(foil%global_unknown)), i
+
+    foil%couplings = around
+    tally = 0
+    do i = 1, size(foil%contacts%point)
+      associate (unknown => foil%contacts%point_unknowns(i))
+        tally(unknown) = tally(unknown) + count(unknown > 0)
+      end associate
+    end do
+    foil%row_entries = foil%row_entries + around*film%rows() + tally(foil%own_place)
+  end subroutine count_entries
+end module gfb_beam_foil_builder
