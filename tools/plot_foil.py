@@ -1,4 +1,4 @@
-"""Pictures of a foil file: the deflected midline and the crests of a strip, or shapes of modes."""
+"""Pictures of a foil file: deflected midline and crests of bumps, map of a top foil, or shapes of modes."""
 
 import math
 
@@ -12,6 +12,8 @@ MODE_SHARE = 0.12  # of the foil's shorter side, for modes
 LEAST_SIDE = 0.22  # of a mode's box over its longest one, to show narrow foils
 ROUND_OFF = 1.0e-9 # of the foil's height: a smaller displacement is none
 LINES = 14         # of a wireframe along each direction, at most
+MOST_LABELLED = 14 # bars that carry their value
+BANDS = 20         # colours of a map
 
 
 def is_foil(file):
@@ -41,7 +43,8 @@ def draw(path, file, columns):
     points = points.reshape(shape)
     fields = {name: file[f"VTKHDF/PointData/{name}"][...].reshape(shape) for name in columns or there[:1]}
     if list(fields) == ["displacement"]:
-        figure = draw_strip(points, fields["displacement"])
+        flat = not numpy.ptp(points[:, :, 1]) > ROUND_OFF*numpy.ptp(points[:, :, 0])
+        figure = (draw_sheet if flat else draw_strip)(points, fields["displacement"])
     else:
         figure = draw_modes(points, fields)
     figure.suptitle(path.name.removesuffix(".vtkhdf"), fontsize=11)
@@ -93,8 +96,9 @@ def draw_strip(points, moved):
     numbers = range(1, len(crests) + 1)
     deflection = [-1.0e6*line_mean(moved[i, :, 1], z) for i in crests]
     charted = bars.bar(numbers, deflection)
-    bars.bar_label(charted, fmt="%.2f", fontsize=7)
-    bars.set(xlabel="bump", ylabel="deflection [um]", xticks=list(numbers))
+    if len(crests) <= MOST_LABELLED:
+        bars.bar_label(charted, fmt="%.2f", fontsize=7)
+    bars.set(xlabel="bump", ylabel="deflection [um]", xticks=numbers[::1 + len(crests)//(MOST_LABELLED + 1)])
     bars.set_title("mean of each crest line", fontsize=10)
     bars.margins(y=0.12)
     for number in sorted({1, 2, len(crests)//2, len(crests) - 1, len(crests)} - {0}):
@@ -103,6 +107,25 @@ def draw_strip(points, moved):
     lines.set_title("along crest lines", fontsize=10)
     lines.legend(fontsize=8, ncols=2, loc="center", bbox_to_anchor=(0.5, 0.62))
     lines.grid(alpha=0.3)
+    return figure
+
+
+def draw_sheet(points, moved):
+    """A top foil: map of its deflection towards the sleeve, and that along the midplane and the two edges."""
+    x, z = 1.0e3*points[:, 0, 0], 1.0e3*points[0, :, 2]
+    deflection = -1.0e6*moved[:, :, 1]
+    figure, (chart, lines) = pyplot.subplots(2, 1, figsize=(10.0, 5.6), layout="constrained", sharex=True)
+    figure.colorbar(chart.contourf(x, z, deflection.T, levels=BANDS), ax=chart)
+    chart.set(ylabel="z [mm]")
+    chart.set_title("deflection towards the sleeve [um]", fontsize=10)
+    middle = int(numpy.argmin(numpy.abs(z)))
+    lines.plot(x, deflection[:, middle], label=f"z = {z[middle]:.3g} mm")
+    for edge, style in ((-1, "--"), (0, ":")):
+        lines.plot(x, deflection[:, edge], style, label=f"edge, z = {z[edge]:.4g} mm")
+    lines.set(xlabel="x [mm], along the shaft's motion", ylabel="deflection [um]", xlim=(x[0], x[-1]))
+    lines.axhline(0.0, color="0.4", linewidth=0.8)
+    lines.grid(alpha=0.3)
+    lines.legend(fontsize=8)
     return figure
 
 

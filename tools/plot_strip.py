@@ -17,6 +17,8 @@ SURFACES = {"top": "crest lines on the top foil or upper plate", "sleeve": "corn
 STYLES = ("-", "--", "-.", ":")
 MOST_MARKED = 30   # rows of a history whose points are marked
 MOST_LABELLED = 24 # bars that carry their value
+MOST_BESIDE = 40   # contact lines of both surfaces that stand beside each other
+MOST_NUMBERED = 30 # contact lines of a map that all bear their number
 SHORTEST = 5       # letters of a common name that says something
 LEAST = 1.0e-12    # of the largest force: a load below it is none
 
@@ -26,8 +28,15 @@ def is_strip(file):
     return "history/crest_deflection_1" in file
 
 
+def is_bearing(file):
+    """Whether a case file is of a bearing on foils with contacts."""
+    return "history/eccentricity_x" in file and any(f"contact/{name}/state" in file for name in SURFACES)
+
+
 def draw(paths, files, kind, steps):
-    """The picture of one or several strips."""
+    """The picture of one or several strips, or of a bearing's contacts."""
+    if len(files) == 1 and kind in (None, "contact") and is_bearing(files[0]):
+        return draw_contact(paths[0], files[0], steps)
     for path, file in zip(paths, files):
         if not is_strip(file):
             stop(f"{path}: not a strip under loads, or no load step was done")
@@ -53,13 +62,28 @@ def goes_back(file):
 
 
 def row_of(path, file, step):
-    """The row of a step; without one, that of the largest force, which is the full load."""
-    numbers = numpy.rint(file["history/step"][...]).astype(int)
+    """The row of a step; without one, a strip's largest force, which is the full load, or a bearing's last point."""
+    numbers = steps_of(file)
     if step is None:
-        return int(numpy.argmax(numpy.abs(file["history/force"][...])))
+        return len(numbers) - 1 if is_bearing(file) else int(numpy.argmax(numpy.abs(file["history/force"][...])))
     if step not in numbers:
         stop(f"{path}: no step {step}; there are {numbers[0]} to {numbers[-1]}")
     return int(numpy.flatnonzero(numbers == step)[0])
+
+
+def steps_of(file):
+    """Numbers of a strip's load steps or of a bearing's sweep points."""
+    if is_bearing(file):
+        return numpy.arange(1, len(file["history/force_x"]) + 1)
+    return numpy.rint(file["history/step"][...]).astype(int)
+
+
+def words_of(file, row):
+    """A row in words: which it is, and its load."""
+    if not is_bearing(file):
+        return f"step {int(file['history/step'][row])}, {file['history/force'][row]:.4g} N"
+    force = f"{numpy.hypot(file['history/force_x'][row], file['history/force_y'][row]):.4g} N"
+    return force if len(file["history/force_x"]) == 1 else f"point {row + 1}, {force}"
 
 
 def name_of(path):
@@ -194,29 +218,43 @@ def draw_contact(path, file, steps):
     rows = [row_of(path, file, step) for step in steps or [None]]
     lines = {name: line_table(file[f"contact/{name}"]) for name in surfaces}
     wide = [max(4, len(lines[name][0])) for name in surfaces]
-    figure, axes = pyplot.subplots(len(rows), len(surfaces), squeeze=False, layout="constrained",
-                                   figsize=(max(6.5, 2.4 + 0.38*sum(wide)), 2.2*len(rows) + 1.1),
-                                   gridspec_kw={"width_ratios": wide}, sharey=True, sharex="col")
-    palette = colors.ListedColormap(STATE_COLOURS)
+    figure, axes = contact_charts(len(rows), wide)
     for row, charts in zip(rows, axes):
-        force = file["history/force"][row]
         for chart, name in zip(charts, surfaces):
             numbers, z, node = lines[name]
-            state = file[f"contact/{name}/state"][row][node]
-            for i, column in enumerate(state):
-                chart.pcolormesh([i + 0.6, i + 1.4], edges(MILLI*z), column[:, None], cmap=palette,
-                                 vmin=-0.5, vmax=2.5)
-            chart.set(xticks=numpy.arange(1, len(numbers) + 1), xlim=(0.4, len(numbers) + 0.6))
-            chart.set_xticklabels(numbers)
-            chart.set_title(f"step {int(file['history/step'][row])}, {force:.4g} N: {name}", fontsize=9)
-            if chart is charts[0]:
-                chart.set_ylabel("z [mm]")
+            draw_states(chart, numbers, z, file[f"contact/{name}/state"][row][node])
+            chart.set_title(f"{words_of(file, row)}: {name}", fontsize=9)
+    stacked = sum(wide) > MOST_BESIDE
+    for charts in axes:
+        for chart in charts if stacked else charts[:1]:
+            chart.set_ylabel("z [mm]")
     for chart, name in zip(axes[-1], surfaces):
-        chart.set_xlabel(f"number along x of the\n{SURFACES[name]}", fontsize=9)
+        chart.set_xlabel(f"number along x of the{' ' if stacked else chr(10)}{SURFACES[name]}", fontsize=9)
     figure.legend(handles=[patches.Patch(color=colour, label=word) for word, colour in zip(STATES, STATE_COLOURS)],
                   loc="upper right", ncols=3, fontsize=8)
     figure.suptitle(f"{name_of(path)}: contact states", fontsize=11, x=0.01, ha="left")
     return figure
+
+
+def contact_charts(rows, wide):
+    """A figure and its charts, a list a row: the surfaces side by side, or below each other where there is no room."""
+    if sum(wide) > MOST_BESIDE:
+        figure, axes = pyplot.subplots(rows*len(wide), 1, squeeze=False, layout="constrained",
+                                       figsize=(11.0, 2.2*rows*len(wide) + 0.7), sharey=True)
+        return figure, axes.reshape(rows, len(wide))
+    return pyplot.subplots(rows, len(wide), squeeze=False, layout="constrained", sharey=True, sharex="col",
+                           figsize=(max(6.5, 2.4 + 0.38*sum(wide)), 2.2*rows + 1.1),
+                           gridspec_kw={"width_ratios": wide})
+
+
+def draw_states(chart, numbers, z, states):
+    """A column a contact line."""
+    palette = colors.ListedColormap(STATE_COLOURS)
+    for i, column in enumerate(states):
+        chart.pcolormesh([i + 0.6, i + 1.4], edges(MILLI*z), column[:, None], cmap=palette, vmin=-0.5, vmax=2.5)
+    places = numpy.arange(1, len(numbers) + 1)[::1 + len(numbers)//(MOST_NUMBERED + 1)]
+    chart.set(xticks=places, xlim=(0.4, len(numbers) + 0.6))
+    chart.set_xticklabels([numbers[place - 1] for place in places])
 
 
 def line_table(group):

@@ -24,6 +24,9 @@ module gfb_model_case
   integer, parameter, public :: film_scheme_galerkin = 2
   integer, parameter, public :: film_scheme_supg = 3
 
+  integer, parameter, public :: coupling_monolithic = 1
+  integer, parameter, public :: coupling_partitioned = 2
+
   integer, parameter, public :: foundation_pressure_local = 1
   integer, parameter, public :: foundation_pressure_axial_mean = 2
 
@@ -32,6 +35,8 @@ module gfb_model_case
   character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
+  character(len=*), parameter :: coupling_words(*) = [character(len=11) :: &
+                                                      'monolithic', 'partitioned']
   character(len=*), parameter :: pressure_words(*) = [character(len=10) :: 'local', 'axial_mean']
 
   !> The model.
@@ -40,6 +45,7 @@ module gfb_model_case
     integer :: reduction = reduction_guyan
     integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
     integer :: film_scheme = film_scheme_auto
+    integer :: coupling = coupling_monolithic    !! film and foil together, or in turns
     real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
     integer :: foundation_pressure = foundation_pressure_local
   end type model_case_type
@@ -62,6 +68,8 @@ contains
                          'condense the bumps of shells onto the lines that can be loaded')
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane')
+    call keys%choice_key('coupling', model%coupling, coupling_words, &
+                         'solve film and foil together, or in turns for comparison')
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
@@ -69,6 +77,12 @@ contains
                        default='Walowit-Anno from `&bump_foil`')
     call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
                          'what deflects the foundation: the pressure there, or its axial mean')
+    if (model%coupling == coupling_partitioned .and. model%foil == foil_elastic_foundation .and. &
+        model%foundation_pressure == foundation_pressure_local) then
+      call keys%complain('model', 'coupling', "cannot be 'partitioned' where "// &
+                         "foundation_pressure is 'local': springs under each "// &
+                         'pressure have no equations of their own')
+    end if
     call keys%finish_group()
   end subroutine read_model_case
 

@@ -121,8 +121,8 @@ contains
   !> Slip that a contact takes along from one load step to the next.
   !>
   !> Tanh with drag, and Coulomb: the part that fits into the law's rise. So no reversal need be
-  !> found, and with steps far above the stick length the answer is Coulomb's. With reset, as [Gu2020] has
-  !> it: none where the sliding has turned, else all of it. An open contact forgets.
+  !> found, and with steps far above the stick length the answer is Coulomb's. With reset, as
+  !> [Gu2020] has it: none where the sliding has turned, else all of it. An open contact forgets.
   pure function carried_slip(law, slip, moved, pressing) result(carried)
     type(contact_law_type), intent(in) :: law
     real(wp), intent(in) :: slip(2)  !! at the end of the step [m]

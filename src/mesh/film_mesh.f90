@@ -59,8 +59,8 @@ contains
     logical, intent(in) :: half              !! mesh z >= 0 only; axial is even then
     type(film_mesh_type) :: mesh
 
-    mesh = uniform_film_mesh(radius, length, station_angle(1), 0.0_wp, size(station_angle) - 1, axial, &
-                             .false., half)
+    mesh = uniform_film_mesh(radius, length, station_angle(1), 0.0_wp, size(station_angle) - 1, &
+                             axial, .false., half)
     mesh%station_angle = station_angle
   end function film_mesh_at
 

@@ -9,6 +9,7 @@ module gfb_bearing_analysis
   use gfb_quantity, only: quantity_type, number_quantity
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
+  use gfb_model_case, only: coupling_partitioned, foil_rigid
   use gfb_operation_case, only: operation_case_type
   use gfb_sweep_case, only: operation_at, sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x
@@ -21,6 +22,8 @@ module gfb_bearing_analysis
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_cold_start, only: start_bearing
+  use gfb_partitioned, only: partitioned_type, start_partitioned, follow_partitioned, &
+                             destroy_partitioned
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block
@@ -96,9 +99,12 @@ contains
 
     type(path_report_type) :: report
     type(path_settings_type) :: path
+    type(newton_settings_type) :: newton_settings
+    type(partitioned_type), target :: sides
     type(operation_case_type) :: operation
     real(wp) :: begun
     integer :: point, first
+    logical :: partitioned
 
     allocate (history(0))
     path = path_settings_type(scene%solver%maximum_load_steps, scene%solver%smallest_load_step, &
@@ -109,16 +115,23 @@ contains
       operation = operation_at(scene%operation, scene%sweep, 1)
       first = 2
     end if
-    call start_bearing(scene, plan, operating_point(operation), &
-                       newton_settings_type(scene%solver%residual_tolerance, scene%solver%step_tolerance, &
-                                            scene%solver%maximum_iterations), &
-                       path, log, bearing, newton, report, error)
+    newton_settings = newton_settings_type(scene%solver%residual_tolerance, scene%solver%step_tolerance, &
+                                           scene%solver%maximum_iterations)
+    partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil /= foil_rigid
+    if (partitioned) then
+      call start_partitioned(scene, plan, operating_point(operation), newton_settings, path, log, bearing, &
+                             newton, sides, report, error)
+    else
+      call start_bearing(scene, plan, operating_point(operation), newton_settings, path, log, bearing, &
+                         newton, report, error)
+    end if
     if (allocated(error)) return
     begun = wall_time()
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
       call add_row(scene, bearing, 0, converged, history, contacts)
+      call destroy_partitioned(sides)
       return
     end if
     if (converged .and. scene%sweep%hold_position) then
@@ -130,13 +143,18 @@ contains
     end if
     do point = first, size(scene%sweep%values)
       if (.not. converged) exit
-      call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
+      if (partitioned) then
+        call follow_partitioned(bearing, newton, sweep_target(scene, bearing, point), path, sides, report)
+      else
+        call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
+      end if
       converged = report%converged
       if (.not. converged) call explain(log, scene, bearing, report)
       if (converged) call add_row(scene, bearing, point, converged, history, contacts)
       if (converged) call show_progress(log, scene%sweep, point, begun)
       if (point == 1) begun = wall_time()
     end do
+    call destroy_partitioned(sides)
   end subroutine solve_scene
 
   !> Where a sweep point puts the shaft; a held shaft stays where it is.

@@ -78,7 +78,8 @@ contains
         call log%line('  &bump_foil is not used: foundation_stiffness is given')
       end if
     else if (scene%model%foil == foil_shell) then
-      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps as shells in contact')
+      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)// &
+                    ' bumps as shells in contact')
     else if (scene%model%foil == foil_beam) then
       call log%line('foil: top foil and '//text(scene%bump_foil%bumps)// &
                     ' bumps as planar beams in contact, under the axial mean of the pressure')

@@ -80,7 +80,8 @@ contains
     type(quantity_type) :: list(5)
     character(len=*), parameter :: meaning = 'way of the top foil''s edge towards the shaft, '
 
-    list(1) = number_quantity('leading_edge_lift', answer%leading_edge_lift(1), 'm', meaning//'at z = 0')
+    list(1) = number_quantity('leading_edge_lift', answer%leading_edge_lift(1), 'm', &
+                              meaning//'at z = 0')
     list(2) = number_quantity('leading_edge_lift_edge', answer%leading_edge_lift(2), 'm', &
                               meaning//'at the ends of the bearing')
     list(3) = number_quantity('trailing_edge_lift', answer%trailing_edge_lift(1), 'm', &

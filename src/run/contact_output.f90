@@ -81,7 +81,8 @@ contains
 
     allocate (arrays(0))
     if (.not. allocated(record%value)) return
-    call surface_arrays(contacts, structure, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
+    call surface_arrays(contacts, structure, record, steps, contact_sleeve, '/contact/sleeve', &
+                        sleeve)
     call surface_arrays(contacts, structure, record, steps, contact_top, '/contact/top', top)
     if (size(sleeve(1)%values) > 0) arrays = [arrays, sleeve]
     if (size(top(1)%values) > 0) arrays = [arrays, top]

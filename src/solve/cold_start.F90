@@ -24,7 +24,7 @@ module gfb_cold_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
-  public :: start_bearing
+  public :: start_bearing, refine
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved

@@ -25,9 +25,9 @@ module gfb_bearing_answer
     real(wp) :: minimum_pressure = 0.0_wp          !! [Pa]
     real(wp) :: maximum_peclet = 0.0_wp            !! of the film's cells [1]
     logical :: has_foils = .false.                 !! the foils are structures
-    real(wp) :: leading_edge_lift(2) = 0.0_wp      !! towards the shaft, at z = 0 and at the ends [m]
+    real(wp) :: leading_edge_lift(2) = 0.0_wp  !! towards the shaft, at z = 0 and at the ends [m]
     real(wp) :: trailing_edge_lift(2) = 0.0_wp     !! the same of the other edge [m]
-    real(wp) :: lifted_length = 0.0_wp             !! crest length without contact over all of it [1]
+    real(wp) :: lifted_length = 0.0_wp         !! crest length without contact over all of it [1]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
   end type bearing_answer_type
 
@@ -72,7 +72,8 @@ contains
     answer%rough_peclet = largest(7)
   end function bearing_answer
 
-  !> How far the edges of the top foil stand off the bumps, and how much of the crests touches nothing.
+  !> How far the edges of the top foil stand off the bumps, and how much of the crests touches
+  !> nothing.
   subroutine read_lifts(bearing, unknown, answer)
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI

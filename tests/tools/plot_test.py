@@ -1,8 +1,10 @@
-"""Tests of tools/plot on strips: what stands in the pictures, and what it says to wrong calls.
+"""Tests of tools/plot on strips and on bearings with foils: what stands in the pictures, what it says to wrong calls.
 
 Files are made up here with known numbers; one is gfb's own, of a small strip.
 """
 
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -17,7 +19,8 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 
-import plot_strip  # noqa: E402 (found only now)
+import plot_foil  # noqa: E402 (found only now)
+import plot_strip  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
 &bump_foil thickness = 0.127e-3 youngs_modulus = 207.0e9 poissons_ratio = 0.3 half_length = 3.3e-3
@@ -26,6 +29,13 @@ SMALL = """&scene analysis = 'strip' /
 &strip_load kind = 'plates' maximum_force = 50.0 steps_up = 4 steps_down = 4 /
 &mesh arc_elements = 4 flat_elements = 1 axial_elements = 8 /
 """
+
+
+def call(folder, *words):
+    """tools/plot as a user calls it: status, and what it said."""
+    done = subprocess.run([sys.executable, PROJECT/"tools/plot", *words], cwd=folder, check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.returncode, done.stdout
 
 
 def used(friction, law="'tanh_drag' ! law (default)"):
@@ -60,6 +70,102 @@ def strip_file(path, force, deflection, echo=used(0.1), travel=None, states=None
     return path
 
 
+def bearing_file(path, force, states):
+    """A bearing's result file; force: (points, 2) [N]; states: (points, lines, rows) of half the width."""
+    with h5py.File(path, "w") as file:
+        columns = {"force_x": (numpy.array(force)[:, 0], "N"), "force_y": (numpy.array(force)[:, 1], "N"),
+                   "minimum_gap_midplane": ([7.0e-6]*len(force), "m"), "minimum_gap_edge": ([6.0e-6]*len(force), "m"),
+                   "eccentricity_x": ([1.0e-6]*len(force), "m")}
+        for name, (values, unit) in columns.items():
+            file[f"history/{name}"] = values
+            file[f"history/{name}"].attrs.update(unit=unit, meaning="made up")
+        file["scene/used"] = used(0.1)
+        states = numpy.array(states, dtype=float)
+        lines, rows = states.shape[1:]
+        for surface in ("top", "sleeve"):
+            file[f"contact/{surface}/line"] = numpy.repeat(numpy.arange(1.0, lines + 1.0), rows)
+            file[f"contact/{surface}/position_z"] = numpy.tile(numpy.linspace(0.0, 0.01, rows), lines)
+            file[f"contact/{surface}/state"] = states.reshape(len(states), -1)
+    return path
+
+
+class BearingTest(unittest.TestCase):
+    """Made-up bearings with foils."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(plot_strip.pyplot.close, "all")
+        self.folder = pathlib.Path(folder.name)
+
+    def contact(self, lines, points, steps=()):
+        """The contact states of a bearing of so many lines, whose last line alone slips in the last point."""
+        states = numpy.zeros((points, lines, 3))
+        states[-1, -1] = 2
+        path = bearing_file(self.folder/"a_bearing.h5", [(-30.0*(i + 1), 40.0*(i + 1)) for i in range(points)], states)
+        with h5py.File(path, "r") as file:
+            return plot_strip.draw([path], [file], "contact", list(steps))
+
+    def test_contacts_are_of_the_last_point(self):
+        axes = self.contact(3, 2).axes
+        self.assertEqual([chart.get_title() for chart in axes], ["point 2, 100 N: top", "point 2, 100 N: sleeve"])
+        columns = [mesh.get_array().ravel().tolist() for mesh in axes[1].collections]
+        self.assertEqual(columns, [[0]*5, [0]*5, [2]*5])
+
+    def test_contacts_of_a_point_named_and_of_one_point_alone(self):
+        chart = self.contact(3, 2, [1]).axes[0]
+        self.assertEqual(chart.get_title(), "point 1, 50 N: top")
+        self.assertEqual([mesh.get_array().max() for mesh in chart.collections], [0, 0, 0])
+        self.assertEqual(self.contact(3, 1).axes[0].get_title(), "50 N: top")
+
+    def test_many_lines_stand_below_each_other_and_bear_true_numbers(self):
+        top, sleeve = self.contact(52, 1).axes
+        self.assertGreater(top.get_position().y0, sleeve.get_position().y1)
+        self.assertEqual(len(sleeve.collections), 52)
+        places = sleeve.get_xticks()
+        self.assertLess(len(places), 30)
+        self.assertEqual([int(tick.get_text()) for tick in sleeve.get_xticklabels()], list(places))
+
+    def test_top_foil_is_a_map_and_lines_of_its_deflection(self):
+        x, z = numpy.linspace(0.0, 0.1, 6), numpy.linspace(-0.02, 0.02, 5)
+        points, moved = numpy.zeros((6, 5, 3)), numpy.zeros((6, 5, 3))
+        points[:, :, 0], points[:, :, 1], points[:, :, 2] = x[:, None], 5.0e-4, z
+        moved[:, :, 1] = -1.0e-6*numpy.arange(6.0)[:, None] - 1.0e-4*z
+        path = self.folder/"a.top_foil.vtkhdf"
+        with h5py.File(path, "w") as file:
+            file["VTKHDF/Points"] = points.reshape(-1, 3)
+            file["VTKHDF/Connectivity"] = numpy.array([0, 5, 6, 1])
+            file["VTKHDF/PointData/displacement"] = moved.reshape(-1, 3)
+        with h5py.File(path, "r") as file:
+            lines = plot_foil.draw(path, file, []).axes[1].lines
+        for line, shift in zip(lines, (0.0, 2.0, -2.0)):
+            numpy.testing.assert_allclose(line.get_ydata(), numpy.arange(6.0) + shift, atol=1e-12)
+        numpy.testing.assert_allclose(lines[0].get_xdata(), 1.0e3*x, atol=1e-12)
+
+    def test_columns_of_one_unit_share_a_chart_where_asked(self):
+        loader = importlib.machinery.SourceFileLoader("plot", str(PROJECT/"tools/plot"))
+        plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot", loader))
+        loader.exec_module(plot)
+        path = bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
+        names = ["minimum_gap_midplane", "force_x", "minimum_gap_edge"]
+        with h5py.File(path, "r") as file:
+            apart, together = (plot.draw_history(path, file, names, asked).axes for asked in (False, True))
+        self.assertEqual([len(chart.lines) for chart in apart], [1, 1, 1, 0])
+        self.assertEqual([len(chart.lines) for chart in together], [2, 1])
+        for line, height in zip(together[0].lines, (7.0, 6.0)):
+            numpy.testing.assert_allclose(line.get_ydata(), [height]*2, rtol=1e-12)
+
+    def test_calls(self):
+        bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
+        for words in (("b.h5", "--show", "contact", "--step", "1,2"), ("b.h5", "--step", "2"),
+                      ("b.h5", "minimum_gap_midplane", "minimum_gap_edge", "--together")):
+            self.assertEqual(call(self.folder, *words), (0, "drawn: b.h5.png\n"))
+        for words, text in ((("b.h5", "--step", "3"), "no step 3; there are 1 to 2"),
+                            (("b.h5", "--show", "bumps"), "not a strip under loads")):
+            status, said = call(self.folder, *words)
+            self.assertEqual((status, text in said), (1, True), said)
+
+
 class PlotTest(unittest.TestCase):
     """The made-up strip: two bumps, four steps up to 30 N and down again."""
 
@@ -86,12 +192,6 @@ class PlotTest(unittest.TestCase):
         finally:
             for file in files:
                 file.close()
-
-    def call(self, *words):
-        """tools/plot as a user calls it: status, and what it said."""
-        done = subprocess.run([sys.executable, PROJECT/"tools/plot", *words], cwd=self.folder, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        return done.returncode, done.stdout
 
     def test_bars_are_the_deflections_at_the_largest_force(self):
         axes = self.figure([self.loop, self.up], "bumps").axes[0]
@@ -150,10 +250,10 @@ class PlotTest(unittest.TestCase):
                                (("a_strip.h5", "a_strip_up.h5", "-o", "b.png"), "b.png"),
                                (("a_strip.h5", "--show", "contact", "--step", "1,2", "-o", "c.png"), "c.png"),
                                (("a_strip.h5", "force", "plate_travel", "-o", "d.png"), "d.png")):
-            status, said = self.call(*words)
+            status, said = call(self.folder, *words)
             self.assertEqual((status, said), (0, f"drawn: {picture}\n"))
             self.assertEqual((self.folder/picture).read_bytes()[:4], b"\x89PNG")
-        status, said = self.call("a_strip.h5", "--list")
+        status, said = call(self.folder, "a_strip.h5", "--list")
         self.assertEqual((status, "plate_travel" in said), (0, True))
 
     def test_wrong_calls_are_told(self):
@@ -165,9 +265,9 @@ class PlotTest(unittest.TestCase):
                             (("a_strip.h5", "--show", "loop", "--step", "2"), "a loop is of all steps"),
                             (("a_strip.h5", "a_strip_up.h5", "--show", "contact"), "one file at a time"),
                             (("a_strip_up.h5", "--show", "contact"), "no contacts")):
-            status, said = self.call(*words)
+            status, said = call(self.folder, *words)
             self.assertEqual((status, text in said), (1, True), f"{words}: {said}")
-        status, said = self.call("a_strip.h5", "--step", "two")
+        status, said = call(self.folder, "a_strip.h5", "--step", "two")
         self.assertEqual((status, "whole numbers" in said), (2, True), said)
 
     def test_map_of_gfb_agrees_with_its_counts(self):
@@ -186,7 +286,7 @@ class PlotTest(unittest.TestCase):
                         self.assertEqual(found, told, f"{edge}, {surface}, step {row + 1}")
                         slipping += found[2]
             self.assertGreater(slipping, 0)
-            self.assertEqual(self.call(f"small_{edge}.h5", "--show", "contact")[0], 0)
+            self.assertEqual(call(self.folder, f"small_{edge}.h5", "--show", "contact")[0], 0)
 
 
 if __name__ == "__main__":

@@ -62,9 +62,9 @@ touch 'my case.nml'
 
 # --- tools/run ---
 call "$run"
-expect 0 '[--output] [results/gu2020_foundation] ['"$copy"'/inputs/gu2020_foundation.nml] threads 1' \
+expect 0 '[--output] [results/gu2020_bearing] ['"$copy"'/inputs/gu2020_bearing.nml] threads 1' \
   'without arguments the main job runs'
-expect 0 'results are in results/gu2020_foundation' 'says where the results are'
+expect 0 'results are in results/gu2020_bearing' 'says where the results are'
 call "$run" -n 3 'my case.nml' --output 'to here'
 expect 0 'mpiexec -n 3 gfb [--output] [to here] [my case.nml]' 'ranks, output folder and blanks'
 call "$run" --check 'my case.nml' --strange

@@ -1,0 +1,259 @@
+#include "gfb_petsc.h"
+!> The equations of one side of a bearing, film and shaft or the foil, with the other side held.
+!>
+!> They are the coupled bearing's own: its residual with the other side's unknowns where they are in the
+!> bearing's state, and its matrix, of both of which the side takes its part.
+!>
+!> Under constant pressures a foil that has lifted off flaps away by many clearances, which no film would
+!> let it do. So the held film is the gas in the gap rather than its pressure: where the foil moves, p h
+!> stays, to first order, as in a very fast bearing. Where the foil comes to rest the pressures are
+!> those that were held, so the answer of the loops is the same.
+module gfb_coupling_side
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: create_side
+
+  real(wp), parameter :: gas_share = 1.0_wp !! of the gas in the gap that is held as the foil moves [1]
+  real(wp), parameter :: room = 1.0e3_wp !! clearance while the film is not asked, over its own
+
+  !> One side; keep it and the bearing where they are.
+  type, extends(nonlinear_system_type), public :: coupling_side_type
+    type(bearing_system_type), pointer, private :: bearing => null()
+    logical, private :: of_foil = .false. !! else of film and shaft
+    IS, private :: part                   !! the side's unknowns among the bearing's
+    Vec, private :: whole, whole_residual !! of the bearing, at a state of the side
+    Vec, private :: whole_step
+    IS, private :: film_part              !! the pressures among the bearing's unknowns
+    Vec, private :: held                  !! the foil where the film was held
+    Vec, private :: moved, pressure       !! way of the foil from there; pressures, scaled
+    Mat, private :: yielding              !! pressures by the foil's unknowns, scaled
+    Mat, private :: felt, stiffening      !! the foil's equations by the pressures; product of both
+    logical, private :: multiplied = .false.
+  contains
+    procedure :: evaluate => evaluate_side
+    procedure :: linearise => linearise_side
+    procedure :: settle => settle_side
+    procedure :: begin_step => begin_side_step
+    procedure :: virtual_work => work_on_side
+    procedure :: take => take_side
+    procedure :: give => give_side
+    procedure :: hold_film
+    procedure :: destroy => destroy_side
+  end type coupling_side_type
+
+contains
+
+  !> One side: its unknowns among the bearing's, and a matrix for its equations.
+  subroutine create_side(bearing, of_foil, side)
+    type(bearing_system_type), target, intent(in) :: bearing !! with a matrix that was filled once
+    logical, intent(in) :: of_foil !! the foil's side; else that of film and shaft
+    type(coupling_side_type), intent(inout) :: side
+
+    PetscInt :: first, last, start, behind, i
+    PetscInt, allocatable :: number(:)
+    PetscErrorCode :: ierr
+
+    side%bearing => bearing
+    side%of_foil = of_foil
+    side%dense_rows = bearing%dense_rows .and. .not. of_foil
+    PetscCallA(VecGetOwnershipRange(bearing%state, first, last, ierr))
+    start = first + int(bearing%mesh%owned_unknowns, pint)
+    behind = start + int(bearing%foil%owned, pint)
+    if (of_foil) then
+      number = [(i, i=start, behind - 1)]
+    else
+      number = [(i, i=first, start - 1), (i, i=behind, last - 1)]
+    end if
+    PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, size(number, kind=pint), number, PETSC_COPY_VALUES, side%part, ierr))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, size(number, kind=pint), PETSC_DETERMINE, side%state, ierr))
+    PetscCallA(VecDuplicate(bearing%state, side%whole, ierr))
+    PetscCallA(VecDuplicate(bearing%state, side%whole_residual, ierr))
+    PetscCallA(VecDuplicate(bearing%state, side%whole_step, ierr))
+    PetscCallA(MatCreateSubMatrix(bearing%jacobian, side%part, side%part, MAT_INITIAL_MATRIX, side%jacobian, ierr))
+    call side%take()
+    if (of_foil) call create_yielding(side, first, start)
+  end subroutine create_side
+
+  !> Room for how the pressures yield to the foil.
+  subroutine create_yielding(side, first, behind)
+    type(coupling_side_type), intent(inout) :: side
+    PetscInt, intent(in) :: first, behind !! this rank's pressures among the bearing's unknowns
+    PetscInt, parameter :: one = 1
+    PetscInt :: unknowns
+    PetscErrorCode :: ierr
+
+    PetscCallA(ISCreateStride(PETSC_COMM_WORLD, behind - first, first, one, side%film_part, ierr))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, behind - first, PETSC_DETERMINE, side%pressure, ierr))
+    PetscCallA(VecDuplicate(side%state, side%held, ierr))
+    PetscCallA(VecDuplicate(side%state, side%moved, ierr))
+    PetscCallA(VecGetLocalSize(side%state, unknowns, ierr))
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, behind - first, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER, one, PETSC_NULL_INTEGER, side%yielding, ierr))
+    PetscCallA(MatCreateSubMatrix(side%bearing%jacobian, side%part, side%film_part, MAT_INITIAL_MATRIX, side%felt, ierr))
+  end subroutine create_yielding
+
+  !> Holds the film of the bearing's present state: its pressures where the foil stays, and the gas in
+  !> the gap where it moves.
+  subroutine hold_film(self)
+    class(coupling_side_type), intent(inout) :: self
+
+    real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%mesh%mesh_node)), rate
+    PetscInt :: row(1), column(1)
+    PetscErrorCode :: ierr
+    integer :: node, source
+
+    call self%bearing%get_unknowns(unknown)
+    gap = self%bearing%gap(unknown)
+    PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%held, ierr))
+    associate (mesh => self%bearing%mesh, foil => self%bearing%foil, film => self%bearing%film)
+      do node = 1, size(gap)
+        source = foil%source(node) - foil%first
+        if (.not. mesh%owned(node) .or. source < 1) cycle
+        rate = -gas_share*unknown(node)/gap(node)*foil%rate(node)*foil%unknown_scale(source)/film%ambient_pressure
+        if (film%fixed(node)) rate = 0.0_wp
+        row = int(mesh%first_unknown(node) - 1, pint)
+        column = int(foil%global_unknown(source) - 1, pint)
+        PetscCallA(MatSetValues(self%yielding, 1_pint, row, 1_pint, column, [rate], INSERT_VALUES, ierr))
+      end do
+    end associate
+    PetscCallA(MatAssemblyBegin(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine hold_film
+
+  !> Takes the side's state from the bearing's.
+  subroutine take_side(self)
+    class(coupling_side_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+    PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%state, ierr))
+  end subroutine take_side
+
+  !> Puts the side's state into the bearing's.
+  subroutine give_side(self)
+    class(coupling_side_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+    PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_FORWARD, self%state, ierr))
+  end subroutine give_side
+
+  !> The bearing's state with a state of the side in it.
+  subroutine complete(self, state)
+    class(coupling_side_type), intent(inout) :: self
+    Vec, intent(in) :: state !! of the side, scaled
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%bearing%state, self%whole, ierr))
+    PetscCallA(VecISCopy(self%whole, self%part, SCATTER_FORWARD, state, ierr))
+    if (.not. self%of_foil) return
+    PetscCallA(VecWAXPY(self%moved, -1.0_wp, self%held, state, ierr))
+    PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_REVERSE, self%pressure, ierr))
+    PetscCallA(MatMultAdd(self%yielding, self%moved, self%pressure, self%pressure, ierr))
+    PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_FORWARD, self%pressure, ierr))
+  end subroutine complete
+
+  !> Residual of the side's equations. A foil under held pressures may close the film on its way, whose
+  !> equations nobody asks then: they are given room.
+  subroutine evaluate_side(self, state, residual, valid)
+    class(coupling_side_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    Vec, intent(in) :: residual
+    logical, intent(out) :: valid
+    real(wp) :: clearance
+    PetscErrorCode :: ierr
+
+    call complete(self, state)
+    clearance = self%bearing%film%clearance
+    if (self%of_foil) self%bearing%film%clearance = room*clearance
+    call self%bearing%evaluate(self%whole, self%whole_residual, valid)
+    self%bearing%film%clearance = clearance
+    PetscCallA(VecISCopy(self%whole_residual, self%part, SCATTER_REVERSE, residual, ierr))
+  end subroutine evaluate_side
+
+  !> Derivative of the side's equations by its own unknowns.
+  subroutine linearise_side(self, state)
+    class(coupling_side_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    real(wp) :: clearance
+    PetscErrorCode :: ierr
+
+    call complete(self, state)
+    clearance = self%bearing%film%clearance
+    if (self%of_foil) self%bearing%film%clearance = room*clearance
+    call self%bearing%linearise(self%whole)
+    self%bearing%film%clearance = clearance
+    PetscCallA(MatCreateSubMatrix(self%bearing%jacobian, self%part, self%part, MAT_REUSE_MATRIX, self%jacobian, ierr))
+    if (self%of_foil) call stiffen(self)
+  end subroutine linearise_side
+
+  !> Adds to the foil's matrix that the pressures yield.
+  subroutine stiffen(self)
+    type(coupling_side_type), intent(inout) :: self
+    MatReuse :: reuse
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatCreateSubMatrix(self%bearing%jacobian, self%part, self%film_part, MAT_REUSE_MATRIX, self%felt, ierr))
+    reuse = MAT_INITIAL_MATRIX
+    if (self%multiplied) reuse = MAT_REUSE_MATRIX
+    PetscCallA(MatMatMult(self%felt, self%yielding, reuse, 2.0_wp, self%stiffening, ierr))
+    self%multiplied = .true.
+    PetscCallA(MatAXPY(self%jacobian, 1.0_wp, self%stiffening, SUBSET_NONZERO_PATTERN, ierr))
+  end subroutine stiffen
+
+  !> Contacts follow the foil; under a held foil they stay.
+  subroutine settle_side(self, state, moved)
+    class(coupling_side_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    logical, intent(out) :: moved
+
+    moved = .false.
+    if (.not. self%of_foil) return
+    call complete(self, state)
+    call self%bearing%settle(self%whole, moved)
+    self%settled = self%bearing%settled
+  end subroutine settle_side
+
+  !> A new Newton step begins where the foil's contacts are.
+  subroutine begin_side_step(self)
+    class(coupling_side_type), intent(inout) :: self
+    if (self%of_foil) call self%bearing%begin_step()
+  end subroutine begin_side_step
+
+  !> Work of the residual forces on the foil along a step, scaled.
+  function work_on_side(self, residual, step) result(work)
+    class(coupling_side_type), intent(in) :: self
+    Vec, intent(in) :: residual, step
+    real(wp) :: work
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(self%whole_residual, 0.0_wp, ierr))
+    PetscCallA(VecSet(self%whole_step, 0.0_wp, ierr))
+    PetscCallA(VecISCopy(self%whole_residual, self%part, SCATTER_FORWARD, residual, ierr))
+    PetscCallA(VecISCopy(self%whole_step, self%part, SCATTER_FORWARD, step, ierr))
+    work = self%bearing%virtual_work(self%whole_residual, self%whole_step)
+  end function work_on_side
+
+  !> Frees what PETSc holds.
+  subroutine destroy_side(self)
+    class(coupling_side_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+
+    PetscCallA(ISDestroy(self%part, ierr))
+    PetscCallA(VecDestroy(self%state, ierr))
+    PetscCallA(VecDestroy(self%whole, ierr))
+    PetscCallA(VecDestroy(self%whole_residual, ierr))
+    PetscCallA(VecDestroy(self%whole_step, ierr))
+    PetscCallA(MatDestroy(self%jacobian, ierr))
+    if (.not. self%of_foil) return
+    PetscCallA(ISDestroy(self%film_part, ierr))
+    PetscCallA(VecDestroy(self%held, ierr))
+    PetscCallA(VecDestroy(self%moved, ierr))
+    PetscCallA(VecDestroy(self%pressure, ierr))
+    PetscCallA(MatDestroy(self%yielding, ierr))
+    PetscCallA(MatDestroy(self%felt, ierr))
+    if (self%multiplied) then
+      PetscCallA(MatDestroy(self%stiffening, ierr))
+    end if
+  end subroutine destroy_side
+end module gfb_coupling_side
