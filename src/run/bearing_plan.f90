@@ -14,6 +14,7 @@ module gfb_bearing_plan
   use gfb_sweep_case, only: sweep_speed
   use gfb_reynolds_element, only: film_flow_type, cell_peclet
   use gfb_bearing_builder, only: bearing_plan_type, foundation_stiffness
+  use gfb_foil_builder, only: plate_stations
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -36,6 +37,9 @@ contains
     integer :: nodes
 
     plan%circumferential = scene%mesh%circumferential_elements
+    if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
+      plan%circumferential = size(plate_stations(scene)) - 1
+    end if
     plan%axial = scene%mesh%axial_elements
     plan%may_coarsen = .not. meshes_foils(scene%model%foil)
     plan%floats = scene%general%analysis == analysis_equilibrium

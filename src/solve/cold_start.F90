@@ -1,11 +1,11 @@
 #include "gfb_petsc.h"
 !> The first answer of a scene, from nothing.
 !>
-!> A coarse mesh finds the way: at rest the film is at ambient pressure whatever the shaft's position;
-!> from there the shaft is brought to speed at a held position, and then the load vector is moved from
-!> the film's reaction to the load asked for. A finer mesh starts from the coarser one's answer, and
-!> goes the same way itself only if that fails. Coarse meshes use SUPG, which comes home from far away
-!> at cell Peclet numbers where Galerkin's pressure becomes negative.
+!> A coarse mesh finds the way: at rest the film is at ambient pressure whatever the shaft's
+!> position; from there the shaft is brought to speed at a held position, and then the load vector
+!> is moved from the film's reaction to the load asked for. A finer mesh starts from the coarser
+!> one's answer, and goes the same way itself only if that fails. Coarse meshes use SUPG, which
+!> comes home from far away at cell Peclet numbers where Galerkin's pressure becomes negative.
 module gfb_cold_start
   use petscvec
   use gfb_kinds, only: wp
@@ -29,10 +29,9 @@ module gfb_cold_start
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
 
-  !> Eccentricities to begin with where none is given, over the free clearance: with foils that can lift
-  !> a position near the answer does best.
+  !> Eccentricities to begin with where none is given, over the free clearance: the first one, and
+  !> with foils in contact the others where that fails.
   real(wp), parameter :: start_eccentricity(3) = [0.5_wp, 0.9_wp, 0.25_wp]
-  integer, parameter :: order_with_contacts(3) = [2, 1, 3]
   real(wp), parameter :: shortest_trial = 0.02_wp    !! step of a start while others are left [1]
   real(wp), parameter :: start_attitude = 0.5_wp     !! of that position [rad]
   real(wp), parameter :: first_stride = 10.0_wp      !! factor by which contacts are made harder
@@ -84,8 +83,8 @@ contains
     call coarse%destroy()
   end subroutine start_bearing
 
-  !> Tries the starts there are, the cheapest first: at the target from the coarser mesh's answer; held
-  !> at the coarser mesh's position, then let go; from nothing.
+  !> Tries the starts there are, the cheapest first: at the target from the coarser mesh's answer;
+  !> held at the coarser mesh's position, then let go; from nothing.
   subroutine find_answer(scene, target, settings, helped, coarse, bearing, newton, report)
     type(scene_type), intent(in) :: scene
     type(operating_point_type), intent(in) :: target
@@ -135,11 +134,11 @@ contains
       trial = settings
       if (attempt < attempts) trial%smallest_step = max(trial%smallest_step, shortest_trial)
       call bearing%foil%set_hardness(bearing%foil%softest())
-      call guess_position(bearing, scene, target, start_eccentricity(order_with_contacts(attempt)))
+      call guess_position(bearing, scene, target, start_eccentricity(attempt))
       call find_way(bearing, newton, target, trial, report)
       if (report%converged) call harden(bearing, newton, target, settings, report)
       call bearing%foil%set_hardness(1.0_wp)
-      if (report%converged) return
+      if (report%converged .or. report%touched) return
       if (attempt < attempts) call newton%log%line('no answer from this start ('//report%reason//'): another one')
     end do
   end subroutine find_with_contacts
@@ -244,8 +243,8 @@ contains
     call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
   end subroutine let_go
 
-  !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one on
-  !> the way to it.
+  !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one
+  !> on the way to it.
   function free_position(bearing, wanted) result(free)
     type(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: wanted
