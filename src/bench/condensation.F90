@@ -1,8 +1,9 @@
 #include "gfb_petsc.h"
 !> Measures condensation on the ten-bump strip of [Gu2020].
 !>
-!> `gfb_bench_condensation ARC FLAT AXIAL`: elements of a bump's arc, of its flat, over the width. Writes
-!> lines `name,value`; times are CPU times [s]. `tools/bench condensation` makes a table of them.
+!> `gfb_bench_condensation ARC FLAT AXIAL`: elements of a bump's arc, of its flat, over the width.
+!> Writes lines `name,value`; times are CPU times [s]. `tools/bench condensation` makes a table of
+!> them.
 program gfb_bench_condensation
   use, intrinsic :: iso_fortran_env, only: output_unit
   use petscksp
@@ -97,8 +98,8 @@ contains
                   maxval(abs(other(4:, :) - one(4:, :)))/maxval(abs(one(4:, :))))
   end function difference
 
-  !> The complement of one piece of each kind: by MUMPS as gfb does it, and by MatSchurComplement's exact
-  !> inner solver.
+  !> The complement of one piece of each kind: by MUMPS as gfb does it, and by MatSchurComplement's
+  !> exact inner solver.
   subroutine measure_complements(strip)
     type(strip_type), intent(in) :: strip
 

@@ -1,8 +1,8 @@
 !> Geometry of a four-node film element at its Gauss points.
 !>
 !> Coordinates: \( x \) along the shaft's motion, \( z \) along its axis. Nodes run
-!> counter-clockwise
-!> in the \( (x, z) \) plane. Elements do not move, so this is computed once a run.
+!> counter-clockwise in the \( (x, z) \) plane. Elements do not move, so this is computed once a
+!> run.
 module gfb_film_geometry
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail

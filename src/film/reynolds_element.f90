@@ -1,10 +1,8 @@
 !> Four-node element of the steady, isothermal, ideal-gas film.
 !>
 !> Pressure and foil deflection are bilinear. The rigid gap is taken where it is, at the Gauss
-!> points: the
-!> nodal gaps give the bilinear part, `excess` what the rigid gap has beyond it. That halves the
-!> error
-!> of the force against a gap that is bilinear as a whole.
+!> points: the nodal gaps give the bilinear part, `excess` what the rigid gap has beyond it. That
+!> halves the error of the force against a gap that is bilinear as a whole.
 module gfb_reynolds_element
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, film_points
@@ -39,8 +37,7 @@ contains
   !>
   !> Source: [Gu2020] eq. 15, whose edge term is absent because the pressure is given on every edge;
   !> the last term (SUPG, streamline upwind Petrov-Galerkin, \( \alpha = \coth Pe - 1/Pe \)) only
-  !> with
-  !> `flow%upwind`. The second derivatives of the pressure in R vanish on parallelograms.
+  !> with `flow%upwind`. The second derivatives of the pressure in R vanish on parallelograms.
   pure subroutine reynolds_residual(geometry, flow, pressure, gap, excess, source, residual)
     type(film_geometry_type), intent(in) :: geometry
     type(film_flow_type), intent(in) :: flow

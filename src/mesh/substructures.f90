@@ -37,8 +37,7 @@ contains
   end function substructure
 
   !> Numbers the kinds of pieces: those that a translation makes the same, with the same supports
-  !> inside.
-  !> Supports at retained nodes do not count.
+  !> inside. Supports at retained nodes do not count.
   pure subroutine find_kinds(mesh, fixed, pieces)
     type(quad_mesh_type), intent(in) :: mesh
     logical, intent(in) :: fixed(:, :) !! (5, nodes) unknowns held by supports

@@ -7,7 +7,7 @@ module gfb_bearing_plan
   use gfb_scene_rules, only: is_symmetric
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, &
-                            meshes_foils, half_width_auto, half_width_yes, &
+                            meshes_foils, reduction_guyan, half_width_auto, half_width_yes, &
                             film_scheme_supg, film_scheme_auto, foundation_pressure_axial_mean
   use gfb_bearing_case, only: pad_length
   use gfb_operation_case, only: angular_speed
@@ -20,11 +20,13 @@ module gfb_bearing_plan
   public :: plan_bearing
 
   !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
-  !> Lambda 0.1
-  !> to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error; above it
-  !> both
-  !> have the same error in the force, but Galerkin misses the smallest pressure by percents.
+  !> Lambda 0.1 to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error;
+  !> above it both have the same error in the force, but Galerkin misses the smallest pressure by
+  !> percents.
   real(wp), parameter :: galerkin_limit = 2.0_wp
+  ! Memory of foils measured with MUMPS on the bearing of [Gu2020].
+  real(wp), parameter :: bytes_an_unknown = 6.0e3_wp  !! of shells that are not condensed [B]
+  real(wp), parameter :: bytes_an_entry = 100.0_wp    !! of condensed bumps' rows [B]
   real(wp), parameter :: bytes_a_film_node = 4.0e3_wp !! measured with MUMPS on film meshes [B]
 
 contains
@@ -56,8 +58,36 @@ contains
     call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved, about '// &
                   text(real(nodes, wp)*bytes_a_film_node*1.0e-6_wp, 3)//' MB')
+    if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
     if (scene%sweep%present) call log%line('sweep: '//text(size(scene%sweep%values))//' points')
   end subroutine plan_bearing
+
+  !> Sizes of foils of shells and the memory that the matrix and its factors take.
+  subroutine show_foil_sizes(scene, plan, nodes, log)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    integer, intent(in) :: nodes !! of the film, and of the top foil
+    type(run_log_type), intent(in) :: log
+    integer, parameter :: node_unknowns = 5
+    integer :: rows, lines, stations
+    real(wp) :: unknowns, bytes
+
+    rows = merge(plan%axial/2, plan%axial, plan%half) + 1
+    associate (foil => scene%bump_foil, mesh => scene%mesh)
+      lines = 3*foil%bumps + 1
+      stations = foil%bumps*(mesh%arc_elements + mesh%flat_elements) + 1
+      if (scene%model%reduction == reduction_guyan) then
+        unknowns = real(node_unknowns*lines, wp)*rows
+        bytes = unknowns*(3*node_unknowns*rows)*bytes_an_entry
+      else
+        unknowns = real(node_unknowns*stations, wp)*rows
+        bytes = unknowns*bytes_an_unknown
+      end if
+    end associate
+    bytes = bytes + real(node_unknowns*nodes, wp)*bytes_an_unknown
+    call log%line('foils: about '//text(nint(unknowns) + node_unknowns*nodes)// &
+                  ' unknowns before supports, about '//text(bytes*1.0e-6_wp, 2)//' MB')
+  end subroutine show_foil_sizes
 
   !> The foil model and what it is made of.
   subroutine describe_foil(scene, log)

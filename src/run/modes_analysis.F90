@@ -34,7 +34,8 @@ contains
 
   !> Computes the modes and writes the results.
   !>
-  !> `converged` is false where fewer modes than wanted were found. Fails when a file cannot be written.
+  !> `converged` is false where fewer modes than wanted were found. Fails when a file cannot be
+  !> written.
   subroutine run_modes(scene, folder, command, start_time, log, converged, error)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go

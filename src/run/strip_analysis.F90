@@ -173,7 +173,8 @@ contains
     end associate
   end function full_force
 
-  !> What moves a strip that nothing but the sleeve holds, in words; empty where the sleeve can hold it.
+  !> What moves a strip that nothing but the sleeve holds, in words; empty where the sleeve can hold
+  !> it.
   function what_lifts(scene) result(words)
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words

@@ -70,9 +70,8 @@ contains
     call square(factor, stiffness)
   end subroutine shell_stiffness
 
-  !> Roots of the elastic moduli of the five strains
-  !> \( \varepsilon_{11} + \varepsilon_{22}, \varepsilon_{11} - \varepsilon_{22}, \gamma_{12},
-  !> \gamma_{13}, \gamma_{23} \).
+  !> Roots of the elastic moduli of the five strains \( \varepsilon_{11} + \varepsilon_{22},
+  !> \varepsilon_{11} - \varepsilon_{22}, \gamma_{12}, \gamma_{13}, \gamma_{23} \).
   pure function material_root(section) result(root)
     type(shell_section_type), intent(in) :: section
     real(wp) :: root(strains) !! [Pa^(1/2)]

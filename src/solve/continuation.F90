@@ -119,7 +119,8 @@ contains
       ' um, beyond that '//report%reason
   end subroutine name_touch_down
 
-  !> Start value of a step: the line through the last two answers, as far along it as can be evaluated.
+  !> Start value of a step: the line through the last two answers, as far along it as can be
+  !> evaluated.
   subroutine predict(bearing, here, before, at_here, at_before, trial)
     type(bearing_system_type), intent(inout) :: bearing
     Vec, intent(in) :: here, before         !! last two answers

@@ -1,13 +1,13 @@
 #include "gfb_petsc.h"
 !> The equations of one side of a bearing, film and shaft or the foil, with the other side held.
 !>
-!> They are the coupled bearing's own: its residual with the other side's unknowns where they are in the
-!> bearing's state, and its matrix, of both of which the side takes its part.
+!> They are the coupled bearing's own: its residual with the other side's unknowns where they are in
+!> the bearing's state, and its matrix, of both of which the side takes its part.
 !>
-!> Under constant pressures a foil that has lifted off flaps away by many clearances, which no film would
-!> let it do. So the held film is the gas in the gap rather than its pressure: where the foil moves, p h
-!> stays, to first order, as in a very fast bearing. Where the foil comes to rest the pressures are
-!> those that were held, so the answer of the loops is the same.
+!> Under constant pressures a foil that has lifted off flaps away by many clearances, which no film
+!> would let it do. So the held film is the gas in the gap rather than its pressure: where the foil
+!> moves, p h stays, to first order, as in a very fast bearing. Where the foil comes to rest the
+!> pressures are those that were held, so the answer of the loops is the same.
 module gfb_coupling_side
   use petscmat
   use gfb_kinds, only: wp
@@ -96,8 +96,8 @@ contains
     PetscCallA(MatCreateSubMatrix(side%bearing%jacobian, side%part, side%film_part, MAT_INITIAL_MATRIX, side%felt, ierr))
   end subroutine create_yielding
 
-  !> Holds the film of the bearing's present state: its pressures where the foil stays, and the gas in
-  !> the gap where it moves.
+  !> Holds the film of the bearing's present state: its pressures where the foil stays, and the gas
+  !> in the gap where it moves.
   subroutine hold_film(self)
     class(coupling_side_type), intent(inout) :: self
 
@@ -153,8 +153,8 @@ contains
     PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_FORWARD, self%pressure, ierr))
   end subroutine complete
 
-  !> Residual of the side's equations. A foil under held pressures may close the film on its way, whose
-  !> equations nobody asks then: they are given room.
+  !> Residual of the side's equations. A foil under held pressures may close the film on its way,
+  !> whose equations nobody asks then: they are given room.
   subroutine evaluate_side(self, state, residual, valid)
     class(coupling_side_type), intent(inout) :: self
     Vec, intent(in) :: state

@@ -4,8 +4,8 @@
 !> $$ T = \begin{bmatrix} I & 0 \\ -K_{II}^{-1} K_{IB} & \Phi \end{bmatrix}, \qquad
 !>    \hat{K} = T^T K T, \quad \hat{M} = T^T M T $$
 !>
-!> with the fixed-interface modes \( \Phi \) of the interior. Source: [CraigBampton1968]. Without modes
-!> it is Guyan's reduction.
+!> with the fixed-interface modes \( \Phi \) of the interior. Source: [CraigBampton1968]. Without
+!> modes it is Guyan's reduction.
 module gfb_craig_bampton
   use petscmat
   use gfb_kinds, only: wp
@@ -137,7 +137,8 @@ contains
     product = 0.5_wp*(product + transpose(product))
   end function congruent
 
-  !> Lowest eigenvalues of the strip put together from its super-elements, on this rank alone [1/s2].
+  !> Lowest eigenvalues of the strip put together from its super-elements, on this rank alone
+  !> [1/s2].
   function assembled_eigenvalues(foil, kinds, shift, wanted) result(eigenvalue)
     type(foil_structure_type), intent(in) :: foil
     type(craig_bampton_type), intent(in) :: kinds(:)

@@ -3,8 +3,8 @@
 !>
 !> $$ K \phi = \omega^2 M \phi, \qquad \phi_i^T M \phi_j = \delta_{ij} $$
 !>
-!> Krylov-Schur on the shifted inverse \( (K + s M)^{-1} M \), which MUMPS factorizes once. A positive
-!> s makes it definite for a structure that is not held.
+!> Krylov-Schur on the shifted inverse \( (K + s M)^{-1} M \), which MUMPS factorizes once. A
+!> positive s makes it definite for a structure that is not held.
 module gfb_eigenmodes
   use slepceps
   use gfb_kinds, only: wp

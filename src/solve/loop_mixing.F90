@@ -2,8 +2,8 @@
 !> Anderson's mixing of the loops of a fixed-point iteration.
 !>
 !> Each loop holds a vector and asks for a change of it. What the last loops held is mixed so that
-!> together they ask for the least change, measured in rows that the caller chooses; a share of what is
-!> left is added. That is a secant method for several directions at once.
+!> together they ask for the least change, measured in rows that the caller chooses; a share of what
+!> is left is added. That is a secant method for several directions at once.
 module gfb_loop_mixing
   use petscvec
   use gfb_kinds, only: wp
@@ -93,8 +93,8 @@ contains
     mixing%column(:, 1) = asked - mixing%asked
   end subroutine remember
 
-  !> Shares of columns that leave the least of a vector, by Gram and Schmidt; columns that say nothing
-  !> new have none.
+  !> Shares of columns that leave the least of a vector, by Gram and Schmidt; columns that say
+  !> nothing new have none.
   subroutine least_change(column, vector, share)
     real(wp), intent(in) :: column(:, :) !! this rank's rows
     real(wp), intent(in) :: vector(:)    !! this rank's rows

@@ -316,8 +316,8 @@ contains
   end subroutine search_line
 
   !> Shortens a step along which contacts change their state, where the forces on the structure turn
-  !> against it: to where they do little work along it. Without friction and film that is a search for the
-  !> least energy, which finds home from anywhere.
+  !> against it: to where they do little work along it. Without friction and film that is a search
+  !> for the least energy, which finds home from anywhere.
   subroutine balance_work(newton, snes, x, f, y, trial, trial_residual, ierr)
     type(newton_type), intent(inout) :: newton
     SNES, intent(in) :: snes

@@ -1,10 +1,11 @@
 #include "gfb_petsc.h"
 !> Film and foil in turns, as in [Gu2020] Fig. 6b, for comparison with solving them together.
 !>
-!> A loop solves the film, and the shaft's position where it floats, with the foil held, and then the
-!> foil with the film held. It has come home when the foil's answer is the deflection that the film was
-!> solved with. The loops are mixed by Anderson's method. They start from the film of a rigid foil with
-!> the foil at rest, or along a sweep from the neighbour's answer; nothing else helps them on their way.
+!> A loop solves the film, and the shaft's position where it floats, with the foil held, and then
+!> the foil with the film held. It has come home when the foil's answer is the deflection that the
+!> film was solved with. The loops are mixed by Anderson's method. They start from the film of a
+!> rigid foil with the foil at rest, or along a sweep from the neighbour's answer; nothing else
+!> helps them on their way.
 module gfb_partitioned
   use petscvec
   use gfb_kinds, only: wp
@@ -128,8 +129,8 @@ contains
     sides%created = .true.
   end subroutine create_partitioned
 
-  !> Brings the bearing to a point by loops from its present state. On return the state is the answer,
-  !> or the last film there was on the foil that it was solved with.
+  !> Brings the bearing to a point by loops from its present state. On return the state is the
+  !> answer, or the last film there was on the foil that it was solved with.
   subroutine follow_partitioned(bearing, newton, target, settings, sides, report)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton !! of the coupled equations: only counts here
@@ -159,7 +160,8 @@ contains
     report%steps = 1
   end subroutine follow_partitioned
 
-  !> What was spent since creation: loops, then iterations and factorizations of the film and the foil.
+  !> What was spent since creation: loops, then iterations and factorizations of the film and the
+  !> foil.
   pure function counts(sides) result(spent)
     type(partitioned_type), intent(in) :: sides
     integer :: spent(5)

@@ -12,8 +12,8 @@ module gfb_beam_foil
   implicit none (type, external)
   private
 
-  !> Both foils and this rank's part of their equations; the meshes are those that shells would have,
-  !> the numbers of unknowns those that a station's nodes share.
+  !> Both foils and this rank's part of their equations; the meshes are those that shells would
+  !> have, the numbers of unknowns those that a station's nodes share.
   type, extends(shell_foil_type), public :: beam_foil_type
   end type beam_foil_type
 end module gfb_beam_foil

@@ -3,7 +3,8 @@
 !>
 !> Local unknowns of a rank, in this order: the pressures of its film nodes (its own and its
 !> neighbours'), the foil's unknowns, and \( (e_x, e_y) \) where the shaft floats. Newton sees them
-!> divided by their sizes (ambient pressure, clearance), and the equations by the sizes of their terms.
+!> divided by their sizes (ambient pressure, clearance), and the equations by the sizes of their
+!> terms.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
@@ -167,8 +168,8 @@ contains
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
 
-  !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures, what
-  !> moves the foil, the shaft; -1 where there is none of its own.
+  !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures,
+  !> what moves the foil, the shaft; -1 where there is none of its own.
   pure subroutine element_columns(bearing, element, row, column)
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: element
@@ -203,7 +204,8 @@ contains
     call bearing%apply_point()
   end subroutine scale_unknowns
 
-  !> Takes over the present operating point: speed of the film, sizes of its and the shaft's equations.
+  !> Takes over the present operating point: speed of the film, sizes of its and the shaft's
+  !> equations.
   !>
   !> A film equation is measured by the flow through a cell, that of the pressure and that of the
   !> motion; a force by the load and by ambient pressure on the bearing's shadow.

@@ -69,15 +69,15 @@ module gfb_foil_model
 
 contains
 
-  !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for what
-  !> does; here nothing.
+  !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
+  !> what does; here nothing.
   subroutine add_constant(self, jacobian)
     class(foil_model_type), intent(in) :: self
     Mat, intent(in) :: jacobian
   end subroutine add_constant
 
-  !> Moves the contacts' places on their laws to where the foils have gone. `moved` where it has any;
-  !> `settled` where each is linearised where it is. Here none.
+  !> Moves the contacts' places on their laws to where the foils have gone. `moved` where it has
+  !> any; `settled` where each is linearised where it is. Here none.
   subroutine settle(self, unknown, moved, settled)
     class(foil_model_type), intent(inout) :: self
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
@@ -99,7 +99,8 @@ contains
     hardness = 1.0_wp
   end function softest
 
-  !> Length of this rank's crest lines that touches nothing, and of all of them [m]; here there are none.
+  !> Length of this rank's crest lines that touches nothing, and of all of them [m]; here there are
+  !> none.
   pure function crest_lengths(self) result(length)
     class(foil_model_type), intent(in) :: self
     real(wp) :: length(2)

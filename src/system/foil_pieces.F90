@@ -119,8 +119,8 @@ contains
     is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(free, substructure))
   end function retained_in_piece
 
-  !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there does
-  !> not make it another kind, and the free ones inside.
+  !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there
+  !> does not make it another kind, and the free ones inside.
   pure function piece_unknowns(free, substructure) result(has)
     logical, intent(in) :: free(:, :) !! (5, nodes) not held by a support
     type(substructure_type), intent(in) :: substructure

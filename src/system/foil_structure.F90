@@ -1,8 +1,8 @@
 #include "gfb_petsc.h"
 !> A foil of shells on all ranks: full, or condensed onto the lines that can be loaded.
 !>
-!> Only free unknowns of kept nodes have a number; supports and condensed nodes have none. So one mesh
-!> serves the full and the reduced foil, and a support costs nothing.
+!> Only free unknowns of kept nodes have a number; supports and condensed nodes have none. So one
+!> mesh serves the full and the reduced foil, and a support costs nothing.
 module gfb_foil_structure
   use petscksp
   use gfb_kinds, only: wp
@@ -236,7 +236,8 @@ contains
     end do
   end function element_unknowns
 
-  !> Global numbers of a substructure's retained unknowns, in the super-element's order; -1 at supports.
+  !> Global numbers of a substructure's retained unknowns, in the super-element's order; -1 at
+  !> supports.
   pure function retained_unknowns(structure, substructure) result(number)
     type(foil_structure_type), intent(in) :: structure
     type(substructure_type), intent(in) :: substructure

@@ -1,7 +1,8 @@
 #include "gfb_petsc.h"
 !> Distributes a mesh of quadrilaterals over the ranks, by DMPlex.
 !>
-!> Here, and nowhere else, PETSc's points and offsets (from 0) become our nodes and elements (from 1).
+!> Here, and nowhere else, PETSc's points and offsets (from 0) become our nodes and elements (from
+!> 1).
 module gfb_mesh_dm
   use, intrinsic :: iso_c_binding, only: c_intptr_t, c_int
   use petscdmplex
@@ -71,7 +72,8 @@ contains
     end if
   end subroutine distribute_mesh
 
-  !> A DMPlex that holds the whole mesh on rank 0: cells and vertices, no edges, as none has unknowns.
+  !> A DMPlex that holds the whole mesh on rank 0: cells and vertices, no edges, as none has
+  !> unknowns.
   subroutine create_whole(communicator, element_nodes, position, whole)
     integer, intent(in) :: communicator
     integer, intent(in) :: element_nodes(:, :)

@@ -42,8 +42,8 @@ module gfb_nonlinear_system
 
 contains
 
-  !> Called after every step: what is linearised at a place of its own moves there. The residual changes
-  !> with it. Says so in `moved`; here nothing does.
+  !> Called after every step: what is linearised at a place of its own moves there. The residual
+  !> changes with it. Says so in `moved`; here nothing does.
   subroutine settle(self, state, moved)
     class(nonlinear_system_type), intent(inout) :: self
     Vec, intent(in) :: state !! scaled
@@ -51,13 +51,14 @@ contains
     moved = .false.
   end subroutine settle
 
-  !> Called before every step; `settle` may be called for several trials of it. Here nothing is kept.
+  !> Called before every step; `settle` may be called for several trials of it. Here nothing is
+  !> kept.
   subroutine begin_step(self)
     class(nonlinear_system_type), intent(inout) :: self
   end subroutine begin_step
 
-  !> Work of a structure's residual forces along a step, scaled; where a structure is in equilibrium it
-  !> changes its sign along the step. Here there is none.
+  !> Work of a structure's residual forces along a step, scaled; where a structure is in equilibrium
+  !> it changes its sign along the step. Here there is none.
   function virtual_work(self, residual, step) result(work)
     class(nonlinear_system_type), intent(in) :: self
     Vec, intent(in) :: residual, step !! scaled

@@ -1,9 +1,9 @@
 #include "gfb_petsc.h"
 !> Top foil and bump strip as shells under the film.
 !>
-!> Equations: elastic forces of both foils, the film's pressure on the top foil ([Gu2020] eq. 2), and
-!> the contacts of crests with the top foil and of corners with the sleeve. The top foil has the film's
-!> nodes; its deflection is \( h_f = -v \).
+!> Equations: elastic forces of both foils, the film's pressure on the top foil ([Gu2020] eq. 2),
+!> and the contacts of crests with the top foil and of corners with the sleeve. The top foil has the
+!> film's nodes; its deflection is \( h_f = -v \).
 module gfb_shell_foil
   use petscmat
   use gfb_kinds, only: wp

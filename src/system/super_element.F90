@@ -4,9 +4,10 @@
 !> $$ \tilde{K} = K_{BB} - K_{BI} K_{II}^{-1} K_{IB}, \qquad q_I = -K_{II}^{-1} K_{IB} q_B $$
 !>
 !> Source: [Gu2020] eqs. 3 to 6, [Guyan1965]. The substructure is held as a MatSchurComplement whose
-!> inner solver is an exact Cholesky factorization, made when interior displacements are asked for. Its
-!> explicit matrix comes from MUMPS, and not from PETSc's own explicit operator, which drops entries below
-!> 1e-10. Any symmetric positive definite stiffness with any retained unknowns will do.
+!> inner solver is an exact Cholesky factorization, made when interior displacements are asked for.
+!> Its explicit matrix comes from MUMPS, and not from PETSc's own explicit operator, which drops
+!> entries below 1e-10. Any symmetric positive definite stiffness with any retained unknowns will
+!> do.
 module gfb_super_element
   use petscksp
   use gfb_kinds, only: wp
@@ -134,7 +135,8 @@ contains
     matrix = self%block_ii
   end subroutine interior_stiffness
 
-  !> Interior displacements for a unit of each retained unknown, \( -K_{II}^{-1} K_{IB} \), [Gu2020] eq. 4.
+  !> Interior displacements for a unit of each retained unknown, \( -K_{II}^{-1} K_{IB} \), [Gu2020]
+  !> eq. 4.
   function constraint_modes(self) result(modes)
     class(super_element_type), intent(in) :: self
     real(wp) :: modes(size(self%interior), size(self%retained))
