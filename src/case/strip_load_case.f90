@@ -9,7 +9,7 @@ module gfb_strip_load_case
   use gfb_value_rules, only: any_value, from_to, positive
   implicit none (type, external)
   private
-  public :: strip_load_case_type, read_strip_load_case, crest_pressures
+  public :: strip_load_case_type, read_strip_load_case, crest_pressures, crest_forces
   public :: bump_stiffness, typical_deflection
 
   integer, parameter, public :: load_crest_pressure = 1
@@ -158,6 +158,14 @@ contains
       pressure = load%pressure
     end select
   end function crest_pressures
+
+  !> Force on every crest line over the whole width [N].
+  pure function crest_forces(load, foil) result(force)
+    type(strip_load_case_type), intent(in) :: load
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp) :: force(foil%bumps)
+    force = crest_pressures(load, foil%bumps)*foil%pitch*foil%width
+  end function crest_forces
 
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
   elemental function bump_stiffness(foil) result(stiffness)

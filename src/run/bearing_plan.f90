@@ -15,6 +15,7 @@ module gfb_bearing_plan
   use gfb_reynolds_element, only: film_flow_type, cell_peclet
   use gfb_bearing_builder, only: bearing_plan_type, foundation_stiffness
   use gfb_foil_builder, only: plate_stations
+  use gfb_foil_plan, only: count_bumps
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -69,21 +70,14 @@ contains
     integer, intent(in) :: nodes !! of the film, and of the top foil
     type(run_log_type), intent(in) :: log
     integer, parameter :: node_unknowns = 5
-    integer :: rows, lines, stations
-    real(wp) :: unknowns, bytes
+    integer :: rows, stations
+    real(wp) :: unknowns, row_entries, bytes
+    logical :: reduced
 
     rows = merge(plan%axial/2, plan%axial, plan%half) + 1
-    associate (foil => scene%bump_foil, mesh => scene%mesh)
-      lines = 3*foil%bumps + 1
-      stations = foil%bumps*(mesh%arc_elements + mesh%flat_elements) + 1
-      if (scene%model%reduction == reduction_guyan) then
-        unknowns = real(node_unknowns*lines, wp)*rows
-        bytes = unknowns*(3*node_unknowns*rows)*bytes_an_entry
-      else
-        unknowns = real(node_unknowns*stations, wp)*rows
-        bytes = unknowns*bytes_an_unknown
-      end if
-    end associate
+    reduced = scene%model%reduction == reduction_guyan
+    call count_bumps(scene, rows, reduced, stations, unknowns, row_entries)
+    bytes = unknowns*merge(row_entries*bytes_an_entry, bytes_an_unknown, reduced)
     bytes = bytes + real(node_unknowns*nodes, wp)*bytes_an_unknown
     call log%line('foils: about '//text(nint(unknowns) + node_unknowns*nodes)// &
                   ' unknowns before supports, about '//text(bytes*1.0e-6_wp, 2)//' MB')

@@ -5,7 +5,7 @@ module gfb_contact_output
   use gfb_case_file, only: case_array_type
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_strip_system, only: contact_sleeve, contact_top
+  use gfb_bump_contacts, only: contact_sleeve, contact_top
   implicit none (type, external)
   private
   public :: record_contacts, contact_arrays, contact_field

@@ -7,12 +7,12 @@ module gfb_foil_plan
   use gfb_scene_case, only: analysis_strip
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan
   use gfb_modes_case, only: part_words, part_strip
-  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_bump_foil_case, only: fixed_edge_none, has_flats
   use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
-  public :: plan_foil
+  public :: plan_foil, count_bumps
 
   ! Memory measured with MUMPS on strips of 50 to 200 elements over the width.
   real(wp), parameter :: bytes_an_unknown = 3.0e3_wp !! of a full strip [B]
@@ -115,29 +115,32 @@ contains
     type(scene_type), intent(in) :: scene
     type(foil_plan_type), intent(in) :: plan
     type(run_log_type), intent(in) :: log
-    real(wp), parameter :: rounding = 1.0e-9_wp !! a flat shorter than this is none, relative
-    integer :: flats, lines, stations, rows
-    real(wp) :: unknowns, bytes
+    integer :: stations, rows
+    real(wp) :: unknowns, row_entries, bytes
 
-    associate (foil => scene%bump_foil, mesh => scene%mesh)
-      flats = mesh%flat_elements
-      lines = 3*foil%bumps + 1
-      if (foil%pitch <= 2.0_wp*foil%half_length*(1.0_wp + rounding)) then
-        flats = 0
-        lines = 2*foil%bumps + 1
-      end if
-      stations = foil%bumps*(mesh%arc_elements + flats) + 1
-      rows = merge(mesh%axial_elements/2, mesh%axial_elements, plan%half) + 1
-    end associate
-    if (plan%reduced) then
-      unknowns = real(node_unknowns*lines, wp)*rows
-      bytes = unknowns*(3*node_unknowns*rows)*bytes_an_entry ! a line, and the two beside it
-    else
-      unknowns = real(node_unknowns*stations, wp)*rows
-      bytes = unknowns*bytes_an_unknown
-    end if
+    rows = merge(scene%mesh%axial_elements/2, scene%mesh%axial_elements, plan%half) + 1
+    call count_bumps(scene, rows, plan%reduced, stations, unknowns, row_entries)
+    bytes = unknowns*merge(row_entries*bytes_an_entry, bytes_an_unknown, plan%reduced)
     call log%line('strip mesh: '//text(stations)//' x '//text(rows)//' nodes solved, about '// &
                   text(nint(unknowns))//' unknowns before supports, about '// &
                   text(bytes*1.0e-6_wp, 2)//' MB')
   end subroutine show_sizes
+
+  !> Stations and unknowns of the bump foil, before supports, and the entries of a condensed row.
+  pure subroutine count_bumps(scene, rows, reduced, stations, unknowns, row_entries)
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: rows           !! that are solved
+    logical, intent(in) :: reduced        !! bumps are condensed
+    integer, intent(out) :: stations
+    real(wp), intent(out) :: unknowns     !! may be more than an integer holds
+    real(wp), intent(out) :: row_entries  !! of a line, and the two beside it
+    integer :: lines
+
+    associate (foil => scene%bump_foil, mesh => scene%mesh)
+      stations = foil%bumps*(mesh%arc_elements + merge(mesh%flat_elements, 0, has_flats(foil))) + 1
+      lines = foil%bumps*merge(3, 2, has_flats(foil)) + 1
+    end associate
+    unknowns = real(node_unknowns*merge(lines, stations, reduced), wp)*rows
+    row_entries = real(3*node_unknowns*rows, wp)
+  end subroutine count_bumps
 end module gfb_foil_plan

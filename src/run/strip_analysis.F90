@@ -11,7 +11,7 @@ module gfb_strip_analysis
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
-  use gfb_strip_load_case, only: crest_pressures, load_plates, support_contact
+  use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
   use gfb_shell_geometry, only: node_unknowns
   use gfb_substructures, only: kind_count
   use gfb_foil_mesh, only: crest_positions
@@ -168,7 +168,7 @@ contains
       if (load%kind == load_plates) then
         force = load%maximum_force
       else
-        force = sum(crest_pressures(load, foil%bumps))*foil%pitch*foil%width
+        force = sum(crest_forces(load, foil))
       end if
     end associate
   end function full_force
@@ -185,7 +185,7 @@ contains
     associate (foil => scene%bump_foil, load => scene%strip_load)
       if (foil%fixed_edge /= fixed_edge_none .or. load%kind == load_plates .or. &
           load%support /= support_contact) return
-      force = crest_pressures(load, foil%bumps)*foil%pitch*foil%width
+      force = crest_forces(load, foil)
       crest = crest_positions(strip_shape(scene))
       total = sum(force)
       size_of_load = sum(abs(force))

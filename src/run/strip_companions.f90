@@ -5,7 +5,7 @@ module gfb_strip_companions
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing, fixed_line_corner
-  use gfb_strip_load_case, only: crest_pressures, load_plates, bump_stiffness
+  use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
   use gfb_case_file, only: case_array_type
@@ -38,7 +38,7 @@ contains
       if (scene%strip_load%kind == load_plates) then
         crest_force = force/foil%bumps
       else
-        crest_force = crest_pressures(scene%strip_load, foil%bumps)*foil%pitch*foil%width
+        crest_force = crest_forces(scene%strip_load, foil)
       end if
       companions%walowit_anno = crest_force/(bump_stiffness(foil)*foil%pitch*foil%width)
       companions%curved_bump = crest_force/ &

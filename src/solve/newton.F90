@@ -15,6 +15,7 @@ module gfb_newton
   use gfb_run_log, only: run_log_type
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_old_factors, only: old_factors_type, use_old_factors, judge_factors
   implicit none (type)
   private
   public :: create_newton, solve_newton, destroy_newton
@@ -24,16 +25,10 @@ module gfb_newton
   real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's
   real(wp), parameter :: chord_step = 0.02_wp      !! smaller steps leave the factors as they are
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
-  integer, parameter :: longest_krylov = 60         !! GMRES iterations with old factors at most
   integer, parameter :: balances = 8                !! trials of a step's length for contacts
   integer, parameter :: patience = 12               !! steps after which contacts are taken to cycle
   real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
   !! beginning, before and after that
-  integer, parameter :: cheap_krylov = 2            !! of a solve that new factors would not make shorter
-  integer, parameter :: least_krylov = 5            !! new factors never pay before
-  real(wp), parameter :: krylov_share = 0.1_wp      !! they pay after this share of flops over entries of theirs
-  real(wp), parameter :: krylov_tolerance = 1.0e-3_wp !! of the preconditioned residual, relative
-  real(wp), parameter :: hopeless_krylov = 1.0e10_wp !! growth of that residual that ends a solve
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
 
   !> When to stop.
@@ -62,9 +57,7 @@ module gfb_newton
     logical, private :: created = .false.
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
-    logical, private :: outdated = .true.    !! GMRES has become dear with the present factors
-    integer, private :: spent = 0            !! GMRES iterations that new factors might have saved
-    integer, private :: dear = least_krylov  !! as many cost as much as new factors
+    type(old_factors_type), private :: old   !! what GMRES has cost with the present factors
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
@@ -112,9 +105,7 @@ contains
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
     if (system%slow_change) then
-      PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
-      PetscCallA(KSPGMRESSetRestart(linear, int(longest_krylov, pint), ierr))
-      PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, hopeless_krylov, int(longest_krylov, pint), ierr))
+      call use_old_factors(linear)
       PetscCallA(SNESSetMaxLinearSolveFailures(newton%snes, huge(1_pint), ierr))
     end if
     PetscCallA(KSPGetPC(linear, factors, ierr))
@@ -231,8 +222,8 @@ contains
     call newton%system%begin_step()
     if (newton%system%slow_change) then
       ! To PETSc -2 is: new factors now, -1: none until told.
-      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%outdated), ierr))
-      newton%fresh = newton%outdated
+      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%old%outdated), ierr))
+      newton%fresh = newton%old%outdated
       if (newton%fresh) newton%factorizations = newton%factorizations + 1
     else
       newton%fresh = .not. newton%keep
@@ -253,6 +244,7 @@ contains
     PetscErrorCode, intent(out) :: ierr
 
     SNES :: snes
+    KSP :: linear
     Vec :: x, f, y, trial, trial_residual
     PetscReal :: before, after, size_x, size_y
     integer :: halving
@@ -273,7 +265,8 @@ contains
     found = .false.
     newton%impossible = .true.
     if (newton%system%slow_change) then
-      call judge_krylov(newton, snes, solved, ierr)
+      PetscCall(SNESGetKSP(snes, linear, ierr))
+      call judge_factors(newton%old, linear, newton%fresh, solved, ierr)
       CHKERRQ(ierr)
       if (.not. solved) then ! again with new factors
         newton%length = 0.0_wp
@@ -346,53 +339,6 @@ contains
       high = newton%length
     end do
   end subroutine balance_work
-
-  !> Whether GMRES came home with the present factors, and whether they serve it further.
-  subroutine judge_krylov(newton, snes, solved, ierr)
-    type(newton_type), intent(inout) :: newton
-    SNES, intent(in) :: snes
-    logical, intent(out) :: solved
-    PetscErrorCode, intent(out) :: ierr
-    KSP :: linear
-    KSPConvergedReason :: reason
-    PetscInt :: iterations
-
-    PetscCall(SNESGetKSP(snes, linear, ierr))
-    PetscCall(KSPGetConvergedReason(linear, reason, ierr))
-    PetscCall(KSPGetIterationNumber(linear, iterations, ierr))
-    solved = GFB_REASON(reason) > 0 .or. newton%fresh
-    if (newton%fresh) then
-      newton%spent = 0
-      call price_factors(linear, newton%dear, ierr)
-      CHKERRQ(ierr)
-    end if
-    newton%spent = newton%spent + max(0, int(iterations) - cheap_krylov)
-    newton%outdated = .not. solved .or. newton%spent > newton%dear
-  end subroutine judge_krylov
-
-  !> How many GMRES iterations cost as much as the factors of a solver: by counts, so that runs
-  !> repeat.
-  subroutine price_factors(linear, dear, ierr)
-    KSP, intent(in) :: linear
-    integer, intent(out) :: dear
-    PetscErrorCode, intent(out) :: ierr
-    integer, parameter :: flops_place = 3, entries_place = 29 !! in MUMPS' RINFOG and INFOG
-    character(len=80) :: package
-    PetscReal :: flops
-    PetscInt :: entries
-    Mat :: factors
-    PC :: preconditioner
-
-    dear = least_krylov
-    PetscCall(KSPGetPC(linear, preconditioner, ierr))
-    PetscCall(PCFactorGetMatSolverType(preconditioner, package, ierr))
-    if (package /= MATSOLVERMUMPS) return
-    PetscCall(PCFactorGetMatrix(preconditioner, factors, ierr))
-    PetscCall(MatMumpsGetRinfog(factors, int(flops_place, pint), flops, ierr))
-    PetscCall(MatMumpsGetInfog(factors, int(entries_place, pint), entries, ierr))
-    if (entries < 0) entries = -1000000*entries ! in millions where they are many
-    dear = max(least_krylov, nint(min(krylov_share*flops/max(1, entries), real(longest_krylov, wp))))
-  end subroutine price_factors
 
   !> Whether the present factors serve the next step too.
   pure subroutine choose_factors(newton)

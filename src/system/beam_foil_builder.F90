@@ -7,7 +7,6 @@ module gfb_beam_foil_builder
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_scene, only: scene_type
-  use gfb_top_foil_case, only: top_foil_leading
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
@@ -16,9 +15,9 @@ module gfb_beam_foil_builder
                              bent_beam_stiffness, beam_unknowns
   use gfb_shell_geometry, only: node_unknowns
   use gfb_contact_set, only: contact_point_type
-  use gfb_strip_builder, only: crest_name
-  use gfb_shell_foil, only: contact_sleeve, contact_top
-  use gfb_foil_places, only: top_mesh, shape_on_pad, set_laws, list_wanted, place_unknowns, &
+  use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
+  use gfb_foil_builder, only: shape_on_pad, plate_fixed_edge
+  use gfb_foil_places, only: top_mesh, set_laws, list_wanted, place_unknowns, &
                              add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type
   implicit none (type)
@@ -49,7 +48,7 @@ contains
     foil%ambient_pressure = scene%gas%ambient_pressure
     foil%top%mesh = top_mesh(scene, film)
     foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half)
-    call number_unknowns(foil, scene%top_foil%fixed_edge == top_foil_leading)
+    call number_unknowns(foil, plate_fixed_edge(scene))
     first = foil%top%unknowns + foil%bumps%unknowns
     foil%owned = merge(first, 0, rank == 0)
     if (rank == 0) first = 0
@@ -65,17 +64,13 @@ contains
   end subroutine create_beam_foil
 
   !> Numbers the unknowns of both foils, the same for all nodes of a station.
-  pure subroutine number_unknowns(foil, leading)
+  pure subroutine number_unknowns(foil, fixed_edge)
     type(beam_foil_type), intent(inout) :: foil
-    logical, intent(in) :: leading !! the top foil is fixed at its leading edge, else at the trailing one
+    character(len=*), intent(in) :: fixed_edge !! name of the top foil's nodes that are clamped
     integer :: last
 
     last = 0
-    if (leading) then
-      call number_stations(foil%top%mesh, 'leading_edge', last, foil%top_number)
-    else
-      call number_stations(foil%top%mesh, 'trailing_edge', last, foil%top_number)
-    end if
+    call number_stations(foil%top%mesh, fixed_edge, last, foil%top_number)
     foil%top%unknowns = last
     call number_stations(foil%bumps%mesh, 'fixed_edge', last, foil%bump_number)
     foil%bumps%unknowns = last - foil%top%unknowns
@@ -162,7 +157,7 @@ contains
   pure function width_of(mesh) result(width)
     type(quad_mesh_type), intent(in) :: mesh
     real(wp) :: width
-    width = mesh%position(axial, mesh%rows) - mesh%position(axial, 1)
+    width = line_length(mesh, [1, mesh%rows])
   end function width_of
 
   !> One contact a line; their unknowns stand as the foil's own numbers for now.
@@ -198,19 +193,11 @@ contains
     type(contact_point_type) :: point
 
     if (.not. any(foil%bump_number(:, node) > 0)) return
-    point%law = law
-    point%node = node
-    point%line = number
-    point%length = width_of(foil%bumps%mesh)
+    point = bump_contact(law, node, number, width_of(foil%bumps%mesh))
     point%slave = foil%bump_number(:axial, node)
-    point%frame(tangential, 1) = 1.0_wp
-    point%frame(axial, 2) = 1.0_wp
-    point%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
-    if (law == contact_sleeve) then
-      allocate (point%master(axial, 0), point%share(0))
-    else
+    if (law == contact_top) then
       call find_master(foil, overhang, point)
-      if (.not. allocated(point%share)) return
+      if (size(point%share) == 0) return
     end if
     foil%contacts%point = [foil%contacts%point, point]
   end subroutine add_line

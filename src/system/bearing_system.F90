@@ -13,7 +13,7 @@ module gfb_bearing_system
   use gfb_film_mesh, only: film_mesh_type, film_elements
   use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
   use gfb_gas_film, only: gas_film_type, create_gas_film
-  use gfb_film_geometry, only: film_nodes
+  use gfb_film_matrix, only: no_shaft, make_film_room, add_film_rows, add_shaft_rows
   use gfb_film_load, only: film_forces
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure, any_rank
   use gfb_partition, only: partition_elements
@@ -133,60 +133,43 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     type(unknown_layout_type), intent(in) :: layout
 
-    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
     PetscInt :: first, last, row, entries, number(bearing%unknowns)
+    PetscInt, allocatable :: renumbered(:)
     PetscScalar :: value(bearing%unknowns)
-    PetscInt :: equation(film_nodes), unknown(columns)
-    real(wp) :: zero(columns, film_nodes)
     PetscErrorCode :: ierr
-    integer :: element, i
+    integer :: i
 
     PetscCallA(MatGetOwnershipRange(bearing%foil%elastic, first, last, ierr))
     do row = first, last - 1
       PetscCallA(MatGetRow(bearing%foil%elastic, row, entries, number, value, ierr))
-      do i = 1, int(entries)
-        number(i) = layout%of_foil(int(number(i)) + 1)
-      end do
-      PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(layout%of_foil(int(row) + 1), pint)], entries, number, value, ADD_VALUES, ierr))
-      do i = 1, int(entries) ! as it came, for PETSc to take back
-        number(i) = 0
-      end do
+      renumbered = [(int(layout%of_foil(int(number(i)) + 1), pint), i=1, int(entries))]
+      PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(layout%of_foil(int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
       PetscCallA(MatRestoreRow(bearing%foil%elastic, row, entries, number, value, ierr))
     end do
     call bearing%foil%add_constant(bearing%jacobian)
-    zero = 0.0_wp
-    do element = 1, size(bearing%film%element_nodes, 2)
-      call element_columns(bearing, element, equation, unknown)
-      call add_block(bearing%jacobian, equation, unknown, zero)
-    end do
-    if (bearing%floats) call add_shaft_jacobian(bearing, 0.0_wp)
-    do i = 1, size(bearing%mesh%mesh_node)
-      if (bearing%mesh%owned(i)) call add_block(bearing%jacobian, [int(i - 1, pint)], [int(i - 1, pint)], [0.0_wp])
-    end do
+    call make_film_room(bearing%film, bearing%foil, shaft_place(bearing), bearing%mesh%owned, bearing%jacobian)
+    if (bearing%floats) then
+      call add_shaft_rows(bearing%film, bearing%first_shaft, bearing%last_rank, hold_stiffness(bearing), 0.0_wp, &
+                          bearing%jacobian)
+    end if
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
 
-  !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures,
-  !> what moves the foil, the shaft; -1 where there is none of its own.
-  pure subroutine element_columns(bearing, element, row, column)
-    type(bearing_system_type), intent(in) :: bearing
-    integer, intent(in) :: element
-    PetscInt, intent(out) :: row(film_nodes), column(2*film_nodes + shaft_unknowns)
-    integer :: b
+  !> Local unknowns before e_x, where the shaft has any.
+  pure function shaft_place(bearing) result(place)
+    class(bearing_system_type), intent(in) :: bearing
+    integer :: place
+    place = merge(bearing%first_shaft, no_shaft, bearing%floats)
+  end function shaft_place
 
-    column = -1 ! PETSc skips negative numbers
-    if (bearing%floats) column(2*film_nodes + 1:) = [(int(bearing%first_shaft + b, pint), b=0, 1)]
-    associate (nodes => bearing%film%element_nodes(:, element))
-      row = int(merge(-1, nodes - 1, bearing%film%fixed(nodes)), pint)
-      column(:film_nodes) = int(nodes - 1, pint)
-      do b = 1, film_nodes
-        if (bearing%foil%source(nodes(b)) == nodes(b)) cycle ! the pressure itself
-        column(film_nodes + b) = int(bearing%foil%source(nodes(b)) - 1, pint)
-      end do
-    end associate
-  end subroutine element_columns
+  !> Force over way that keeps a held shaft at its place, 0 where it floats [N/m].
+  pure function hold_stiffness(bearing) result(stiffness)
+    class(bearing_system_type), intent(in) :: bearing
+    real(wp) :: stiffness
+    stiffness = merge(bearing%force_scale/bearing%film%clearance, 0.0_wp, bearing%held)
+  end function hold_stiffness
 
   !> Sizes of unknowns and equations.
   subroutine scale_unknowns(bearing)
@@ -265,8 +248,7 @@ contains
       end if
       if (self%floats .and. self%last_rank) then
         if (self%held) then
-          value(shaft + 1:) = (unknown(shaft + 1:) - self%point%eccentricity)* &
-            self%force_scale/self%film%clearance
+          value(shaft + 1:) = (unknown(shaft + 1:) - self%point%eccentricity)*hold_stiffness(self)
         else
           value(shaft + 1:) = value(shaft + 1:) - self%point%load
         end if
@@ -293,9 +275,12 @@ contains
     else
       PetscCallA(MatZeroEntries(self%jacobian, ierr))
     end if
-    call add_film_jacobian(self, unknown(:size(gap)), gap, self%position(unknown))
+    call add_film_rows(self%film, self%foil, shaft_place(self), self%mesh%owned, unknown(:size(gap)), gap, &
+                       self%position(unknown), self%jacobian)
     call self%foil%add_jacobian(unknown, self%jacobian)
-    if (self%floats) call add_shaft_jacobian(self, 1.0_wp)
+    if (self%floats) then
+      call add_shaft_rows(self%film, self%first_shaft, self%last_rank, hold_stiffness(self), 1.0_wp, self%jacobian)
+    end if
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
@@ -350,78 +335,6 @@ contains
     call self%get_unknowns(unknown)
     call self%foil%commit(unknown)
   end subroutine commit_bearing
-
-  !> Film rows: pressures, what moves the foil, and the shaft.
-  subroutine add_film_jacobian(self, pressure, gap, point)
-    class(bearing_system_type), intent(inout) :: self
-    real(wp), intent(in) :: pressure(:) !! at this rank's nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at this rank's nodes [m]
-    type(operating_point_type), intent(in) :: point
-
-    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
-    real(wp) :: by_pressure(film_nodes, film_nodes), by_gap(film_nodes, film_nodes)
-    real(wp) :: by_eccentricity(film_nodes, shaft_unknowns)
-    real(wp) :: block(columns, film_nodes) ! a row of the matrix in each column, as PETSc reads it
-    PetscInt :: row(film_nodes), column(columns)
-    integer :: element, b, node
-
-    do element = 1, size(self%film%element_nodes, 2)
-      call element_columns(self, element, row, column)
-      associate (nodes => self%film%element_nodes(:, element))
-        call self%film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
-                                        by_eccentricity)
-        block = 0.0_wp
-        block(:film_nodes, :) = transpose(by_pressure)
-        do b = 1, film_nodes
-          node = merge(b, film_nodes + b, self%foil%source(nodes(b)) == nodes(b))
-          block(node, :) = block(node, :) + self%foil%rate(nodes(b))*by_gap(:, b)
-        end do
-        block(2*film_nodes + 1:, :) = transpose(by_eccentricity)
-      end associate
-      call add_block(self%jacobian, row, column, block)
-    end do
-    do node = 1, size(gap)
-      if (.not. (self%film%fixed(node) .and. self%mesh%owned(node))) cycle
-      row(1) = node - 1
-      call add_block(self%jacobian, row(1:1), row(1:1), [1.0_wp])
-    end do
-  end subroutine add_film_jacobian
-
-  !> Shaft rows: weights of the pressures in the force, or the position where it is held.
-  subroutine add_shaft_jacobian(self, factor)
-    class(bearing_system_type), intent(inout) :: self
-    real(wp), intent(in) :: factor !! 0: makes room
-
-    PetscInt :: row(shaft_unknowns)
-    PetscInt, allocatable :: column(:)
-    real(wp) :: diagonal(shaft_unknowns, shaft_unknowns)
-    real(wp), allocatable :: weight(:, :)
-    integer :: i
-
-    row = [(int(self%first_shaft + i - 1, pint), i=1, shaft_unknowns)]
-    column = [(int(i - 1, pint), i=1, size(self%mesh%mesh_node))]
-    allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
-    if (.not. self%held) weight = transpose(self%film%force_weight(1:2, :))
-    call add_block(self%jacobian, row, column, factor*weight)
-    diagonal = 0.0_wp ! the pattern stays the same when the shaft is let go
-    if (self%last_rank) then
-      if (self%held) then
-        diagonal(1, 1) = self%force_scale/self%film%clearance
-        diagonal(2, 2) = diagonal(1, 1)
-      end if
-      call add_block(self%jacobian, row, row, factor*diagonal)
-    end if
-  end subroutine add_shaft_jacobian
-
-  !> Adds a block to the matrix by local numbers, from 0; negative ones are skipped.
-  subroutine add_block(matrix, row, column, block)
-    Mat, intent(in) :: matrix
-    PetscInt, intent(in) :: row(:), column(:)
-    real(wp), intent(in) :: block(size(column)*size(row)) !! one row after the other
-    PetscErrorCode :: ierr
-
-    PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column), pint), column, block, ADD_VALUES, ierr))
-  end subroutine add_block
 
   !> Gap at this rank's nodes for local unknowns [m].
   function bearing_gap(self, unknown) result(gap)

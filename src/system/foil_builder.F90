@@ -20,7 +20,8 @@ module gfb_foil_builder
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
   implicit none (type)
   private
-  public :: build_part, strip_shape, section_of, plate_section, plate_stations, symmetry_supports
+  public :: build_part, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
+            plate_fixed_edge, symmetry_supports
 
   integer, parameter :: axial = 3                             !! component of a displacement
   integer, parameter :: about_tangent = 5                     !! rotation about the second axis
@@ -114,27 +115,29 @@ contains
     mesh = top_foil_mesh(plate_stations(scene), 0.0_wp, &
                          axial_rows(scene%bearing%length, scene%mesh%axial_elements, plan%half), plan%half)
     fixed = symmetry_supports(mesh)
-    if (scene%top_foil%fixed_edge == top_foil_leading) then
-      fixed(:, node_set(mesh, 'leading_edge')) = .true.
-    else
-      fixed(:, node_set(mesh, 'trailing_edge')) = .true.
-    end if
+    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
   end subroutine plate
+
+  !> Name of the top foil's nodes that are clamped.
+  pure function plate_fixed_edge(scene) result(name)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: name
+
+    name = 'trailing_edge'
+    if (scene%top_foil%fixed_edge == top_foil_leading) name = 'leading_edge'
+  end function plate_fixed_edge
 
   !> Stations of the top foil, above the crests where the case asks for that.
   function plate_stations(scene) result(x)
     type(scene_type), intent(in) :: scene
     real(wp), allocatable :: x(:)
-    type(strip_shape_type) :: shape
     real(wp) :: length
     integer :: i
 
     length = pad_length(scene%bearing)
     associate (elements => scene%mesh%circumferential_elements, pitch => scene%bump_foil%pitch)
       if (scene%mesh%align_crests) then
-        shape = strip_shape(scene)
-        if (shape%mirrored) shape%edge = length
-        x = aligned_stations(length, crest_positions(shape), pitch, &
+        x = aligned_stations(length, crest_positions(shape_on_pad(scene)), pitch, &
                              max(1, nint(elements*pitch/length)))
       else
         x = [(length*real(i, wp)/real(elements, wp), i=0, elements)]
@@ -166,6 +169,15 @@ contains
       if (abs(mesh%position(3, node)) <= 0.0_wp) fixed([axial, about_tangent], node) = .true.
     end do
   end function symmetry_supports
+
+  !> Shape of a bearing's strip, laid from its fixed edge.
+  function shape_on_pad(scene) result(shape)
+    type(scene_type), intent(in) :: scene
+    type(strip_shape_type) :: shape
+
+    shape = strip_shape(scene)
+    if (shape%mirrored) shape%edge = pad_length(scene%bearing)
+  end function shape_on_pad
 
   !> Shape of a scene's strip, its leading end at x = 0.
   function strip_shape(scene) result(shape)

@@ -8,19 +8,16 @@ module gfb_foil_places
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_foil_mesh, only: strip_shape_type, top_foil_mesh
-  use gfb_foil_builder, only: strip_shape
-  use gfb_strip_builder, only: contact_laws
+  use gfb_foil_mesh, only: top_foil_mesh
+  use gfb_bump_contacts, only: set_contact_laws
   use gfb_shell_foil, only: shell_foil_type
   implicit none (type, external)
   private
-  public :: top_mesh, shape_on_pad, set_laws, list_wanted, place_unknowns, add_pressure, size_unknowns
+  public :: top_mesh, set_laws, list_wanted, place_unknowns, add_pressure, size_unknowns
 
   integer, parameter :: radial = 2, axial = 3 !! components of a displacement
   integer, parameter :: corners = 4
-  real(wp), parameter :: first_penetration = 1.0e-4_wp !! that counts as touching, over the clearance
-  real(wp), parameter :: soft_contact = 20.0_wp        !! stiffness to begin with, over a bump's
-  real(wp), parameter :: normal_floor = 1.0e-7_wp      !! lent to slaves in the matrix, over a bump's stiffness
+  real(wp), parameter :: soft_contact = 20.0_wp !! stiffness to begin with, over a bump's
 
 contains
 
@@ -35,25 +32,14 @@ contains
                          0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half)
   end function top_mesh
 
-  !> The bump strip on the sleeve, laid from its fixed edge.
-  function shape_on_pad(scene) result(shape)
-    type(scene_type), intent(in) :: scene
-    type(strip_shape_type) :: shape
-
-    shape = strip_shape(scene)
-    if (shape%mirrored) shape%edge = pad_length(scene%bearing)
-  end function shape_on_pad
-
-  !> Laws of the contacts, what they lend to the matrix, and how soft they begin.
+  !> Laws of the contacts, and how soft they begin.
   subroutine set_laws(scene, foil)
     type(scene_type), intent(in) :: scene
     class(shell_foil_type), intent(inout) :: foil
     real(wp) :: stiffness !! of a bump, per length of line [N/m2]
 
     stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-    foil%contacts%law = contact_laws(scene%contact)
-    foil%contacts%secant_penetration = first_penetration*scene%bearing%clearance
-    foil%contacts%floor_normal = normal_floor*stiffness
+    call set_contact_laws(scene, scene%bearing%clearance, foil%contacts)
     foil%first_hardness = min(1.0_wp, soft_contact*stiffness/(scene%contact%normal_stiffness* &
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
   end subroutine set_laws

@@ -42,6 +42,7 @@ module gfb_foil_structure
     logical, private :: created = .false.
   contains
     procedure :: unknown
+    procedure :: owns
     procedure :: assemble_stiffness
     procedure :: assemble_mass
     procedure :: displacements
@@ -220,6 +221,16 @@ contains
     if (self%slot(component, node) == 0 .or. self%local_node(node) == 0) return
     number = self%part%first_unknown(self%local_node(node)) + self%slot(component, node) - 2
   end function unknown
+
+  !> Whether this rank owns a node.
+  pure function owns(self, node) result(mine)
+    class(foil_structure_type), intent(in) :: self
+    integer, intent(in) :: node !! of the whole mesh
+    logical :: mine
+
+    mine = .false.
+    if (self%local_node(node) > 0) mine = self%part%owned(self%local_node(node))
+  end function owns
 
   !> Global numbers of an element's unknowns.
   pure function element_unknowns(structure, element) result(number)

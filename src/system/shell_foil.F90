@@ -8,6 +8,7 @@ module gfb_shell_foil
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_bump_contacts, only: contact_top
   use gfb_contact_law, only: state_open
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_model, only: foil_model_type
@@ -15,7 +16,6 @@ module gfb_shell_foil
   implicit none (type)
   private
 
-  integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! the set's laws
   integer, parameter :: corners = 4 !! of a film element
 
   !> Both foils and this rank's part of their equations.

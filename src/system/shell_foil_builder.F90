@@ -12,15 +12,16 @@ module gfb_shell_foil_builder
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
-  use gfb_foil_builder, only: section_of, plate_section, symmetry_supports
-  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_foil_builder, only: shape_on_pad, section_of, plate_section, plate_fixed_edge, &
+                              symmetry_supports
   use gfb_contact_set, only: contact_point_type
-  use gfb_strip_builder, only: line_shares, crest_name
+  use gfb_bump_contacts, only: bump_contact, line_shares, line_length, crest_name, contact_sleeve, &
+                               contact_top
   use gfb_master_search, only: find_masters
   use gfb_projection, only: projection_type, project
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_shell_foil, only: shell_foil_type, contact_sleeve, contact_top
-  use gfb_foil_places, only: top_mesh, shape_on_pad, set_laws, list_wanted, place_unknowns, &
+  use gfb_shell_foil, only: shell_foil_type
+  use gfb_foil_places, only: top_mesh, set_laws, list_wanted, place_unknowns, &
                              add_pressure, size_unknowns
   implicit none (type)
   private
@@ -44,6 +45,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     logical, allocatable :: wanted(:)
+    integer, allocatable :: top_shift(:), bump_shift(:)
     integer :: first
 
     foil%ambient_pressure = scene%gas%ambient_pressure
@@ -51,8 +53,8 @@ contains
     if (allocated(error)) return
     call build_bumps(scene, film, reduced, foil%bumps, error)
     if (allocated(error)) return
-    call number_unknowns(foil, first)
-    call join_stiffnesses(foil, first)
+    call number_unknowns(foil, first, top_shift, bump_shift)
+    call join_stiffnesses(foil, top_shift, bump_shift)
     call set_laws(scene, foil)
     call add_contacts(scene, foil)
     call list_wanted(foil, mesh, first, wanted)
@@ -78,11 +80,7 @@ contains
     none = .false.
     mesh = top_mesh(scene, film)
     fixed = symmetry_supports(mesh)
-    if (scene%top_foil%fixed_edge == top_foil_leading) then
-      fixed(:, node_set(mesh, 'leading_edge')) = .true.
-    else
-      fixed(:, node_set(mesh, 'trailing_edge')) = .true.
-    end if
+    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
     allocate (piece(film%circumferential()))
     do i = 1, size(piece)
       piece(i) = substructure(mesh, [((i - 1)*film%axial() + k, k=1, film%axial())], none)
@@ -114,12 +112,14 @@ contains
   end subroutine build_bumps
 
   !> Numbers of both foils' unknowns, rank by rank: top foil, then bumps.
-  subroutine number_unknowns(foil, first)
+  subroutine number_unknowns(foil, first, top_shift, bump_shift)
     type(shell_foil_type), intent(inout) :: foil
     integer, intent(out) :: first !! unknowns of the ranks before this one
+    !> (from 0) foil's number of every unknown of the structures less its own
+    integer, allocatable, intent(out) :: top_shift(:), bump_shift(:)
 
     integer, allocatable :: both(:, :)
-    integer :: rank, ranks
+    integer :: rank, ranks, i
     PetscErrorCode :: ierr
 
     call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
@@ -128,27 +128,30 @@ contains
     call MPI_Allgather([foil%top%part%owned_unknowns, foil%bumps%part%owned_unknowns], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
     first = sum(both(:, :rank))
     foil%owned = sum(both(:, rank + 1))
-    foil%top_number = numbers_of(foil%top, sum(both(1, :rank)), first)
-    foil%bump_number = numbers_of(foil%bumps, sum(both(2, :rank)), first + both(1, rank + 1))
+    allocate (top_shift(0:foil%top%unknowns - 1), bump_shift(0:foil%bumps%unknowns - 1))
+    do i = 1, ranks
+      top_shift(sum(both(1, :i - 1)):sum(both(1, :i)) - 1) = sum(both(2, :i - 1))
+      bump_shift(sum(both(2, :i - 1)):sum(both(2, :i)) - 1) = sum(both(1, :i))
+    end do
+    foil%top_number = numbers_of(foil%top, top_shift)
+    foil%bump_number = numbers_of(foil%bumps, bump_shift)
   end subroutine number_unknowns
 
   !> The foil's own numbers of a structure's unknowns, known on all ranks.
-  function numbers_of(structure, before, first) result(number)
+  function numbers_of(structure, shift) result(number)
     type(foil_structure_type), intent(in) :: structure
-    integer, intent(in) :: before !! the structure's unknowns on the ranks before this one
-    integer, intent(in) :: first  !! the foil's numbers before this rank's of this structure
+    integer, intent(in) :: shift(0:)     !! of the structure's unknowns
     integer, allocatable :: number(:, :) !! (5, nodes), from 1; 0: none
     integer, allocatable :: mine(:, :)
     PetscErrorCode :: ierr
-    integer :: local, node, component
+    integer :: node, component, unknown
 
     allocate (mine(node_unknowns, size(structure%mesh%position, 2)), source=0)
-    do local = 1, size(structure%part%mesh_node)
-      if (.not. structure%part%owned(local)) cycle
-      node = structure%part%mesh_node(local)
+    do node = 1, size(mine, 2)
+      if (.not. structure%owns(node)) cycle
       do component = 1, node_unknowns
-        if (structure%unknown(component, node) < 0) cycle
-        mine(component, node) = structure%unknown(component, node) + 1 - before + first
+        unknown = structure%unknown(component, node)
+        if (unknown >= 0) mine(component, node) = unknown + shift(unknown) + 1
       end do
     end do
     allocate (number, mold=mine)
@@ -156,9 +159,9 @@ contains
   end function numbers_of
 
   !> One matrix of both foils' stiffness.
-  subroutine join_stiffnesses(foil, first)
+  subroutine join_stiffnesses(foil, top_shift, bump_shift)
     type(shell_foil_type), intent(inout) :: foil
-    integer, intent(in) :: first !! foil's unknowns of the ranks before this one
+    integer, intent(in) :: top_shift(0:), bump_shift(0:) !! of the structures' unknowns
     PetscInt, allocatable :: entries(:)
     PetscErrorCode :: ierr
 
@@ -170,8 +173,8 @@ contains
     PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
     PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, 0_pint, entries, ierr))
     PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, 0_pint, min(entries, int(foil%owned, pint)), 0_pint, entries, ierr))
-    call copy_rows(foil%top, foil%top_number, foil%elastic)
-    call copy_rows(foil%bumps, foil%bump_number, foil%elastic)
+    call copy_rows(foil%top, top_shift, foil%elastic)
+    call copy_rows(foil%bumps, bump_shift, foil%elastic)
     PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
@@ -197,45 +200,22 @@ contains
   end subroutine count_rows
 
   !> A structure's rows with the foil's own numbers.
-  subroutine copy_rows(structure, number, matrix)
+  subroutine copy_rows(structure, shift, matrix)
     type(foil_structure_type), intent(in) :: structure
-    integer, intent(in) :: number(:, :) !! (5, nodes)
+    integer, intent(in) :: shift(0:) !! of the structure's unknowns
     Mat, intent(in) :: matrix
 
-    integer :: renumbered(0:structure%unknowns - 1)
     PetscInt :: first, last, row, entries, column(structure%unknowns)
     PetscScalar :: value(structure%unknowns)
     PetscErrorCode :: ierr
 
-    call map_numbers(structure, number, renumbered)
     PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
     do row = first, last - 1
       PetscCallA(MatGetRow(structure%stiffness, row, entries, column, value, ierr))
-      PetscCallA(MatSetValues(matrix, 1_pint, [int(renumbered(row), pint)], entries, int(renumbered(column(:entries)), pint), value, INSERT_VALUES, ierr))
+      PetscCallA(MatSetValues(matrix, 1_pint, [row + int(shift(row), pint)], entries, column(:entries) + int(shift(column(:entries)), pint), value, INSERT_VALUES, ierr))
       PetscCallA(MatRestoreRow(structure%stiffness, row, entries, column, value, ierr))
     end do
   end subroutine copy_rows
-
-  !> From a structure's numbers, from 0, to the foil's, from 0.
-  subroutine map_numbers(structure, number, renumbered)
-    type(foil_structure_type), intent(in) :: structure
-    integer, intent(in) :: number(:, :)   !! (5, nodes)
-    integer, intent(out) :: renumbered(0:)
-    integer :: mine(0:size(renumbered) - 1), local, component
-    PetscErrorCode :: ierr
-
-    mine = 0
-    associate (part => structure%part)
-      do local = 1, size(part%mesh_node)
-        if (.not. part%owned(local)) cycle
-        do component = 1, node_unknowns
-          if (structure%unknown(component, part%mesh_node(local)) < 0) cycle
-          mine(structure%unknown(component, part%mesh_node(local))) = number(component, part%mesh_node(local)) - 1
-        end do
-      end do
-    end associate
-    call MPI_Allreduce(mine, renumbered, size(mine), MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
-  end subroutine map_numbers
 
   !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
   subroutine add_contacts(scene, foil)
@@ -272,22 +252,14 @@ contains
     integer, intent(inout) :: found
 
     real(wp), allocatable :: length(:)
-    integer :: i, local
+    integer :: i
 
-    associate (mesh => foil%bumps%mesh)
-      length = line_shares(mesh, line)*(mesh%position(axial, line(size(line))) - mesh%position(axial, line(1)))
-    end associate
+    length = line_shares(foil%bumps%mesh, line)*line_length(foil%bumps%mesh, line)
     do i = 1, size(line)
-      local = foil%bumps%local_node(line(i))
-      if (local == 0) cycle
-      if (.not. foil%bumps%part%owned(local) .or. .not. any(foil%bump_number(:axial, line(i)) > 0)) cycle
+      if (.not. foil%bumps%owns(line(i)) .or. .not. any(foil%bump_number(:axial, line(i)) > 0)) cycle
       found = found + 1
-      point(found) = contact_point_type(law=law, node=line(i), line=number, length=length(i))
+      point(found) = bump_contact(law, line(i), number, length(i))
       point(found)%slave = foil%bump_number(:axial, line(i))
-      point(found)%frame(tangential, 1) = 1.0_wp
-      point(found)%frame(axial, 2) = 1.0_wp
-      point(found)%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
-      allocate (point(found)%master(axial, 0), point(found)%share(0))
     end do
   end subroutine add_line
 

@@ -7,8 +7,8 @@ module gfb_strip_answer
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_contact_law, only: state_open, state_slip
   use gfb_quad_mesh, only: node_set
-  use gfb_strip_builder, only: crest_name, line_shares
-  use gfb_strip_system, only: strip_system_type, plate_moved, plate_forced, contact_sleeve, contact_top
+  use gfb_bump_contacts, only: contact_top, crest_name, line_shares
+  use gfb_strip_system, only: strip_system_type, plate_moved
   implicit none (type)
   private
   public :: start_recorder, read_answer, destroy_recorder
@@ -102,16 +102,14 @@ contains
     real(wp), allocatable :: share(:)
     PetscScalar :: value(1)
     PetscErrorCode :: ierr
-    integer :: bump, i, local
+    integer :: bump, i
 
     deflection = 0.0_wp
     do bump = 1, bumps
       line = node_set(strip%foil%mesh, crest_name(bump))
       share = line_shares(strip%foil%mesh, line)
       do i = 1, size(line)
-        local = strip%foil%local_node(line(i))
-        if (local == 0) cycle
-        if (.not. strip%foil%part%owned(local)) cycle
+        if (.not. strip%foil%owns(line(i))) cycle
         PetscCallA(VecGetValues(strip%state, 1_pint, [int(strip%foil%unknown(radial, line(i)), pint)], value, ierr))
         deflection(bump) = deflection(bump) - share(i)*value(1)*strip%scale%length
       end do

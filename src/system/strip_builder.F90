@@ -4,15 +4,13 @@ module gfb_strip_builder
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
-  use gfb_contact_case, only: contact_case_type, case_law_tanh_drag => law_tanh_drag, case_law_coulomb => law_coulomb, &
-                              case_law_tanh_reset => law_tanh_reset, direction_motion
-  use gfb_strip_load_case, only: crest_pressures, typical_deflection, bump_stiffness, load_plates, &
+  use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
-  use gfb_contact_law, only: contact_law_type, law_tanh_drag, law_tanh_reset, law_coulomb
+  use gfb_bump_contacts, only: set_contact_laws, bump_contact, crest_name, line_shares, line_length, &
+                               contact_sleeve, contact_top
   use gfb_contact_set, only: contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
@@ -20,18 +18,16 @@ module gfb_strip_builder
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
   use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, symmetry_supports
   use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
-                              plate_moved, contact_sleeve, contact_top
+                              plate_moved
   implicit none (type)
   private
-  public :: build_strip, crest_name, line_shares, contact_laws
+  public :: build_strip
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
 
-  ! Lent to slaves in the matrix alone, relative to a bump's stiffness: a foil that floats, or slides
-  ! everywhere at its friction limit, leaves it regular.
+  !> Lent to slaves in the matrix alone, over a bump's stiffness: a free strip that slides everywhere at
+  !> its friction limit leaves it regular.
   real(wp), parameter :: tangential_floor = 1.0e-7_wp
-  real(wp), parameter :: normal_floor = 1.0e-7_wp
-  real(wp), parameter :: first_penetration = 1.0e-4_wp !! of the deflection, in the first guess
 
 contains
 
@@ -56,7 +52,10 @@ contains
       strip%scale%angle = strip%scale%length/foil%half_length
       strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*foil%width/ &
                           scene%mesh%axial_elements
-      call set_laws(scene, strip)
+      call set_contact_laws(scene, strip%scale%length, strip%contacts)
+      if (foil%fixed_edge == fixed_edge_none) then
+        strip%contacts%floor_tangential = tangential_floor*bump_stiffness(foil)*foil%pitch
+      end if
       call add_contacts(scene, strip)
       call create_strip_system(strip)
       call add_loads(scene, plan, strip)
@@ -97,45 +96,13 @@ contains
     end associate
   end subroutine build_structure
 
-  !> What sleeve and top are to the bumps.
-  function contact_laws(contact) result(law)
-    type(contact_case_type), intent(in) :: contact
-    type(contact_law_type) :: law(contact_top)
-    integer :: kind
-
-    select case (contact%friction_law)
-    case (case_law_tanh_reset)
-      kind = law_tanh_reset
-    case (case_law_coulomb)
-      kind = law_coulomb
-    case default
-      kind = law_tanh_drag
-    end select
-    law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, contact%stick_length, kind, &
-                           contact%friction_direction == direction_motion)
-    law(contact_sleeve)%friction = contact%friction_sleeve
-    law(contact_top)%friction = contact%friction_top
-  end function contact_laws
-
-  !> Laws of the contacts, and what they lend to the matrix.
-  subroutine set_laws(scene, strip)
-    type(scene_type), intent(in) :: scene
-    type(strip_system_type), intent(inout) :: strip
-    real(wp) :: stiffness
-
-    strip%contacts%law = contact_laws(scene%contact)
-    strip%contacts%secant_penetration = first_penetration*strip%scale%length
-    stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-    strip%contacts%floor_normal = normal_floor*stiffness
-    if (scene%bump_foil%fixed_edge == fixed_edge_none) strip%contacts%floor_tangential = tangential_floor*stiffness
-  end subroutine set_laws
-
   !> Contacts of this rank's corner and crest nodes.
   subroutine add_contacts(scene, strip)
     type(scene_type), intent(in) :: scene
     type(strip_system_type), intent(inout) :: strip
 
     integer, allocatable :: corners(:)
+    real(wp), allocatable :: force(:)
     integer :: i, rows
     logical :: pressed
 
@@ -150,12 +117,11 @@ contains
       end if
       pressed = strip%plate == plate_none
       if (pressed .and. .not. scene%contact%friction_top > 0.0_wp) return
-      associate (foil => scene%bump_foil)
-        do i = 1, foil%bumps
-          call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
-                        crest_force(scene, i)/foil%width)
-        end do
-      end associate
+      force = crest_forces(scene%strip_load, scene%bump_foil)
+      do i = 1, size(force)
+        call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
+                      force(i)/scene%bump_foil%width)
+      end do
     end associate
   end subroutine add_contacts
 
@@ -172,28 +138,23 @@ contains
     type(contact_point_type) :: one
     integer, allocatable :: global(:)
     real(wp), allocatable :: length(:)
-    integer :: i, k, found, local, plate
+    integer :: i, k, found, plate
 
-    length = line_shares(strip%foil%mesh, line)* &
-             (strip%foil%mesh%position(axial, line(size(line))) - strip%foil%mesh%position(axial, line(1)))
+    length = line_shares(strip%foil%mesh, line)*line_length(strip%foil%mesh, line)
     allocate (point(size(line)))
     allocate (global(0))
     plate = 0
     found = 0
     do i = 1, size(line)
-      local = strip%foil%local_node(line(i))
-      if (local == 0) cycle
-      if (.not. strip%foil%part%owned(local)) cycle
+      if (.not. strip%foil%owns(line(i))) cycle
       if (.not. any(strip%foil%free(:axial, line(i)))) cycle
-      one = contact_point_type(law=law, node=line(i), line=number, length=length(i), pressed=pressed)
+      one = bump_contact(law, line(i), number, length(i))
+      one%pressed = pressed
       do k = 1, axial
         if (strip%foil%unknown(k, line(i)) < 0) cycle
         global = [global, strip%foil%unknown(k, line(i))]
         one%slave(k) = size(strip%contacts%global) + size(global)
       end do
-      one%frame(tangential, 1) = 1.0_wp
-      one%frame(axial, 2) = 1.0_wp
-      one%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
       if (law == contact_top .and. strip%plate == plate_forced) then
         if (plate == 0) then
           global = [global, strip%foil%unknowns]
@@ -201,8 +162,6 @@ contains
         end if
         one%master = reshape([0, plate, 0], [axial, 1])
         one%share = [1.0_wp]
-      else
-        allocate (one%master(axial, 0), one%share(0))
       end if
       found = found + 1
       point(found) = one
@@ -218,22 +177,21 @@ contains
     type(foil_plan_type), intent(in) :: plan
     type(strip_system_type), intent(inout) :: strip
 
-    real(wp), allocatable :: share(:)
+    real(wp), allocatable :: share(:), force(:)
     integer, allocatable :: line(:)
-    integer :: bump, i, local
+    integer :: bump, i
     real(wp) :: solved
     PetscErrorCode :: ierr
 
     solved = merge(0.5_wp, 1.0_wp, plan%half)/strip%scale%force ! forces in their unit
     if (strip%plate == plate_none) then
-      do bump = 1, scene%bump_foil%bumps
+      force = crest_forces(scene%strip_load, scene%bump_foil)
+      do bump = 1, size(force)
         line = node_set(strip%foil%mesh, crest_name(bump))
         share = line_shares(strip%foil%mesh, line)
         do i = 1, size(line)
-          local = strip%foil%local_node(line(i))
-          if (local == 0) cycle
-          if (.not. strip%foil%part%owned(local)) cycle
-          PetscCallA(VecSetValue(strip%full_load, int(strip%foil%unknown(radial, line(i)), pint), -crest_force(scene, bump)*share(i)*solved, INSERT_VALUES, ierr))
+          if (.not. strip%foil%owns(line(i))) cycle
+          PetscCallA(VecSetValue(strip%full_load, int(strip%foil%unknown(radial, line(i)), pint), -force(bump)*share(i)*solved, INSERT_VALUES, ierr))
         end do
       end do
     else if (strip%plate == plate_forced) then
@@ -242,38 +200,4 @@ contains
     PetscCallA(VecAssemblyBegin(strip%full_load, ierr))
     PetscCallA(VecAssemblyEnd(strip%full_load, ierr))
   end subroutine add_loads
-
-  !> Full force on a crest line over the whole width [N].
-  function crest_force(scene, bump) result(force)
-    type(scene_type), intent(in) :: scene
-    integer, intent(in) :: bump
-    real(wp) :: force
-    real(wp) :: pressure(scene%bump_foil%bumps)
-
-    pressure = crest_pressures(scene%strip_load, scene%bump_foil%bumps)
-    force = pressure(bump)*scene%bump_foil%pitch*scene%bump_foil%width
-  end function crest_force
-
-  !> Name of a bump's crest line among the mesh's node sets.
-  pure function crest_name(bump) result(name)
-    integer, intent(in) :: bump
-    character(len=:), allocatable :: name
-    name = 'crest_'//text(bump)
-  end function crest_name
-
-  !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to
-  !> one.
-  pure function line_shares(mesh, line) result(share)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: line(:) !! nodes in order of z
-    real(wp) :: share(size(line))
-    integer :: i, n
-
-    n = size(line)
-    associate (z => mesh%position(axial, line))
-      do i = 1, n
-        share(i) = 0.5_wp*(z(min(i + 1, n)) - z(max(i - 1, 1)))/(z(n) - z(1))
-      end do
-    end associate
-  end function line_shares
 end module gfb_strip_builder

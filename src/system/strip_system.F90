@@ -9,6 +9,7 @@ module gfb_strip_system
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks, any_rank, rank_count, this_rank
+  use gfb_bump_contacts, only: contact_top
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_local_exchange, only: local_exchange_type, create_exchange
@@ -20,8 +21,6 @@ module gfb_strip_system
   integer, parameter, public :: plate_none = 0  !! the crests carry given forces
   integer, parameter, public :: plate_forced = 1
   integer, parameter, public :: plate_moved = 2
-
-  integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! the set's laws
 
   !> Sizes that are of the order of the answer.
   type, public :: strip_scale_type

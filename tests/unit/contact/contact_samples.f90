@@ -1,6 +1,7 @@
 !> Elements, rotations, sheets and closed paths for the tests of the contacts.
 module contact_samples
   use gfb_kinds, only: wp
+  use sample_vectors, only: numbers, rotation, cross
   use gfb_contact_law, only: contact_law_type, contact_force, carried_slip
   implicit none (type, external)
   private
@@ -68,42 +69,6 @@ contains
     normal = cross(along, across)
     normal = normal/norm2(normal)
   end function surface_normal
-
-  !> Numbers between -1 and 1 that are the same in every run.
-  pure function numbers(count, seed) result(values)
-    integer, intent(in) :: count, seed
-    real(wp) :: values(count)
-    integer :: i
-
-    do i = 1, count
-      values(i) = 2.0_wp*modulo(43758.5453_wp*sin(12.9898_wp*i + 78.233_wp*seed), 1.0_wp) - 1.0_wp
-    end do
-  end function numbers
-
-  !> Matrix of the rotation by a vector, by Rodrigues' formula.
-  pure function rotation(vector) result(matrix)
-    real(wp), intent(in) :: vector(3) !! axis times angle [rad]
-    real(wp) :: matrix(3, 3)
-    real(wp) :: angle, axis(3), unit(3)
-    integer :: i
-
-    angle = norm2(vector)
-    axis = vector/angle
-    do i = 1, 3
-      unit = 0.0_wp
-      unit(i) = 1.0_wp
-      matrix(:, i) = cos(angle)*unit + sin(angle)*cross(axis, unit) &
-        + (1.0_wp - cos(angle))*axis(i)*axis
-    end do
-  end function rotation
-
-  !> Vector product.
-  pure function cross(a, b) result(c)
-    real(wp), intent(in) :: a(3), b(3)
-    real(wp) :: c(3)
-
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 
   !> A sheet of n by m elements over the unit square; element and node numbers run along x first.
   pure subroutine sheet(n, m, position, element_nodes)

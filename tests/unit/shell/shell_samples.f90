@@ -1,6 +1,7 @@
 !> Elements, motions and small linear algebra for the tests of the shell.
 module shell_samples
   use gfb_kinds, only: wp
+  use sample_vectors, only: numbers, rotation
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, &
     shell_unknowns, node_unknowns, cross
@@ -98,34 +99,6 @@ contains
       geometry%axis(:, :, a) = rotation_axes(geometry%director(:, a))
     end do
   end function flat_element
-
-  !> Numbers between -1 and 1 that are the same in every run.
-  pure function numbers(count, seed) result(values)
-    integer, intent(in) :: count, seed
-    real(wp) :: values(count)
-    integer :: i
-
-    do i = 1, count
-      values(i) = 2.0_wp*modulo(43758.5453_wp*sin(12.9898_wp*i + 78.233_wp*seed), 1.0_wp) - 1.0_wp
-    end do
-  end function numbers
-
-  !> Matrix of the rotation by a vector, by Rodrigues' formula.
-  pure function rotation(vector) result(matrix)
-    real(wp), intent(in) :: vector(3) !! axis times angle [rad]
-    real(wp) :: matrix(3, 3)
-    real(wp) :: angle, axis(3), unit(3)
-    integer :: i
-
-    angle = norm2(vector)
-    axis = vector/angle
-    do i = 1, 3
-      unit = 0.0_wp
-      unit(i) = 1.0_wp
-      matrix(:, i) = cos(angle)*unit + sin(angle)*cross(axis, unit) &
-        + (1.0_wp - cos(angle))*axis(i)*axis
-    end do
-  end function rotation
 
   !> An element with all its vectors turned.
   pure function turned(geometry, matrix) result(other)

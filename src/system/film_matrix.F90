@@ -1,0 +1,143 @@
+#include "gfb_petsc.h"
+!> The film's and the shaft's rows of the bearing's matrix, by local numbers.
+module gfb_film_matrix
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_film_geometry, only: film_nodes
+  use gfb_gas_film, only: gas_film_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_unknown_layout, only: shaft_unknowns
+  implicit none (type)
+  private
+  public :: add_film_rows, add_shaft_rows, make_film_room
+
+  integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns
+
+contains
+
+  !> Film rows: pressures, what moves the foil, and the shaft.
+  subroutine add_film_rows(film, foil, shaft, owned, pressure, gap, point, matrix)
+    type(gas_film_type), intent(in) :: film
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: shaft        !! local unknowns before e_x, or `no_shaft`
+    logical, intent(in) :: owned(:)     !! nodes that are this rank's
+    real(wp), intent(in) :: pressure(:) !! at this rank's nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at this rank's nodes [m]
+    type(operating_point_type), intent(in) :: point
+    Mat, intent(in) :: matrix
+
+    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
+    real(wp) :: by_pressure(film_nodes, film_nodes), by_gap(film_nodes, film_nodes)
+    real(wp) :: by_eccentricity(film_nodes, shaft_unknowns)
+    real(wp) :: block(columns, film_nodes) ! a row of the matrix in each column, as PETSc reads it
+    PetscInt :: row(film_nodes), column(columns)
+    integer :: element, b, node
+
+    do element = 1, size(film%element_nodes, 2)
+      call element_columns(film, foil, shaft, element, row, column)
+      associate (nodes => film%element_nodes(:, element))
+        call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
+                                        by_eccentricity)
+        block = 0.0_wp
+        block(:film_nodes, :) = transpose(by_pressure)
+        do b = 1, film_nodes
+          node = merge(b, film_nodes + b, foil%source(nodes(b)) == nodes(b))
+          block(node, :) = block(node, :) + foil%rate(nodes(b))*by_gap(:, b)
+        end do
+        block(2*film_nodes + 1:, :) = transpose(by_eccentricity)
+      end associate
+      call add_block(matrix, row, column, block)
+    end do
+    do node = 1, size(gap)
+      if (.not. (film%fixed(node) .and. owned(node))) cycle
+      row(1) = node - 1
+      call add_block(matrix, row(1:1), row(1:1), [1.0_wp])
+    end do
+  end subroutine add_film_rows
+
+  !> Shaft rows: weights of the pressures in the force, or the position where it is held.
+  subroutine add_shaft_rows(film, shaft, last_rank, hold, factor, matrix)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: shaft     !! local unknowns before e_x
+    logical, intent(in) :: last_rank !! this rank owns the shaft's equations
+    real(wp), intent(in) :: hold     !! force over way where the shaft is held, else 0 [N/m]
+    real(wp), intent(in) :: factor   !! 0: makes room
+    Mat, intent(in) :: matrix
+
+    PetscInt :: row(shaft_unknowns)
+    PetscInt, allocatable :: column(:)
+    real(wp) :: diagonal(shaft_unknowns, shaft_unknowns)
+    real(wp), allocatable :: weight(:, :)
+    integer :: i
+
+    row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
+    column = [(int(i - 1, pint), i=1, size(film%force_weight, 2))]
+    allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
+    if (.not. hold > 0.0_wp) weight = transpose(film%force_weight(1:2, :))
+    call add_block(matrix, row, column, factor*weight)
+    diagonal = 0.0_wp ! the pattern stays the same when the shaft is let go
+    if (last_rank) then
+      diagonal(1, 1) = hold
+      diagonal(2, 2) = hold
+      call add_block(matrix, row, row, factor*diagonal)
+    end if
+  end subroutine add_shaft_rows
+
+  !> Makes room for what the film's rows will hold.
+  subroutine make_film_room(film, foil, shaft, owned, matrix)
+    type(gas_film_type), intent(in) :: film
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
+    logical, intent(in) :: owned(:) !! nodes that are this rank's
+    Mat, intent(in) :: matrix
+
+    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
+    PetscInt :: row(film_nodes), column(columns)
+    real(wp) :: zero(columns, film_nodes)
+    integer :: element, node
+
+    zero = 0.0_wp
+    do element = 1, size(film%element_nodes, 2)
+      call element_columns(film, foil, shaft, element, row, column)
+      call add_block(matrix, row, column, zero)
+    end do
+    do node = 1, size(owned)
+      row(1) = node - 1
+      if (owned(node)) call add_block(matrix, row(1:1), row(1:1), [0.0_wp])
+    end do
+  end subroutine make_film_room
+
+  !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures,
+  !> what moves the foil, the shaft; -1 where there is none of its own.
+  pure subroutine element_columns(film, foil, shaft, element, row, column)
+    type(gas_film_type), intent(in) :: film
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: shaft !! local unknowns before e_x, `no_shaft` where it is held for good
+    integer, intent(in) :: element
+    PetscInt, intent(out) :: row(film_nodes), column(2*film_nodes + shaft_unknowns)
+    integer :: b
+
+    column = -1 ! PETSc skips negative numbers
+    if (shaft /= no_shaft) column(2*film_nodes + 1:) = [(int(shaft + b, pint), b=0, 1)]
+    associate (nodes => film%element_nodes(:, element))
+      row = int(merge(-1, nodes - 1, film%fixed(nodes)), pint)
+      column(:film_nodes) = int(nodes - 1, pint)
+      do b = 1, film_nodes
+        if (foil%source(nodes(b)) == nodes(b)) cycle ! the pressure itself
+        column(film_nodes + b) = int(foil%source(nodes(b)) - 1, pint)
+      end do
+    end associate
+  end subroutine element_columns
+
+  !> Adds a block to the matrix by local numbers, from 0; negative ones are skipped.
+  subroutine add_block(matrix, row, column, block)
+    Mat, intent(in) :: matrix
+    PetscInt, intent(in) :: row(:), column(:)
+    real(wp), intent(in) :: block(size(column)*size(row)) !! one row after the other
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column), pint), column, block, ADD_VALUES, ierr))
+  end subroutine add_block
+end module gfb_film_matrix
