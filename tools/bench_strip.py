@@ -6,12 +6,11 @@ file to the result files, so set-up and condensation are in them. The repetition
 the median of the ratios inside the rounds: full order and full width over the model.
 """
 
-import csv
 import pathlib
 import statistics
 import tempfile
 
-from gfb_tools import run_case, stop, time_command
+from gfb_tools import markdown_table, plain_table, read_petsc_log, run_case, stop, time_command
 
 # [Gu2020] table 1, load and friction as in inputs/gu2020_strip_case*.nml, but friction on both sides in case 1.
 CASE_1 = {
@@ -72,8 +71,8 @@ def run(options):
     head = (f"bump strips of [Gu2020] table 1 with friction, one rank; medians of {options.repetitions} runs of each "
             f"model\nCPU: the whole process; MPI's start alone ('gfb --version') takes {start:.2f} s\n"
             "mesh: elements of an arc + a flat x width\n")
-    (options.output/"strip.md").write_text("\n".join(markdown(*table) for table in tables), encoding="utf-8")
-    return head + "".join("\n" + plain(*table) for table in tables) + least_lines(scenes, measured)
+    (options.output/"strip.md").write_text("\n".join(markdown_table(*table) for table in tables), encoding="utf-8")
+    return head + "".join("\n" + plain_table(*table) for table in tables) + least_lines(scenes, measured)
 
 
 # --- one run ---
@@ -91,7 +90,8 @@ def measure(gfb, scene, model, folder):
     """What one run costs, and its answers."""
     log = pathlib.Path(folder)/"log.csv"
     done = run_case(gfb, strip_case(scene, model), folder, "strip", petsc=("-log_view", f":{log}:ascii_csv"))
-    events, whole = read_log(log)
+    events = read_petsc_log(log)["Main Stage"]
+    whole = events["summary"][1]
     if NEWTON not in events:
         stop("PETSc's log has no solve in it: is it built without logging?", 3)
     parts = {name: sum(events[event][1] for event in of) for name, of in PARTS.items()}
@@ -99,20 +99,6 @@ def measure(gfb, scene, model, folder):
     return {"summary": done.summary, "cpu": done.cpu, "answers": read_answers(pathlib.Path(folder)/"strip.h5"),
             "parts": {name: done.cpu*seconds/whole for name, seconds in parts.items()},
             "solves": events["MatSolve"][0]}
-
-
-def read_log(path):
-    """{event: (calls, seconds)} of PETSc's log, and the seconds of the whole run."""
-    events, whole = {}, 0.0
-    with open(path, encoding="utf-8", newline="") as log:
-        for row in csv.reader(log):
-            if row[0] != "Main Stage":
-                continue
-            if row[1] == "summary":
-                whole = float(row[4])
-            elif float(row[3]) > 0.0:
-                events[row[1]] = (float(row[3]), float(row[4]))
-    return events, whole
 
 
 def read_answers(path):
@@ -190,24 +176,6 @@ def part_table(scenes, measured):
                         [f"{statistics.median(one['parts'][name] for one in runs):.2f}" for name in names])
     return ("where the CPU time goes [s]: shared out as the wall times of PETSc's log are",
             ["scene", "model", *names], rows)
-
-
-def plain(title, heads, rows):
-    """A table for the terminal."""
-    widths = [max(len(row[i]) for row in [heads, *rows]) for i in range(len(heads))]
-    text = title + "\n"
-    for row in [heads, *rows]:
-        cells = [cell.ljust(width) if i < 2 else cell.rjust(width)
-                 for i, (cell, width) in enumerate(zip(row, widths))]
-        text += "  ".join(cells).rstrip() + "\n"
-    return text
-
-
-def markdown(title, heads, rows):
-    """A table for the documentation, its title left out."""
-    del title
-    lines = [heads, ["---"]*2 + ["---:"]*(len(heads) - 2), *rows]
-    return "".join("| " + " | ".join(row) + " |\n" for row in lines)
 
 
 def least_lines(scenes, measured):

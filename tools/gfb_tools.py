@@ -1,5 +1,6 @@
-"""What the Python tools share: packages, the program, case files, summaries."""
+"""What the Python tools share: packages, the program, case files, summaries, PETSc's log, tables."""
 
+import csv
 import dataclasses
 import importlib.util
 import os
@@ -97,21 +98,27 @@ class Run:
     summary: dict  # of <case>.summary
     wall: float    # of the whole process, from its start to its end [s]
     cpu: float     # user and system time of the process [s]
+    stem: pathlib.Path      # of the result files
+    converged: bool = True
 
 
-def run_case(gfb, groups, folder, name, petsc=()):
-    """Writes a case file and runs it on one rank; ends the tool where it does not converge."""
+NOT_CONVERGED = 2  # status of the program
+
+
+def run_case(gfb, groups, folder, name, petsc=(), may_stop=False):
+    """Writes a case file and runs it on one rank; ends the tool where it does not converge, unless it may."""
     case = pathlib.Path(folder)/f"{name}.nml"
     case.write_text(case_text(groups), encoding="utf-8")
     command = [gfb, "--quiet", "--output", str(folder), str(case)]
     if petsc:
         command += ["--petsc", *petsc]
-    wall, cpu = time_command(command)
-    return Run(read_summary(case.with_suffix(".summary")), wall, cpu)
+    wall, cpu, status = time_command(command, (0, NOT_CONVERGED) if may_stop else (0,))
+    stem = case.with_suffix("" if status == 0 else ".unconverged")
+    return Run(read_summary(f"{stem}.summary"), wall, cpu, stem, status == 0)
 
 
-def time_command(command):
-    """Wall and CPU time of a command; ends the tool where it fails."""
+def time_command(command, allowed=(0,)):
+    """Wall and CPU time of a command, and its status; ends the tool where that is not allowed."""
     begun = time.perf_counter()
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, env={**ENVIRONMENT, **os.environ}) as process:
@@ -119,6 +126,38 @@ def time_command(command):
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     wall = time.perf_counter() - begun
-    if process.returncode != 0:
+    if process.returncode not in allowed:
         stop(f"{' '.join(command)}\nended with status {process.returncode}:\n{said.decode(errors='replace')}", 3)
-    return wall, used.ru_utime + used.ru_stime
+    return wall, used.ru_utime + used.ru_stime, process.returncode
+
+
+def read_petsc_log(path):
+    """{stage: {event: (calls, seconds)}} of PETSc's log (-log_view :FILE:ascii_csv); "summary": the whole stage."""
+    stages = {}
+    with open(path, encoding="utf-8", newline="") as log:
+        for stage, event, _, calls, seconds, *_ in csv.reader(log):
+            if event == "Event Name":
+                continue
+            events = stages.setdefault(stage, {})
+            before = events.get(event, (0.0, 0.0))  # older PETSc has a line for each registration
+            if float(calls) > 0.0:
+                events[event] = (before[0] + float(calls), before[1] + float(seconds))
+    return stages
+
+
+def plain_table(title, heads, rows):
+    """A table for the terminal; the first two columns are words."""
+    widths = [max(len(row[i]) for row in [heads, *rows]) for i in range(len(heads))]
+    text = title + "\n"
+    for row in [heads, *rows]:
+        cells = [cell.ljust(width) if i < 2 else cell.rjust(width)
+                 for i, (cell, width) in enumerate(zip(row, widths))]
+        text += "  ".join(cells).rstrip() + "\n"
+    return text
+
+
+def markdown_table(title, heads, rows):
+    """The same for the documentation, its title left out."""
+    del title
+    lines = [heads, ["---"]*2 + ["---:"]*(len(heads) - 2), *rows]
+    return "".join("| " + " | ".join(row) + " |\n" for row in lines)

@@ -17,7 +17,7 @@ module gfb_planar_beam
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: plane_strain_section, linear_beam_stiffness, bent_beam_stiffness
+  public :: plane_strain_section, linear_beam_stiffness, bent_beam_stiffness, beam_resultants
 
   integer, parameter, public :: beam_unknowns = 3 !! at a node: along x, along v, turn
 
@@ -77,6 +77,21 @@ contains
                            sum((ends(:, 2) - ends(:, 1))**2)/(12.0_wp*section%bending))
     stiffness = linear_beam_stiffness(softer, ends)
   end function bent_beam_stiffness
+
+  !> Tension and bending moment in the middle of an element, linear or bent, per metre of width
+  !> [N/m], [N]. The moment is positive where it stretches the upper face.
+  pure function beam_resultants(section, ends, displacement) result(force)
+    type(beam_section_type), intent(in) :: section
+    real(wp), intent(in) :: ends(2, 2)         !! (x, v) of the first and of the second end [m]
+    real(wp), intent(in) :: displacement(beam_unknowns, 2) !! of the ends [m], [rad]
+    real(wp) :: force(2)
+    real(wp) :: length, change(beam_unknowns)
+
+    length = norm2(ends(:, 2) - ends(:, 1))
+    change = displacement(:, 2) - displacement(:, 1)
+    force(1) = section%membrane*dot_product(change(:2), ends(:, 2) - ends(:, 1))/length**2
+    force(2) = -section%bending*change(3)/length
+  end function beam_resultants
 
   !> Products of a vector's components.
   pure function square(vector) result(products)

@@ -29,6 +29,7 @@ module gfb_case_keys
     procedure :: string_key
     procedure :: choice_key
     procedure :: words_key
+    procedure :: useless_key
   end type case_keys_type
 
 contains
@@ -217,4 +218,17 @@ contains
     end do
     call self%end_key(chosen_words(words, chosen), any(chosen))
   end subroutine words_key
+
+  !> A key that the rest of the scene has no use for: its echo must not show a value.
+  subroutine useless_key(self, name, meaning, why)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name, meaning
+    character(len=*), intent(in) :: why !! it must not be given
+    integer, allocatable :: elements(:)
+
+    call self%describe(name, 'string', '', meaning)
+    call self%begin_key('', longest_list, elements, default=no_default)
+    if (self%key%given) call self%complain(self%notes%group, name, why)
+    call self%end_key('', .false.)
+  end subroutine useless_key
 end module gfb_case_keys

@@ -41,6 +41,7 @@ module gfb_contact_case
     real(wp) :: friction_top = 0.0_wp         !! crests on the top foil or the plate above [1]
     real(wp) :: friction_sleeve = 0.0_wp      !! corners on the sleeve [1]
     real(wp) :: stick_length = 0.0_wp         !! tangential way at which slip begins [m]
+    logical :: may_rub = .false.              !! a coefficient is positive, or complained about
     integer :: friction_law = law_tanh_drag
     integer :: friction_direction = direction_tangent_plane
   end type contact_case_type
@@ -103,6 +104,8 @@ contains
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(inout) :: value !! [1]
       call keys%real_key(name, value, '1', meaning, from_to(0.0_wp, highest_friction))
+      contact%may_rub = contact%may_rub .or. value > 0.0_wp .or. &
+                        (keys%key%given .and. .not. keys%last_key_is_right())
     end subroutine friction_key
 
     !> A positive number that follows the scene where it is not given.

@@ -64,8 +64,7 @@ contains
     if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
       call keys%complain('model', 'foil', "must be 'shell' for strips and modes")
     end if
-    call keys%choice_key('reduction', model%reduction, reduction_words, &
-                         'condense the bumps of shells onto the lines that can be loaded')
+    call read_reduction(keys, model)
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane')
     call keys%choice_key('coupling', model%coupling, coupling_words, &
@@ -85,6 +84,21 @@ contains
     end if
     call keys%finish_group()
   end subroutine read_model_case
+
+  !> Whether bumps are condensed. Other foils than shells have nothing to condense.
+  subroutine read_reduction(keys, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(inout) :: model
+    character(len=*), parameter :: name = 'reduction'
+    character(len=*), parameter :: meaning = &
+      'condense the bumps of shells onto the lines that can be loaded'
+
+    if (model%foil == foil_shell .or. model%foil == 0) then
+      call keys%choice_key(name, model%reduction, reduction_words, meaning)
+    else
+      call keys%useless_key(name, meaning, "needs foil = 'shell': no other foil is condensed")
+    end if
+  end subroutine read_reduction
 
   !> Whether top foil and bumps have meshes of their own.
   elemental function meshes_foils(foil) result(meshes)

@@ -16,7 +16,7 @@ module gfb_scene
   use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
-                             check_rigid_position, check_strip, check_plates
+                             check_rigid_position, check_strip, check_plates, check_friction_memory
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -80,6 +80,7 @@ contains
     call read_groups(keys, scene)
     call keys%finish()
     call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis)
+    call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)

@@ -5,6 +5,7 @@ module gfb_scene_rules
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, fixed_edge_none, &
                                 has_flats, bumps_overlap
   use gfb_case_keys, only: case_keys_type
+  use gfb_contact_case, only: contact_case_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
                             meshes_foils, half_width_yes
@@ -19,7 +20,7 @@ module gfb_scene_rules
   implicit none (type, external)
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
-  public :: check_shell_bearing
+  public :: check_shell_bearing, check_friction_memory
   public :: check_plates, is_symmetric
 
 contains
@@ -61,6 +62,23 @@ contains
       return ! a tilt fits to every analysis
     end select
   end subroutine check_sweep
+
+  !> Friction that remembers needs foils that rub.
+  subroutine check_friction_memory(keys, sweep, model, contact)
+    type(case_keys_type), intent(inout) :: keys
+    type(sweep_case_type), intent(in) :: sweep
+    type(model_case_type), intent(in) :: model
+    type(contact_case_type), intent(in) :: contact
+
+    if (.not. sweep%friction_memory .or. model%foil == 0) return
+    if (.not. meshes_foils(model%foil)) then
+      call keys%complain('sweep', 'friction_memory', "needs foil = 'shell' in &model, or "// &
+                         "'beam': nothing else rubs")
+    else if (.not. contact%may_rub) then
+      call keys%complain('sweep', 'friction_memory', 'needs friction_top or friction_sleeve in '// &
+                         '&contact: without friction nothing is remembered')
+    end if
+  end subroutine check_friction_memory
 
   !> An elastic foundation needs its stiffness, or what it is computed from.
   subroutine check_foundation(keys, model)

@@ -3,7 +3,7 @@ module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_bump_stiffness, only: walowit_anno_stiffness
-  use gfb_case_keys, only: case_keys_type, longest_list, no_default
+  use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
   use gfb_value_rules, only: any_value, from_to, positive
@@ -93,17 +93,13 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(strip_load_case_type), intent(inout) :: load
     character(len=*), parameter :: name = 'distribution'
-    integer, allocatable :: elements(:)
+    character(len=*), parameter :: meaning = 'of the crest pressure over the bumps'
 
-    if (load%kind /= load_plates) then
-      call keys%choice_key(name, load%distribution, distribution_words, &
-                           'of the crest pressure over the bumps')
-      return
+    if (load%kind == load_plates) then
+      call keys%useless_key(name, meaning, not_with_plates)
+    else
+      call keys%choice_key(name, load%distribution, distribution_words, meaning)
     end if
-    call keys%describe(name, 'string', '', 'of the crest pressure over the bumps')
-    call keys%begin_key('', longest_list, elements, default=no_default)
-    if (keys%key%given) call keys%complain('strip_load', name, not_with_plates)
-    call keys%end_key('', .false.)
   end subroutine read_distribution
 
   !> The crest pressures.

@@ -37,6 +37,7 @@ module gfb_contact_law
     real(wp) :: friction = 0.0_wp         !! mu
     real(wp) :: stick_length = 0.0_wp     !! u_max [m]
     integer :: friction_law = law_tanh_drag
+    real(wp) :: adhesion = 0.0_wp         !! stiffness against opening over k, of a homotopy [1]
     logical :: one_way = .false.          !! along the first tangent alone, as planar models rub
   end type contact_law_type
 
@@ -52,7 +53,12 @@ contains
 
     force = 0.0_wp
     slope = 0.0_wp
-    if (penetration < 0.0_wp) return
+    if (penetration < 0.0_wp) then
+      if (.not. law%adhesion > 0.0_wp) return
+      slope = length*law%adhesion*law%normal_stiffness*law%exponent*(-penetration)**(law%exponent - 1.0_wp)
+      force = -length*law%adhesion*law%normal_stiffness*(-penetration)**law%exponent
+      return
+    end if
     ! At first touch the closed side's slope is taken: a strip at rest is held by its contacts.
     slope = length*law%normal_stiffness*law%exponent*penetration**(law%exponent - 1.0_wp)
     force = length*law%normal_stiffness*penetration**law%exponent
@@ -113,7 +119,7 @@ contains
     derivative = 0.0_wp
     call normal_force(law, length, approach(3), force(3), slope)
     derivative(3, 3) = slope
-    if (.not. law%friction > 0.0_wp) return
+    if (.not. law%friction > 0.0_wp .or. force(3) < 0.0_wp) return
     call friction_force(law, approach(:2), force(3), force(:2), derivative(:2, :2), by_pressing)
     derivative(:2, 3) = by_pressing*slope
   end subroutine contact_force

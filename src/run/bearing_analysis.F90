@@ -16,6 +16,7 @@ module gfb_bearing_analysis
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_operating_point, only: operating_point_type
+  use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, operating_point
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -26,11 +27,12 @@ module gfb_bearing_analysis
                              destroy_partitioned
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_bearing_plan, only: plan_bearing
-  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block
+  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, count_quantities, &
+                                 show_closing_block
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
   use gfb_contact_output, only: contact_record_type
-  use gfb_shell_output, only: add_shell_grids, record_shell_contacts, shell_contact_arrays, shell_quantities
+  use gfb_foil_output, only: add_foil_grids, record_foil_contacts, foil_contact_arrays, foil_quantities
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -67,10 +69,11 @@ contains
     call log%heading('solution')
     call solve_scene(scene, plan, log, bearing, newton, history, contacts, converged, error)
     if (allocated(error)) return
+    call enter_stage('output')
     answer = bearing_answer(bearing)
     cost = cost_of(bearing, newton, start_time)
     summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-                                 bearing%force_scale), shell_quantities(bearing), cost_quantities(cost)]
+                                 bearing%force_scale), foil_quantities(bearing), cost_quantities(cost)]
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -78,9 +81,10 @@ contains
     end if
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)
-    call add_shell_grids(bearing, grids)
+    call add_foil_grids(bearing, grids)
     call write_result_set(scene, folder, converged, provenance(command), summary, history, &
-                          shell_contact_arrays(bearing, contacts, size(history)), grids, log, error)
+                          foil_contact_arrays(bearing, contacts, size(history)), grids, log, error)
+    call leave_stage()
     call destroy_newton(newton)
     call bearing%destroy()
   end subroutine run_bearing
@@ -130,17 +134,18 @@ contains
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
-      call add_row(scene, bearing, 0, converged, history, contacts)
+      call add_row(scene, bearing, newton, 0, converged, history, contacts)
       call destroy_partitioned(sides)
       return
     end if
     if (converged .and. scene%sweep%hold_position) then
+      if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first way the foils went
       call hold_shaft(bearing, log)
       path%touch_down_gap = 0.0_wp
     else if (converged) then
-      call add_row(scene, bearing, 1, converged, history, contacts)
-      call show_progress(log, scene%sweep, 1, begun)
+      call end_point(scene, log, 1, begun, bearing, newton, history, contacts)
     end if
+    call enter_stage('sweep')
     do point = first, size(scene%sweep%values)
       if (.not. converged) exit
       if (partitioned) then
@@ -150,12 +155,28 @@ contains
       end if
       converged = report%converged
       if (.not. converged) call explain(log, scene, bearing, report)
-      if (converged) call add_row(scene, bearing, point, converged, history, contacts)
-      if (converged) call show_progress(log, scene%sweep, point, begun)
+      if (converged) call end_point(scene, log, point, begun, bearing, newton, history, contacts)
       if (point == 1) begun = wall_time()
     end do
+    call leave_stage()
     call destroy_partitioned(sides)
   end subroutine solve_scene
+
+  !> Keeps a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
+  subroutine end_point(scene, log, point, begun, bearing, newton, history, contacts)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    integer, intent(in) :: point
+    real(wp), intent(in) :: begun !! when the first point was there [s]
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton
+    type(history_row_type), allocatable, intent(inout) :: history(:)
+    type(contact_record_type), intent(inout) :: contacts
+
+    call add_row(scene, bearing, newton, point, .true., history, contacts)
+    if (scene%sweep%friction_memory) call bearing%commit()
+    call show_progress(log, scene%sweep, point, begun)
+  end subroutine end_point
 
   !> Where a sweep point puts the shaft; a held shaft stays where it is.
   function sweep_target(scene, bearing, point) result(target)
@@ -202,9 +223,10 @@ contains
   end subroutine explain
 
   !> Adds the present state to the history.
-  subroutine add_row(scene, bearing, point, converged, history, contacts)
+  subroutine add_row(scene, bearing, newton, point, converged, history, contacts)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing
+    type(newton_type), intent(in) :: newton
     integer, intent(in) :: point !! of the sweep; 0 without one
     logical, intent(in) :: converged
     type(history_row_type), allocatable, intent(inout) :: history(:)
@@ -213,6 +235,7 @@ contains
 
     row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
                                      bearing%film%clearance, bearing%force_scale)
+    row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
     if (point > 0) then
       if (scene%sweep%parameter < sweep_eccentricity_x) then ! the answer has the eccentricities anyway
         row%quantity = [number_quantity(sweep_name(scene%sweep), scene%sweep%values(point), &
@@ -220,7 +243,7 @@ contains
       end if
     end if
     history = [history, row]
-    call record_shell_contacts(bearing, size(history), max(1, size(scene%sweep%values)), contacts)
+    call record_foil_contacts(bearing, size(history), max(1, size(scene%sweep%values)), contacts)
   end subroutine add_row
 
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.

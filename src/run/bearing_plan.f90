@@ -60,7 +60,12 @@ contains
                   ' elements over the whole pad, '//text(nodes)//' nodes solved, about '// &
                   text(real(nodes, wp)*bytes_a_film_node*1.0e-6_wp, 3)//' MB')
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
-    if (scene%sweep%present) call log%line('sweep: '//text(size(scene%sweep%values))//' points')
+    if (scene%sweep%friction_memory) then
+      call log%line('sweep: '//text(size(scene%sweep%values))// &
+                    ' points, friction carries its slip along from one to the next')
+    else if (scene%sweep%present) then
+      call log%line('sweep: '//text(size(scene%sweep%values))//' points')
+    end if
   end subroutine plan_bearing
 
   !> Sizes of foils of shells and the memory that the matrix and its factors take.

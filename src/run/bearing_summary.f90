@@ -8,7 +8,7 @@ module gfb_bearing_summary
   use gfb_bearing_answer, only: bearing_answer_type
   implicit none (type, external)
   private
-  public :: answer_quantities, cost_quantities, attitude_angle, show_closing_block
+  public :: answer_quantities, cost_quantities, count_quantities, attitude_angle, show_closing_block
 
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
@@ -98,14 +98,21 @@ contains
     type(quantity_type), allocatable :: list(:)
 
     list = [count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'), &
-            count_quantity('newton_iterations', cost%newton_iterations, &
-            'iterations of all solves'), &
-            count_quantity('factorizations', cost%factorizations, &
-            'matrix factorizations of all solves'), &
+            count_quantities(cost%newton_iterations, cost%factorizations), &
             number_quantity('wall_time', cost%wall_time, 's', 'from start to answer'), &
             number_quantity('peak_memory', cost%peak_memory, 'B', &
             'sum over ranks of the largest held')]
   end function cost_quantities
+
+  !> What was counted from the start of the run to an answer.
+  pure function count_quantities(newton_iterations, factorizations) result(list)
+    integer, intent(in) :: newton_iterations, factorizations
+    type(quantity_type) :: list(2)
+
+    list(1) = count_quantity('newton_iterations', newton_iterations, 'iterations of all solves')
+    list(2) = count_quantity('factorizations', factorizations, &
+                             'matrix factorizations of all solves')
+  end function count_quantities
 
   !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
   pure function attitude_angle(answer) result(angle)

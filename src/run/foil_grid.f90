@@ -1,12 +1,8 @@
 !> A foil as a surface with fields, over its whole width.
 module gfb_foil_grid
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
-  use gfb_shell_geometry, only: shell_unknowns
-  use gfb_shell_stress, only: shell_stress_type, shell_stress, lower_face, upper_face
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: element_geometry
   use gfb_grid_file, only: grid_field_type, block_bounds
   use gfb_result_set, only: result_grid_type, add_grid_field
   implicit none (type, external)
@@ -83,31 +79,17 @@ contains
   end subroutine add_node_field
 
   !> Adds the stresses at the elements' centres.
-  subroutine add_stress(foil, moved, grid)
+  subroutine add_stress(foil, stress, grid)
     type(foil_structure_type), intent(in) :: foil
-    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
+    real(wp), intent(in) :: stress(:, :) !! (8, elements of this rank), see `gfb_foil_stress` [Pa]
     type(result_grid_type), intent(inout) :: grid
-
-    type(shell_stress_type) :: stress
-    type(error_type), allocatable :: error
-    real(wp) :: value(8, size(foil%my_elements)), displacement(shell_unknowns)
     real(wp), allocatable :: block(:, :)
     integer, allocatable :: wanted(:)
     integer :: first, last, i
 
-    do i = 1, size(foil%my_elements)
-      displacement = reshape(moved(:, foil%local_node(foil%mesh%element_nodes(:, &
-        foil%my_elements(i)))), &
-                             [shell_unknowns])
-      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), foil%section, &
-        displacement, &
-                        0.0_wp, 0.0_wp, stress, error)
-      value(:, i) = [stress%membrane, stress%bending, stress%von_mises(lower_face), &
-                     stress%von_mises(upper_face)]
-    end do
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
     wanted = [(solved_cell(foil, i), i=first, last)]
-    block = fetch_entries(size(foil%mesh%element_nodes, 2), foil%my_elements, value, wanted)
+    block = fetch_entries(size(foil%mesh%element_nodes, 2), foil%my_elements, stress, wanted)
     call add_grid_field(grid%cell_field, 'membrane_stress', 'Pa', &
                         'at the centre: along the axis, across it, shear', block(1:3, :))
     call add_grid_field(grid%cell_field, 'bending_stress', 'Pa', &

@@ -26,6 +26,7 @@ module gfb_strip_analysis
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
+  use gfb_foil_stress, only: shell_stresses
   use gfb_foil_plan, only: plan_foil
   use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
   use gfb_strip_companions, only: companions_type, strip_companions, show_companions, companion_arrays
@@ -258,7 +259,7 @@ contains
     call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
     call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
     call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
-    call add_stress(strip%foil, moved, grid)
+    call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
     arrays = [contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps), companion_arrays(run%companions)]
     call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
                           [grid], log, error)

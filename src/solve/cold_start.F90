@@ -12,31 +12,21 @@ module gfb_cold_start
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: largest_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_film_load, only: film_forces
   use gfb_film_mesh, only: interpolate_film
   use gfb_bearing_system, only: bearing_system_type, film_on_all_ranks
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
-  use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
-                        solve_newton, destroy_newton
-  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
+  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_start_position, only: guess_position, find_position, let_go, solve_at
+  use gfb_contact_start, only: find_with_contacts
   implicit none (type)
   private
   public :: start_bearing, refine
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
-
-  !> Eccentricities to begin with where none is given, over the free clearance: the first one, and
-  !> with foils in contact the others where that fails.
-  real(wp), parameter :: start_eccentricity(3) = [0.5_wp, 0.9_wp, 0.25_wp]
-  real(wp), parameter :: shortest_trial = 0.02_wp    !! step of a start while others are left [1]
-  real(wp), parameter :: start_attitude = 0.5_wp     !! of that position [rad]
-  real(wp), parameter :: first_stride = 10.0_wp      !! factor by which contacts are made harder
-  real(wp), parameter :: shortest_stride = 1.1_wp
-  real(wp), parameter :: room_at_rest = 0.75_wp      !! way to begin with, over the clearance [1]
 
 contains
 
@@ -109,194 +99,14 @@ contains
         if (report%converged) return
       end if
     end if
-    if (bearing%foil%softest() < 1.0_wp) then
-      call find_with_contacts(scene, target, settings, bearing, newton, report)
+    if (bearing%foil%has_elastic) then
+      call find_with_contacts(scene, target, settings, 0, bearing, newton, report)
     else
-      call guess_position(bearing, scene, target, start_eccentricity(1))
-      call find_way(bearing, newton, target, settings, report)
+      call guess_position(bearing, scene, target, 0.5_wp)
+      call find_position(bearing, newton, target, settings, report)
+      if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, settings, report)
     end if
   end subroutine find_answer
-
-  !> From nothing with foils in contact: soft contacts first, and several positions to begin with.
-  subroutine find_with_contacts(scene, target, settings, bearing, newton, report)
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(path_report_type), intent(out) :: report
-    type(path_settings_type) :: trial
-    integer :: attempt, attempts
-
-    attempts = size(start_eccentricity)
-    if (scene%operation%eccentricity_given .or. .not. bearing%floats) attempts = 1
-    do attempt = 1, attempts
-      trial = settings
-      if (attempt < attempts) trial%smallest_step = max(trial%smallest_step, shortest_trial)
-      call bearing%foil%set_hardness(bearing%foil%softest())
-      call guess_position(bearing, scene, target, start_eccentricity(attempt))
-      call find_way(bearing, newton, target, trial, report)
-      if (report%converged) call harden(bearing, newton, target, settings, report)
-      call bearing%foil%set_hardness(1.0_wp)
-      if (report%converged .or. report%touched) return
-      if (attempt < attempts) call newton%log%line('no answer from this start ('//report%reason//'): another one')
-    end do
-  end subroutine find_with_contacts
-
-  !> Makes the contacts as hard as the scene has them, from an answer with soft ones.
-  subroutine harden(bearing, newton, target, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(inout) :: report
-
-    Vec :: here
-    real(wp) :: hardness, stride
-    PetscErrorCode :: ierr
-
-    hardness = bearing%foil%softest()
-    stride = first_stride
-    PetscCallA(VecDuplicate(bearing%state, here, ierr))
-    do while (hardness < 1.0_wp)
-      PetscCallA(VecCopy(bearing%state, here, ierr))
-      call newton%log%detail('contacts harder: '//text(min(1.0_wp, hardness*stride), 3)//' of their stiffness')
-      call bearing%foil%set_hardness(min(1.0_wp, hardness*stride))
-      call solve_at(bearing, newton, target, .false., settings, report)
-      if (report%converged) then
-        hardness = min(1.0_wp, hardness*stride)
-      else
-        PetscCallA(VecCopy(here, bearing%state, ierr))
-        stride = sqrt(stride)
-        if (stride < shortest_stride) exit
-      end if
-    end do
-    PetscCallA(VecDestroy(here, ierr))
-  end subroutine harden
-
-  !> Newton's method at a point, as a path of one step.
-  subroutine solve_at(bearing, newton, target, held, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    logical, intent(in) :: held !! the shaft is kept at the point's position
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
-    type(newton_report_type) :: solved
-
-    bearing%point = target
-    bearing%held = held
-    call bearing%apply_point()
-    call solve_newton(newton, solved)
-    report%converged = solved%converged
-    if (solved%converged .and. bearing%floats .and. .not. held) then
-      report%converged = bearing%smallest_gap() >= settings%touch_down_gap
-    end if
-    report%reason = solved%reason
-    report%reached = target
-    report%fraction = 1.0_wp
-    report%steps = 1
-  end subroutine solve_at
-
-  !> Held position at rest, brought to speed; then the load vector moved to its target.
-  subroutine find_way(bearing, newton, target, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
-
-    type(path_settings_type) :: to_position
-    type(operating_point_type) :: wanted, free
-
-    to_position = settings
-    to_position%touch_down_gap = 0.0_wp
-    wanted = target
-    wanted%eccentricity = bearing%eccentricity()
-    free = free_position(bearing, wanted)
-    call put_at_rest(bearing, free)
-    call newton%log%detail('held position, from rest to speed')
-    call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
-    if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
-        norm2(free%tilt - wanted%tilt) > 0.0_wp) then
-      call newton%log%detail('to the position asked for')
-      call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)
-    end if
-    if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, settings, report)
-  end subroutine find_way
-
-  !> Lets the shaft go where it is held, and moves the load from the film's reaction to its target.
-  subroutine let_go(bearing, newton, target, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
-    real(wp) :: force(film_forces), way
-
-    force = bearing%reaction()
-    bearing%held = .false.
-    bearing%point%load = force(1:2)
-    call bearing%apply_point()
-    call newton%log%detail('shaft let go, load from the reaction to its target')
-    way = norm2(target%load - force(1:2))
-    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
-  end subroutine let_go
-
-  !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one
-  !> on the way to it.
-  function free_position(bearing, wanted) result(free)
-    type(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: wanted
-    type(operating_point_type) :: free
-    real(wp) :: undeflected(size(bearing%film%angle)), approach(1)
-
-    free = wanted
-    undeflected = 0.0_wp
-    associate (clearance => bearing%film%clearance)
-      approach = largest_over_ranks([clearance - minval(bearing%film%gap(wanted, undeflected))])
-      if (approach(1) < clearance) return
-      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach(1)
-      free%tilt = wanted%tilt*room_at_rest*clearance/approach(1)
-    end associate
-  end function free_position
-
-  !> Puts the bearing at rest at a held position: ambient pressure everywhere, exactly.
-  subroutine put_at_rest(bearing, held)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(operating_point_type), intent(in) :: held
-    real(wp) :: unknown(bearing%local_size())
-
-    bearing%point = held
-    bearing%point%speed = 0.0_wp
-    bearing%held = .true.
-    unknown = 0.0_wp
-    unknown(:size(bearing%mesh%mesh_node)) = bearing%film%ambient_pressure
-    if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity
-    call bearing%set_unknowns(unknown)
-    call bearing%apply_point()
-  end subroutine put_at_rest
-
-  !> A position to begin with: the scene's, or halfway to where a film would carry the load.
-  subroutine guess_position(bearing, scene, target, eccentricity)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
-    real(wp) :: direction, free, unknown(bearing%local_size())
-
-    bearing%point%eccentricity = target%eccentricity
-    if (.not. bearing%floats) return
-    if (.not. scene%operation%eccentricity_given) then
-      free = scene%bearing%clearance - 0.5_wp*scene%bearing%length*norm2(target%tilt)
-      direction = start_attitude
-      if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
-      bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
-    end if
-    unknown = 0.0_wp
-    unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
-    call bearing%set_unknowns(unknown)
-  end subroutine guess_position
 
   !> Takes pressure and position over from a coarser mesh.
   subroutine refine(coarse, fine)

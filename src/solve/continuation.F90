@@ -7,14 +7,16 @@ module gfb_continuation
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_fold_search, only: look_beyond, branch_goes_on, branch_folds
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   implicit none (type)
   private
   public :: follow_path
 
+  integer, parameter :: hasty_iterations = 20        !! of a step that can be cut
   integer, parameter :: easy_iterations = 6          !! a step that took no more of them is doubled
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
-  real(wp), parameter :: closing_gap = 0.02_wp       !! a gap this small ends paths, over the clearance [1]
+  real(wp), parameter :: closing_gap = 0.005_wp      !! a gap this small ends paths, over the clearance [1]
   real(wp), parameter :: micrometres = 1.0e6_wp      !! in a metre
 
   !> Limits of a path.
@@ -22,6 +24,7 @@ module gfb_continuation
     integer :: maximum_steps = 200
     real(wp) :: smallest_step = 1.0e-4_wp !! share of the way [1]
     real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
+    logical :: look_for_folds = .true.    !! beyond the end of a path
   end type path_settings_type
 
   !> How far a path led.
@@ -33,6 +36,8 @@ module gfb_continuation
     real(wp) :: fraction = 0.0_wp             !! of the way that was gone [1]
     integer :: steps = 0
     integer :: cuts = 0                       !! steps that had to be shortened
+    logical :: folded = .false.               !! the branch of answers turns back
+    logical :: held = .false.                 !! the shaft was still held
   end type path_report_type
 
 contains
@@ -42,7 +47,7 @@ contains
   !> Each step starts from a straight line through the last two answers. A step that does not
   !> converge is halved and never accepted. On return the state is the last answer.
   subroutine follow_path(bearing, newton, target, first_step, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: target
     real(wp), intent(in) :: first_step !! share of the way to try first [1]
@@ -53,6 +58,7 @@ contains
     type(newton_report_type) :: solved
     Vec :: here, before
     real(wp) :: step, smallest, at_before, trial
+    logical :: goes_on
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -73,14 +79,20 @@ contains
       bearing%point = point_between(start, target, trial)
       call bearing%apply_point()
       call predict(bearing, here, before, report%fraction, at_before, trial)
-      call solve_newton(newton, solved)
+      call try_step(newton, step >= 2.0_wp*smallest, solved)
       if (.not. solved%converged) then
         report%cuts = report%cuts + 1
         report%reason = solved%reason
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
         step = 0.5_wp*step
-        if (step < smallest) exit
+        if (step < smallest) then
+          report%reason = 'no step, however short, leads on ('//solved%reason//')'
+          if (.not. (settings%look_for_folds .and. bearing%foil%has_elastic)) exit
+          call find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
+          if (.not. goes_on) exit
+          step = 4.0_wp*smallest
+        end if
         cycle
       end if
       PetscCallA(VecCopy(here, before, ierr))
@@ -101,23 +113,68 @@ contains
     if (report%converged) report%reason = 'converged'
     bearing%point = report%reached
     call bearing%apply_point()
-    if (.not. report%converged .and. .not. report%touched) call name_touch_down(bearing, report)
+    if (.not. report%converged .and. .not. report%touched) call name_end(bearing, report)
     PetscCallA(VecDestroy(here, ierr))
     PetscCallA(VecDestroy(before, ierr))
   end subroutine follow_path
 
-  !> Says so where a path ended because the gap closes.
-  subroutine name_touch_down(bearing, report)
+  !> Where no step leads on: goes to the very end of the branch, or past what hindered.
+  subroutine find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: smallest      !! step that did not lead on [1]
+    Vec, intent(in) :: here, before       !! last two answers
+    real(wp), intent(inout) :: at_before  !! where on the path; negative if there is none
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: goes_on
+    real(wp) :: left, ahead
+    integer :: outcome
+    PetscErrorCode :: ierr
+
+    left = 1.0_wp - report%fraction
+    call look_beyond(bearing, newton, target, before, at_before >= 0.0_wp, min(1.0_wp, 2.0_wp*smallest/left), &
+                     outcome, ahead)
+    goes_on = outcome == branch_goes_on
+    report%folded = outcome == branch_folds
+    if (ahead > 0.0_wp) then
+      PetscCallA(VecCopy(here, before, ierr))
+      PetscCallA(VecCopy(bearing%state, here, ierr))
+      at_before = report%fraction
+      report%fraction = report%fraction + ahead*left
+      report%reached = bearing%point
+    end if
+  end subroutine find_end
+
+  !> Newton's method, which gives up early where a shorter step can be tried: a step that will come
+  !> home does so soon.
+  subroutine try_step(newton, may_be_cut, solved)
+    type(newton_type), target, intent(inout) :: newton
+    logical, intent(in) :: may_be_cut
+    type(newton_report_type), intent(out) :: solved
+    integer :: allowed
+
+    allowed = newton%settings%maximum_iterations
+    if (may_be_cut) newton%settings%maximum_iterations = min(allowed, hasty_iterations)
+    call solve_newton(newton, solved)
+    newton%settings%maximum_iterations = allowed
+  end subroutine try_step
+
+  !> Says so where a path ended because the gap closes, or because its answers turn back.
+  subroutine name_end(bearing, report)
     type(bearing_system_type), intent(in) :: bearing
     type(path_report_type), intent(inout) :: report
     real(wp) :: gap
 
     gap = bearing%smallest_gap()
     report%touched = gap < closing_gap*bearing%film%clearance
-    if (.not. report%touched) return
-    report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
-      ' um, beyond that '//report%reason
-  end subroutine name_touch_down
+    if (report%touched) then
+      report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
+        ' um, beyond that '//report%reason
+    else if (report%folded) then
+      report%reason = 'the branch of answers ends in a fold: beyond it the top foil moves on by itself'
+    end if
+  end subroutine name_end
 
   !> Start value of a step: the line through the last two answers, as far along it as can be
   !> evaluated.

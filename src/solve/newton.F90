@@ -29,6 +29,7 @@ module gfb_newton
   integer, parameter :: patience = 12               !! steps after which contacts are taken to cycle
   real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
   !! beginning, before and after that
+  real(wp), parameter :: at_rest = 1.0e-2_wp       !! work at a step's beginning that is none, over that at its end
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
 
   !> When to stop.
@@ -112,10 +113,10 @@ contains
     PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', system%symmetric)), ierr))
     PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
-    if (system%slow_change) call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
+    call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
     ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
     ! or minimum degree that sets dense rows aside.
-    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('6', '2', system%dense_rows))
+    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', system%dense_rows))
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
     newton%created = .true.
   end subroutine create_newton
@@ -329,6 +330,8 @@ contains
     low = 0.0_wp
     work_low = start
     high = newton%length
+    ! Where the step begins in equilibrium, as when only the load has moved, there is nothing to compare.
+    if (start <= at_rest*abs(work)) return
     do attempt = 1, balances
       if (.not. start > 0.0_wp .or. work >= -allowed*start) return
       newton%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))

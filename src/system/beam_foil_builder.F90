@@ -16,7 +16,8 @@ module gfb_beam_foil_builder
   use gfb_shell_geometry, only: node_unknowns
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
-  use gfb_foil_builder, only: shape_on_pad, plate_fixed_edge
+  use gfb_foil_builder, only: shape_on_pad, plate_fixed_edge, plate_section, section_of
+  use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_places, only: top_mesh, set_laws, list_wanted, place_unknowns, &
                              add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type
@@ -52,6 +53,10 @@ contains
     first = foil%top%unknowns + foil%bumps%unknowns
     foil%owned = merge(first, 0, rank == 0)
     if (rank == 0) first = 0
+    foil%top%section = plate_section(scene)
+    foil%bumps%section = section_of(scene%bump_foil)
+    call own_nodes(rank == 0, foil%top)
+    call own_nodes(rank == 0, foil%bumps)
     call set_laws(scene, foil)
     call add_contacts(scene, foil)
     call create_stiffness(scene, foil)
@@ -96,6 +101,20 @@ contains
       end do
     end do
   end subroutine number_stations
+
+  !> All nodes and elements of a foil, or none, are this rank's.
+  pure subroutine own_nodes(mine, structure)
+    logical, intent(in) :: mine
+    type(foil_structure_type), intent(inout) :: structure
+    integer :: i
+
+    associate (mesh => structure%mesh)
+      structure%local_node = [(merge(i, 0, mine), i=1, size(mesh%position, 2))]
+      structure%part%mesh_node = pack(structure%local_node, structure%local_node > 0)
+      allocate (structure%part%owned(size(structure%part%mesh_node)), source=.true.)
+      structure%my_elements = [(i, i=1, merge(size(mesh%element_nodes, 2), 0, mine))]
+    end associate
+  end subroutine own_nodes
 
   !> One matrix of both foils' stiffness, on the solved width.
   subroutine create_stiffness(scene, foil)

@@ -22,6 +22,7 @@ module gfb_bearing_builder
   use gfb_foundation_foil, only: foundation_foil_type, create_local_foundation, &
                                  create_mean_foundation
   use gfb_operating_point, only: operating_point_type
+  use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
@@ -51,6 +52,7 @@ contains
 
     class(foil_model_type), allocatable :: foil
 
+    call enter_stage('set-up')
     call create_film_part(film_mesh_of(scene, plan), scene%bearing%clearance, scene%gas%ambient_pressure, &
                           scene%gas%viscosity, plan%upwind, bearing, error)
     if (allocated(error)) return
@@ -58,6 +60,7 @@ contains
     call create_foil(scene, bearing, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)
+    call leave_stage()
   end subroutine build_bearing
 
   !> The film's mesh: equal elements, or stations above the crests.

@@ -18,6 +18,7 @@ module gfb_bearing_system
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure, any_rank
   use gfb_partition, only: partition_elements
   use gfb_foil_model, only: foil_model_type
+  use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_unknown_layout, only: unknown_layout_type, shaft_unknowns, create_layout, &
@@ -45,6 +46,7 @@ module gfb_bearing_system
     Mat, private :: constant    !! what of the matrix never changes, in SI
     Vec, private :: left, right !! sizes of equations, inverted, and of unknowns
     type(local_exchange_type), private :: exchange
+    type(cost_events_type), private :: events !! of PETSc's log
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
@@ -54,6 +56,7 @@ module gfb_bearing_system
     procedure :: commit => commit_bearing
     procedure :: get_unknowns
     procedure :: set_unknowns
+    procedure :: add_up => add_up_unknowns
     procedure :: local_size
     procedure :: gap => bearing_gap
     procedure :: position => bearing_position
@@ -112,6 +115,8 @@ contains
     PetscErrorCode :: ierr
 
     call move_alloc(foil, bearing%foil)
+    call register_cost_events(bearing%events)
+    bearing%foil%events = bearing%events
     call bearing%foil%place(size(bearing%mesh%mesh_node))
     bearing%floats = floats
     bearing%dense_rows = floats
@@ -227,6 +232,7 @@ contains
     integer :: nodes, shaft
     PetscErrorCode :: ierr
 
+    PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     nodes = size(gap)
     shaft = self%first_shaft
     call self%exchange%get(state, unknown)
@@ -234,14 +240,20 @@ contains
     gap = self%gap(unknown)
     value = 0.0_wp
     point = self%position(unknown)
+    PetscCallA(PetscLogEventBegin(self%events%film, ierr))
     valid = self%film%is_open(unknown(:nodes), gap, point)
+    PetscCallA(PetscLogEventEnd(self%events%film, ierr))
     if (self%foil%has_elastic) valid = .not. any_rank(.not. valid) ! its matrix is spread over the ranks
     if (valid) then
+      PetscCallA(PetscLogEventBegin(self%events%film, ierr))
       call self%film%add_residual(unknown(:nodes), gap, point, value)
       where (self%film%fixed .and. self%mesh%owned)
         value(:nodes) = unknown(:nodes) - self%film%ambient_pressure
       end where
+      PetscCallA(PetscLogEventEnd(self%events%film, ierr))
+      PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
       call self%foil%add_residual(unknown, value)
+      PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
       if (self%floats .and. .not. self%held) then
         force = self%film%force(unknown(:nodes))
         value(shaft + 1:) = force(1:2)
@@ -257,6 +269,7 @@ contains
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call self%exchange%add(value, residual)
+    PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_bearing
 
   !> Derivative of all equations.
@@ -267,6 +280,7 @@ contains
     real(wp) :: unknown(self%local_size()), gap(size(self%mesh%mesh_node))
     PetscErrorCode :: ierr
 
+    PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale
     gap = self%gap(unknown)
@@ -275,15 +289,20 @@ contains
     else
       PetscCallA(MatZeroEntries(self%jacobian, ierr))
     end if
+    PetscCallA(PetscLogEventBegin(self%events%film, ierr))
     call add_film_rows(self%film, self%foil, shaft_place(self), self%mesh%owned, unknown(:size(gap)), gap, &
                        self%position(unknown), self%jacobian)
-    call self%foil%add_jacobian(unknown, self%jacobian)
     if (self%floats) then
       call add_shaft_rows(self%film, self%first_shaft, self%last_rank, hold_stiffness(self), 1.0_wp, self%jacobian)
     end if
+    PetscCallA(PetscLogEventEnd(self%events%film, ierr))
+    PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
+    call self%foil%add_jacobian(unknown, self%jacobian)
+    PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
+    PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_bearing
 
   !> Moves the foil's contacts on their laws to where the foils have gone.
@@ -293,9 +312,14 @@ contains
     logical, intent(out) :: moved
     real(wp) :: unknown(self%local_size())
     logical :: settled
+    PetscErrorCode :: ierr
 
+    PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%exchange%get(state, unknown)
+    PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
     call self%foil%settle(unknown*self%unknown_scale, moved, settled)
+    PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
+    PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
     self%settled = settled
     if (moved) self%settled = .not. any_rank(.not. settled)
   end subroutine settle_bearing
@@ -416,6 +440,17 @@ contains
     real(wp), intent(in) :: unknown(:)
     call self%exchange%put(unknown/self%unknown_scale, self%state)
   end subroutine set_unknowns
+
+  !> Adds every rank's local unknowns, in SI, up in a scaled vector.
+  subroutine add_up_unknowns(self, unknown, vector)
+    class(bearing_system_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    Vec, intent(in) :: vector
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(vector, 0.0_wp, ierr))
+    call self%exchange%add(unknown/self%unknown_scale, vector)
+  end subroutine add_up_unknowns
 
   !> Local unknowns of this rank.
   pure function local_size(self) result(unknowns)

@@ -51,7 +51,7 @@ contains
     end select
     law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, &
                            contact%stick_length, kind, &
-                           contact%friction_direction == direction_motion)
+                           one_way=contact%friction_direction == direction_motion)
     law(contact_sleeve)%friction = contact%friction_sleeve
     law(contact_top)%friction = contact%friction_top
   end function contact_laws

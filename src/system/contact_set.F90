@@ -46,6 +46,7 @@ module gfb_contact_set
     real(wp) :: floor_normal = 0.0_wp          !! [N/m2], so that a floating foil leaves it regular
     real(wp) :: softening = 1.0_wp             !! factor of the stick length, of a homotopy
     real(wp) :: hardness = 1.0_wp              !! factor of the normal stiffness, of a homotopy
+    real(wp) :: adhesion = 0.0_wp              !! stiffness against opening over that, of a homotopy
     logical :: glued = .false.                 !! closed whatever happens, free to slide: a first guess
     logical :: settled = .true.                !! every contact is linearised where it is
   contains
@@ -73,6 +74,7 @@ contains
     law = self%law(point%law)
     law%stick_length = law%stick_length*self%softening
     law%normal_stiffness = law%normal_stiffness*self%hardness
+    law%adhesion = self%adhesion
   end function law_of
 
   !> Slip and penetration of a contact, (s_1, s_2, delta) [m].

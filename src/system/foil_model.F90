@@ -6,6 +6,7 @@
 module gfb_foil_model
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_cost_events, only: cost_events_type
   implicit none (type)
   private
 
@@ -17,6 +18,7 @@ module gfb_foil_model
     integer, allocatable :: row_entries(:) !! entries that the row of each owned unknown needs, at most
     logical :: has_elastic = .false. !! linear equations of its own, in `elastic`
     Mat :: elastic            !! their matrix, the foil's own numbers [SI]
+    type(cost_events_type) :: events !! of PETSc's log
     integer, allocatable :: global_unknown(:)  !! foil's own number of each local unknown, by owners
     real(wp), allocatable :: unknown_scale(:)  !! size of each local unknown, in its unit
     real(wp), allocatable :: equation_scale(:) !! size of each local equation, in its unit
@@ -33,6 +35,7 @@ module gfb_foil_model
     procedure :: settle
     procedure :: begin_step
     procedure :: set_hardness
+    procedure :: set_adhesion
     procedure :: softest
     procedure :: crest_lengths
     procedure :: commit
@@ -91,6 +94,12 @@ contains
     class(foil_model_type), intent(inout) :: self
     real(wp), intent(in) :: hardness !! factor of their normal stiffness
   end subroutine set_hardness
+
+  !> Lets the contacts hold what they touch, for a first answer; here there are none.
+  subroutine set_adhesion(self, adhesion)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: adhesion !! stiffness against opening over that against closing
+  end subroutine set_adhesion
 
   !> The hardness to begin with, 1 where there is nothing to soften.
   pure function softest(self) result(hardness)

@@ -15,13 +15,13 @@ module gfb_operating_point
 
 contains
 
-  !> The point at a fraction of the straight way from one to another.
+  !> The point at a fraction of the straight way from one to another, or on beyond either.
   elemental function point_between(first, last, fraction) result(point)
     type(operating_point_type), intent(in) :: first, last
     real(wp), intent(in) :: fraction !! 0 at the first, 1 at the last [1]
     type(operating_point_type) :: point
 
-    if (fraction >= 1.0_wp) then ! exactly the last one, not to round-off
+    if (abs(fraction - 1.0_wp) <= 0.0_wp) then ! exactly the last one, not to round-off
       point = last
       return
     end if

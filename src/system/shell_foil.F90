@@ -39,9 +39,11 @@ module gfb_shell_foil
     procedure :: settle => shell_settle
     procedure :: begin_step => shell_begin_step
     procedure :: set_hardness => shell_set_hardness
+    procedure :: set_adhesion => shell_set_adhesion
     procedure :: softest => shell_softest
     procedure :: crest_lengths => shell_crest_lengths
-    procedure :: split_displacements
+    procedure :: split_displacements => shell_displacements
+    procedure :: nodal_contacts => shell_contacts
     procedure :: commit => shell_commit
     procedure :: destroy => shell_destroy
   end type shell_foil_type
@@ -77,11 +79,13 @@ contains
       end do
     end do
 
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
     contact = 0.0_wp
     call self%contacts%add_forces(own_part(self, unknown), contact)
     associate (mine => residual(self%first + 1:self%first + size(contact)))
       mine = mine - contact
     end associate
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
   end subroutine shell_residual
 
   !> The foil's part of the bearing's local unknowns.
@@ -97,11 +101,14 @@ contains
     class(shell_foil_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:)
     Mat, intent(in) :: jacobian
+    PetscErrorCode :: ierr
     integer :: i
 
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
     do i = 1, size(self%contacts%point)
       call add_contact(self, i, 1.0_wp, jacobian)
     end do
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
   end subroutine shell_jacobian
 
   !> Adds a contact's stiffness times a factor by local numbers.
@@ -148,8 +155,11 @@ contains
     class(shell_foil_type), intent(inout) :: self
     real(wp), intent(in) :: unknown(:)
     logical, intent(out) :: moved, settled
+    PetscErrorCode :: ierr
 
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
     call self%contacts%settle(own_part(self, unknown))
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
     moved = .true.
     settled = self%contacts%settled
   end subroutine shell_settle
@@ -160,6 +170,13 @@ contains
     real(wp), intent(in) :: hardness
     self%contacts%hardness = hardness
   end subroutine shell_set_hardness
+
+  !> Makes the contacts hold what they touch.
+  subroutine shell_set_adhesion(self, adhesion)
+    class(shell_foil_type), intent(inout) :: self
+    real(wp), intent(in) :: adhesion
+    self%contacts%adhesion = adhesion
+  end subroutine shell_set_adhesion
 
   !> The hardness to begin with: bumps that float between open and closed find their state at once.
   pure function shell_softest(self) result(hardness)
@@ -185,7 +202,7 @@ contains
   end function shell_crest_lengths
 
   !> Displacements of all this rank's nodes of both foils, condensed ones recovered.
-  subroutine split_displacements(self, unknown, top, bumps)
+  subroutine shell_displacements(self, unknown, top, bumps)
     class(shell_foil_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) [m], [1]
@@ -194,7 +211,14 @@ contains
     mine = self%top%part%owned_unknowns
     call expand(self%top, unknown(self%first + self%own_place(:mine)), top)
     call expand(self%bumps, unknown(self%first + self%own_place(mine + 1:)), bumps)
-  end subroutine split_displacements
+  end subroutine shell_displacements
+
+  !> This rank's contacts, each of one node of the bumps.
+  function shell_contacts(self) result(contacts)
+    class(shell_foil_type), intent(in) :: self
+    type(contact_set_type) :: contacts
+    contacts = self%contacts
+  end function shell_contacts
 
   !> Displacements of one structure's nodes from its owned unknowns.
   subroutine expand(structure, owned, moved)

@@ -30,6 +30,18 @@ SMALL = """&scene analysis = 'strip' /
 &mesh arc_elements = 4 flat_elements = 1 axial_elements = 8 /
 """
 
+BEAMS = """&scene analysis = 'fixed_position' /
+&bearing radius = 19.05e-3 length = 38.1e-3 clearance = 31.8e-6 /
+&gas viscosity = 1.95e-5 ambient_pressure = 1.0135e5 /
+&operation speed_rpm = 30000.0 eccentricity = 25.0e-6, 8.0e-6 /
+&top_foil thickness = 0.102e-3 youngs_modulus = 214.0e9 poissons_ratio = 0.29 /
+&bump_foil thickness = 0.102e-3 youngs_modulus = 214.0e9 poissons_ratio = 0.29 half_length = 1.778e-3
+  height = 0.508e-3 pitch = 4.572e-3 bumps = 26 /
+&contact friction_top = 0.1 friction_sleeve = 0.1 /
+&model foil = 'beam' /
+&mesh circumferential_elements = 104 axial_elements = 4 arc_elements = 4 flat_elements = 1 /
+"""
+
 
 def call(folder, *words):
     """tools/plot as a user calls it: status, and what it said."""
@@ -154,6 +166,25 @@ class BearingTest(unittest.TestCase):
         self.assertEqual([len(chart.lines) for chart in together], [2, 1])
         for line, height in zip(together[0].lines, (7.0, 6.0)):
             numpy.testing.assert_allclose(line.get_ydata(), [height]*2, rtol=1e-12)
+
+    def test_foils_of_gfb(self):
+        (self.folder/"beams.nml").write_text(BEAMS, encoding="utf-8")
+        subprocess.run([os.environ["GFB"], "--quiet", "--output", self.folder, self.folder/"beams.nml"], check=True,
+                       stdout=subprocess.DEVNULL)
+        for name in ("beams.top_foil.vtkhdf", "beams.bump_foil.vtkhdf", "beams.film.vtkhdf"):
+            self.assertEqual(call(self.folder, name), (0, f"drawn: {name}.png\n"))
+        with h5py.File(self.folder/"beams.bump_foil.vtkhdf", "r") as file:
+            side, bars, _ = plot_foil.draw(self.folder/"beams.bump_foil.vtkhdf", file, []).axes
+        self.assertEqual(len(bars.containers[0]), 26)
+        self.assertEqual(len(side.lines[1].get_xdata()), 26*5 + 1)
+        with h5py.File(self.folder/"beams.top_foil.vtkhdf", "r") as file:
+            lines = plot_foil.draw(self.folder/"beams.top_foil.vtkhdf", file, []).axes[1].lines
+        x, height = side.lines[0].get_data()
+        above = [numpy.argmin(abs(lines[0].get_xdata() - x[crest])) for crest in plot_foil.crest_stations(height)]
+        found = numpy.array([bar.get_height() for bar in bars.containers[0]]) - lines[0].get_ydata()[above]
+        self.assertLess(abs(found[:13]).max(), 0.01)  # in contact, to the penetration
+        self.assertGreater(found[-3], 0.1)            # lifted off
+        self.assertEqual(call(self.folder, "beams.h5", "--show", "contact")[0], 0)
 
     def test_calls(self):
         bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))

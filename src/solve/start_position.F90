@@ -1,0 +1,145 @@
+#include "gfb_petsc.h"
+!> Where a search for an answer begins: a held shaft, brought from rest to speed, and let go.
+module gfb_start_position
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: largest_over_ranks
+  use gfb_scene, only: scene_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_film_load, only: film_forces
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  implicit none (type)
+  private
+  public :: guess_position, find_position, let_go, solve_at
+
+  real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
+  real(wp), parameter :: room_at_rest = 0.75_wp  !! way to begin with, over the clearance [1]
+
+contains
+
+  !> Newton's method at a point, as a path of one step.
+  subroutine solve_at(bearing, newton, target, held, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    logical, intent(in) :: held !! the shaft is kept at the point's position
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+    type(newton_report_type) :: solved
+
+    bearing%point = target
+    bearing%held = held
+    call bearing%apply_point()
+    call solve_newton(newton, solved)
+    report%converged = solved%converged
+    if (solved%converged .and. bearing%floats .and. .not. held) then
+      report%converged = bearing%smallest_gap() >= settings%touch_down_gap
+    end if
+    report%reason = solved%reason
+    report%reached = target
+    report%fraction = 1.0_wp
+    report%steps = 1
+  end subroutine solve_at
+
+  !> A held position at rest, brought to speed.
+  subroutine find_position(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+
+    type(path_settings_type) :: to_position
+    type(operating_point_type) :: wanted, free
+
+    to_position = settings
+    to_position%touch_down_gap = 0.0_wp
+    wanted = target
+    wanted%eccentricity = bearing%eccentricity()
+    free = free_position(bearing, wanted)
+    call put_at_rest(bearing, free)
+    call newton%log%detail('held position, from rest to speed')
+    call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
+    report%held = .true.
+    if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
+        norm2(free%tilt - wanted%tilt) > 0.0_wp) then
+      call newton%log%detail('to the position asked for')
+      call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)
+      report%held = .true.
+    end if
+  end subroutine find_position
+
+  !> Lets the shaft go where it is held, and moves the load from the film's reaction to its target.
+  subroutine let_go(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+    real(wp) :: force(film_forces), way
+
+    force = bearing%reaction()
+    bearing%held = .false.
+    bearing%point%load = force(1:2)
+    call bearing%apply_point()
+    call newton%log%detail('shaft let go, load from the reaction to its target')
+    way = norm2(target%load - force(1:2))
+    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
+  end subroutine let_go
+
+  !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one
+  !> on the way to it.
+  function free_position(bearing, wanted) result(free)
+    type(bearing_system_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: wanted
+    type(operating_point_type) :: free
+    real(wp) :: undeflected(size(bearing%film%angle)), approach(1)
+
+    free = wanted
+    undeflected = 0.0_wp
+    associate (clearance => bearing%film%clearance)
+      approach = largest_over_ranks([clearance - minval(bearing%film%gap(wanted, undeflected))])
+      if (approach(1) < clearance) return
+      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach(1)
+      free%tilt = wanted%tilt*room_at_rest*clearance/approach(1)
+    end associate
+  end function free_position
+
+  !> Puts the bearing at rest at a held position: ambient pressure everywhere, exactly.
+  subroutine put_at_rest(bearing, held)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(operating_point_type), intent(in) :: held
+    real(wp) :: unknown(bearing%local_size())
+
+    bearing%point = held
+    bearing%point%speed = 0.0_wp
+    bearing%held = .true.
+    unknown = 0.0_wp
+    unknown(:size(bearing%mesh%mesh_node)) = bearing%film%ambient_pressure
+    if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity
+    call bearing%set_unknowns(unknown)
+    call bearing%apply_point()
+  end subroutine put_at_rest
+
+  !> A position to begin with: the scene's, or halfway to where a film would carry the load.
+  subroutine guess_position(bearing, scene, target, eccentricity)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(scene_type), intent(in) :: scene
+    type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
+    real(wp) :: direction, free, unknown(bearing%local_size())
+
+    bearing%point%eccentricity = target%eccentricity
+    if (.not. bearing%floats) return
+    if (.not. scene%operation%eccentricity_given) then
+      free = scene%bearing%clearance - 0.5_wp*scene%bearing%length*norm2(target%tilt)
+      direction = start_attitude
+      if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
+      bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
+    end if
+    unknown = 0.0_wp
+    unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
+    call bearing%set_unknowns(unknown)
+  end subroutine guess_position
+end module gfb_start_position
