@@ -27,14 +27,14 @@ CASE = {  # inputs/gu2020_bearing.nml
 }
 FIRST_LOAD, STEP = 100.0, 5.0  # of the sweep [N]
 DEFAULT = "shells, reduced, half width"
-MODELS = {  # foil, reduction, half_width, coupling
+MODELS = {  # foil, reduction (beams have none), half_width, coupling
     DEFAULT: ("shell", "guyan", "yes", "monolithic"),
     "  partitioned": ("shell", "guyan", "yes", "partitioned"),
     "  full order": ("shell", "none", "yes", "monolithic"),
     "  full width": ("shell", "guyan", "no", "monolithic"),
     "  full order, full width": ("shell", "none", "no", "monolithic"),
-    "beams": ("beam", "guyan", "yes", "monolithic"),
-    "  beams, partitioned": ("beam", "guyan", "yes", "partitioned"),
+    "beams": ("beam", None, "yes", "monolithic"),
+    "  beams, partitioned": ("beam", None, "yes", "partitioned"),
 }
 COLD_ONLY = "  full order, full width"  # no sweep: it would take as long as all others
 
@@ -87,7 +87,8 @@ def bearing_case(model, points):
     """The case file's groups."""
     foil, reduction, half_width, coupling = MODELS[model]
     return {**CASE,
-            "model": {"foil": foil, "reduction": reduction, "half_width": half_width, "coupling": coupling},
+            "model": {"foil": foil, **({"reduction": reduction} if reduction else {}), "half_width": half_width,
+                      "coupling": coupling},
             "sweep": {"parameter": "load", "values": [FIRST_LOAD + STEP*point for point in range(points)]}}
 
 

@@ -55,8 +55,9 @@ contains
     slope = 0.0_wp
     if (penetration < 0.0_wp) then
       if (.not. law%adhesion > 0.0_wp) return
-      slope = length*law%adhesion*law%normal_stiffness*law%exponent*(-penetration)**(law%exponent - 1.0_wp)
-      force = -length*law%adhesion*law%normal_stiffness*(-penetration)**law%exponent
+      slope = length*law%normal_stiffness*law%exponent*(-penetration)**(law%exponent - 1.0_wp)
+      slope = law%adhesion*slope
+      force = -law%adhesion*length*law%normal_stiffness*(-penetration)**law%exponent
       return
     end if
     ! At first touch the closed side's slope is taken: a strip at rest is held by its contacts.

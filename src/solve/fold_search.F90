@@ -83,7 +83,9 @@ contains
 
     outcome = branch_lost
     move = first_move
-    do moves = 1, most_moves
+    moves = 0
+    do while (outcome == branch_lost .and. moves < most_moves .and. move >= shortest_move)
+      moves = moves + 1
       PetscCallA(VecCopy(farthest, path%base, ierr))
       PetscCallA(VecCopy(farthest, path%state, ierr))
       path%step = move
@@ -102,7 +104,6 @@ contains
         if (way <= closest_way) outcome = branch_folds
         move = 0.25_wp*move
       end if
-      if (outcome /= branch_lost .or. move < shortest_move) exit
     end do
   end subroutine move_edge
 
