@@ -25,10 +25,11 @@ module gfb_contact_start
   !> start lets them go while the foil is pressed most: before, where the load is larger than the held
   !> film's force.
   integer, parameter :: by_load = 1, against_load = 2, after = 3, before = 4
-  real(wp), parameter :: start_eccentricity(5) = [0.5_wp, 0.5_wp, 0.5_wp, 0.9_wp, 0.25_wp]
-  integer, parameter :: let_go_when(5) = [by_load, against_load, after, before, before]
-  real(wp), parameter :: first_decades(5) = [1.5_wp, 1.5_wp, 0.8_wp, 1.5_wp, 1.5_wp]
-  integer, parameter :: plain_starts = 3            !! those that differ only in how contacts let go
+  real(wp), parameter :: start_eccentricity(6) = [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp, 0.9_wp, 0.25_wp]
+  integer, parameter :: let_go_when(6) = [by_load, against_load, after, after, before, before]
+  real(wp), parameter :: first_decades(6) = [1.5_wp, 1.5_wp, 0.8_wp, 1.5_wp, 1.5_wp, 1.5_wp]
+  real(wp), parameter :: growth(6) = [1.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 1.0_wp] !! of a step that succeeded
+  integer, parameter :: plain_starts = 4            !! those that differ only in how contacts let go
   integer, parameter :: most_halvings = 1           !! of the speed, to come to the target from below
   real(wp), parameter :: shortest_trial = 0.02_wp   !! step of a start while others are left [1]
   real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a way, with hard contacts [1]
@@ -36,7 +37,8 @@ module gfb_contact_start
   type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25) !! on the way
   integer, parameter :: releasing = 1, hardening = 2 !! what is done to contacts
   real(wp), parameter :: shortest_decades = 0.05_wp
-  real(wp), parameter :: least_adhesion = -4.0_wp    !! decades at which it is none
+  real(wp), parameter :: enough = 4.0_wp             !! decades of letting go that are all where steps do not grow
+  real(wp), parameter :: least_adhesion = -8.0_wp    !! decades at which it is none
 
 contains
 
@@ -82,8 +84,13 @@ contains
     end if
     if (.not. report%converged) then
       report = nearest
+      if (slower == 0 .and. attempts > plain_starts .and. .not. (report%touched .or. report%folded)) then
+        report%reason = text(attempts)//' starts failed, and one with half the speed; from the nearest state '// &
+          'they reached: '//report%reason
+      end if
       PetscCallA(VecCopy(kept, bearing%state, ierr))
       bearing%point = report%reached
+      bearing%held = report%held .and. bearing%floats
       call bearing%apply_point()
     end if
     PetscCallA(VecDestroy(kept, ierr))
@@ -145,13 +152,13 @@ contains
     force = bearing%reaction()
     early = let_go_when(attempt) == before
     if (let_go_when(attempt) <= against_load) early = norm2(target%load) > norm2(force(1:2)) .eqv. let_go_when(attempt) == by_load
-    if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, first_decades(attempt), report)
+    if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, attempt, report)
     if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, soft, report)
-    if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, first_decades(attempt), report)
+    if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, attempt, report)
     call bearing%foil%set_adhesion(0.0_wp)
     real_contacts = .false.
     if (report%converged .or. .not. report%held) then
-      call lead_contacts(bearing, newton, hardening, first_decades(attempt), report, real_contacts)
+      call lead_contacts(bearing, newton, hardening, attempt, report, real_contacts)
     end if
     newton%settings = wanted
     if (report%converged) then
@@ -166,30 +173,33 @@ contains
 
   !> Makes contacts let go, or as hard as the scene has them, at the bearing's present point and by
   !> decades. A report of success becomes one of failure where that does not succeed.
-  subroutine lead_contacts(bearing, newton, change, decades, report, arrived)
+  subroutine lead_contacts(bearing, newton, change, attempt, report, arrived)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
-    integer, intent(in) :: change   !! `releasing` or `hardening`
-    real(wp), intent(in) :: decades !! to begin with
+    integer, intent(in) :: change !! `releasing` or `hardening`
+    integer, intent(in) :: attempt
     type(path_report_type), intent(inout) :: report
     logical, intent(out), optional :: arrived
     type(newton_report_type) :: solved
-    real(wp) :: gone, way, step
+    real(wp) :: gone, way, step, trial
     Vec :: here
     PetscErrorCode :: ierr
 
     way = least_adhesion
     if (change == hardening) way = log10(bearing%foil%softest())
     way = -way
-    step = decades
+    step = first_decades(attempt)
     gone = 0.0_wp
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
     PetscCallA(VecCopy(bearing%state, here, ierr))
     do while (gone < way .and. step >= shortest_decades)
-      call set_contacts(bearing, newton, change, min(gone + step, way), way)
+      trial = gone + step
+      if (trial >= way .or. (change == releasing .and. trial >= enough .and. growth(attempt) <= 1.0_wp)) trial = way
+      call set_contacts(bearing, newton, change, trial, way)
       call solve_newton(newton, solved)
       if (solved%converged) then
-        gone = gone + step
+        gone = trial
+        step = growth(attempt)*step
         PetscCallA(VecCopy(bearing%state, here, ierr))
       else
         PetscCallA(VecCopy(here, bearing%state, ierr))
