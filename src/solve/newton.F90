@@ -331,7 +331,7 @@ contains
     work_low = start
     high = newton%length
     ! Where the step begins in equilibrium, as when only the load has moved, there is nothing to compare.
-    if (start <= at_rest*abs(work)) return
+    if (newton%steps <= patience .and. start <= at_rest*abs(work)) return
     do attempt = 1, balances
       if (.not. start > 0.0_wp .or. work >= -allowed*start) return
       newton%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))
