@@ -12,7 +12,7 @@ MESH = {"circumferential_elements": 208, "axial_elements": 8, "arc_elements": 8,
         "align_crests": True}
 CONTACT = {"normal_stiffness": None, "stick_length": None}
 # N at rpm: from loads that hardly press the foils to such that leave little film.
-POINTS = ((10.0, 10000.0), (20.0, 30000.0), (40.0, 45000.0), (40.0, 60000.0), (100.0, 10000.0), (100.0, 60000.0),
+POINTS = ((10.0, 10000.0), (20.0, 30000.0), (20.0, 45000.0), (40.0, 60000.0), (100.0, 10000.0), (100.0, 60000.0),
           (200.0, 30000.0))
 SHELL_POINTS = (("trailing", 20.0, 30000.0), ("leading", 40.0, 60000.0))
 SHELL_MESH = {**MESH, "circumferential_elements": 104, "axial_elements": 6}

@@ -143,7 +143,7 @@ def check_same(checks, folder):
     compare(checks, "held at the position found", fixed, base, 1.0e-8)
 
 
-def check_stiff(checks, folder):
+def check_stiff(checks, folder, solver=solve):
     """Foils that hardly give come to the rigid film, in proportion to what they give."""
     rigid = {"top_foil": None, "bump_foil": None, "contact": None, "model": {"foil": "rigid"},
              "mesh": {key: None for key in ("arc_elements", "flat_elements", "align_crests")}}
@@ -152,8 +152,8 @@ def check_stiff(checks, folder):
         off = []
         for factor in (1.0e3, 1.0e5):
             foil = {"thickness": 0.4e-3, "youngs_modulus": factor*SHEET["youngs_modulus"]}
-            run = solve(folder, "stiff", top_foil=foil, bump_foil=foil,
-                        contact={"normal_stiffness": 5.0e7*factor}, **place)
+            run = solver(folder, "stiff", top_foil=foil, bump_foil=foil,
+                         contact={"normal_stiffness": 5.0e7*factor}, **place)
             off.append(max(largest_difference(run.film()["pressure"], wanted.film()["pressure"]),
                            numpy.abs(run.force - wanted.force).max()/numpy.linalg.norm(wanted.force),
                            numpy.abs(run.eccentricity - wanted.eccentricity).max()/BEARING.clearance))
