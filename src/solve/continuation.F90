@@ -82,7 +82,6 @@ contains
       call try_step(newton, step >= 2.0_wp*smallest, solved)
       if (.not. solved%converged) then
         report%cuts = report%cuts + 1
-        report%reason = solved%reason
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
         step = 0.5_wp*step
@@ -132,6 +131,8 @@ contains
     integer :: outcome
     PetscErrorCode :: ierr
 
+    bearing%point = report%reached ! not the one that was tried last
+    call bearing%apply_point()
     left = 1.0_wp - report%fraction
     call look_beyond(bearing, newton, target, before, at_before >= 0.0_wp, min(1.0_wp, 2.0_wp*smallest/left), &
                      outcome, ahead)
@@ -141,7 +142,7 @@ contains
       PetscCallA(VecCopy(here, before, ierr))
       PetscCallA(VecCopy(bearing%state, here, ierr))
       at_before = report%fraction
-      report%fraction = report%fraction + ahead*left
+      report%fraction = report%fraction + min(ahead, 1.0_wp - smallest)*left ! the target itself is still to be met
       report%reached = bearing%point
     end if
   end subroutine find_end

@@ -9,6 +9,7 @@ module gfb_path_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
   use gfb_nonlinear_system, only: nonlinear_system_type
@@ -118,6 +119,7 @@ contains
     class(path_system_type), intent(in) :: self
     Vec, intent(in) :: state
     real(wp) :: lambda
+    real(wp) :: owner(1)
     PetscScalar, pointer :: whole(:), part(:)
     PetscErrorCode :: ierr
 
@@ -128,17 +130,9 @@ contains
     if (self%last_rank) lambda = whole(self%owned + 1)
     PetscCallA(GFB_VecRestoreArray(self%inner, part, ierr))
     PetscCallA(GFB_VecRestoreArrayRead(state, whole, ierr))
-    call MPI_Bcast(lambda, 1, MPI_DOUBLE_PRECISION, last_rank_number(), PETSC_COMM_WORLD, ierr)
+    owner = sum_over_ranks([lambda]) ! the other ranks have none
+    lambda = owner(1)
   end function place
-
-  !> Number of the rank that owns lambda.
-  function last_rank_number() result(rank)
-    integer :: rank
-    integer :: ranks
-    PetscErrorCode :: ierr
-    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
-    rank = ranks - 1
-  end function last_rank_number
 
   !> Moves the bearing to a place on the path.
   subroutine aim(self, lambda)

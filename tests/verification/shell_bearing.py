@@ -124,20 +124,24 @@ def check_same(checks, folder):
         full = solve(folder, "full", mesh=mesh, model={"reduction": "none"})
         checks.that(f"{words}: condensed has fewer unknowns", base["unknowns"] < 0.8*full["unknowns"])
         compare(checks, f"{words}, full and condensed", full, base, 1.0e-8)
-    # From here on crests lie inside elements.
+    check_ways(checks, folder, base, ((25.0e-6, 10.0e-6), (15.0e-6, 0.0)))  # crests inside elements
+
+
+def check_ways(checks, folder, base, places, solver=solve):
+    """Ranks, start positions, limits and a held shaft lead to the same answer."""
     for ranks in (2, 4):
-        compare(checks, f"{ranks} ranks", solve(folder, "ranks", ranks=ranks), base, 1.0e-8)
-    for place in ((25.0e-6, 10.0e-6), (15.0e-6, 0.0)):
-        start = solve(folder, "start", operation={"eccentricity": place})
+        compare(checks, f"{ranks} ranks", solver(folder, "ranks", ranks=ranks), base, 1.0e-8)
+    for place in places:
+        start = solver(folder, "start", operation={"eccentricity": place})
         checks.that(f"started at {place}: another way", start["newton_iterations"] != base["newton_iterations"])
         compare(checks, f"started at {place}", start, base, 1.0e-8)
-    for solver in ({"maximum_iterations": 4, "smallest_load_step": 1.0e-3},
+    for limits in ({"maximum_iterations": 4, "smallest_load_step": 1.0e-3},
                    {"residual_tolerance": 1.0e-11, "step_tolerance": 1.0e-12}):
-        words = ", ".join(f"{key} {value:g}" for key, value in solver.items())
-        other = solve(folder, "limits", solver=solver)
+        words = ", ".join(f"{key} {value:g}" for key, value in limits.items())
+        other = solver(folder, "limits", solver=limits)
         checks.that(f"{words}: another way", other["newton_iterations"] != base["newton_iterations"])
         compare(checks, words, other, base, 1.0e-8)
-    fixed = solve(folder, "fixed", **held(base.eccentricity))
+    fixed = solver(folder, "fixed", **held(base.eccentricity))
     check = numpy.abs(fixed.force - LOAD).max()/numpy.linalg.norm(LOAD)
     checks.below("held at the position found: force = load", check, 1.0e-8)
     compare(checks, "held at the position found", fixed, base, 1.0e-8)
