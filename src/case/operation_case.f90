@@ -1,7 +1,7 @@
 !> `&operation`: speed, load and position of the shaft.
 module gfb_operation_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, no_default
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
   use gfb_value_rules, only: not_negative
@@ -17,6 +17,8 @@ module gfb_operation_case
     real(wp) :: load(2) = 0.0_wp          !! external force on the shaft, x and y [N]
     real(wp) :: eccentricity(2) = 0.0_wp  !! of the sleeve relative to the shaft, x and y [m]
     real(wp) :: tilt(2) = 0.0_wp          !! of the sleeve against the shaft, about x and y [rad]
+    real(wp) :: leading_edge_lift(2) = 0.0_wp !! to start with, at the midplane, at the ends [m]
+    logical :: lift_given(2) = .false.
     logical :: load_given = .false.
     logical :: eccentricity_given = .false.
   end type operation_case_type
@@ -49,6 +51,13 @@ contains
                               given=operation%eccentricity_given)
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
                               'the sleeve relative to the shaft, about x and y')
+    call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
+                       'start on the equilibrium whose top foil''s free leading edge is lifted '// &
+                       'so much at the midplane, towards the shaft', &
+                       default=no_default, given=operation%lift_given(1))
+    call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
+                       'the same at the ends of the bearing', default=no_default, &
+                       given=operation%lift_given(2))
     call keys%finish_group()
   end subroutine read_operation_case
 

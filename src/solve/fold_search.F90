@@ -115,21 +115,11 @@ contains
     Vec, intent(in) :: before
     logical, intent(in) :: known
     Vec :: edge
-    real(wp) :: unknown(bearing%local_size()), nodes, was, is
-    integer :: node
+    real(wp) :: was, is
     PetscErrorCode :: ierr
 
-    unknown = 0.0_wp
-    associate (ends => bearing%whole%station_angle([1, bearing%whole%stations()]), foil => bearing%foil)
-      do node = 1, size(bearing%film%angle)
-        if (foil%source(node) == 0 .or. .not. bearing%mesh%owned(node) .or. minval(abs(bearing%film%angle(node) - ends)) > 0.0_wp) cycle
-        unknown(foil%source(node)) = unknown(foil%source(node)) + bearing%film%clearance
-      end do
-    end associate
     PetscCallA(VecDuplicate(bearing%state, edge, ierr))
-    call bearing%add_up(unknown, edge)
-    PetscCallA(VecSum(edge, nodes, ierr))
-    PetscCallA(VecScale(edge, 1.0_wp/nodes, ierr))
+    call bearing%edge_direction(edge)
     PetscCallA(VecDot(edge, bearing%state, is, ierr))
     was = is
     if (known) then

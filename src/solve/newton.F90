@@ -347,7 +347,7 @@ contains
   pure subroutine choose_factors(newton)
     type(newton_type), intent(inout) :: newton
 
-    if (newton%length < 1.0_wp) then
+    if (newton%length < 1.0_wp .or. .not. newton%system%settled) then
       newton%keep = .false.
     else if (newton%fresh) then
       newton%keep = newton%step < chord_step

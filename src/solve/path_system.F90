@@ -40,6 +40,7 @@ module gfb_path_system
     procedure :: begin_step => begin_path_step
     procedure :: virtual_work => path_work
     procedure :: place
+    procedure :: set_place
     procedure :: join
     procedure :: give
     procedure, private :: aim
@@ -133,6 +134,19 @@ contains
     owner = sum_over_ranks([lambda]) ! the other ranks have none
     lambda = owner(1)
   end function place
+
+  !> Sets a state's lambda.
+  subroutine set_place(self, state, lambda)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: state
+    real(wp), intent(in) :: lambda
+    PetscScalar, pointer :: whole(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(state, whole, ierr))
+    if (self%last_rank) whole(self%owned + 1) = lambda
+    PetscCallA(GFB_VecRestoreArray(state, whole, ierr))
+  end subroutine set_place
 
   !> Moves the bearing to a place on the path.
   subroutine aim(self, lambda)

@@ -18,6 +18,7 @@ module gfb_bearing_system
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure, any_rank
   use gfb_partition, only: partition_elements
   use gfb_foil_model, only: foil_model_type
+  use gfb_free_edge, only: free_edge_type, find_free_edge
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type
@@ -37,6 +38,7 @@ module gfb_bearing_system
     type(local_mesh_type) :: mesh          !! this rank's part of it
     type(gas_film_type) :: film
     class(foil_model_type), allocatable :: foil
+    type(free_edge_type) :: edge           !! of the top foil
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before e_x
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
@@ -62,6 +64,9 @@ module gfb_bearing_system
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
     procedure :: smallest_gap
+    procedure :: edge_lift
+    procedure :: edge_direction
+    procedure :: contact_direction
     procedure :: reaction
     procedure :: apply_point
     procedure :: destroy => destroy_bearing
@@ -118,6 +123,7 @@ contains
     call register_cost_events(bearing%events)
     bearing%foil%events = bearing%events
     call bearing%foil%place(size(bearing%mesh%mesh_node))
+    call find_free_edge(bearing%whole, bearing%mesh, bearing%foil, bearing%edge)
     bearing%floats = floats
     bearing%dense_rows = floats
     bearing%first_shaft = size(bearing%mesh%mesh_node) + bearing%foil%local_unknowns()
@@ -253,6 +259,8 @@ contains
       PetscCallA(PetscLogEventEnd(self%events%film, ierr))
       PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
       call self%foil%add_residual(unknown, value)
+      call self%edge%add_pull(point%edge_pull, value)
+      call self%edge%add_tension(point%edge_tension, unknown, value)
       PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
       if (self%floats .and. .not. self%held) then
         force = self%film%force(unknown(:nodes))
@@ -298,12 +306,28 @@ contains
     PetscCallA(PetscLogEventEnd(self%events%film, ierr))
     PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
     call self%foil%add_jacobian(unknown, self%jacobian)
+    if (abs(self%point%edge_tension) > 0.0_wp) call add_tension(self%edge, self%point%edge_tension, self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_bearing
+
+  !> Adds the stiffness of the string along the free edge.
+  subroutine add_tension(edge, tension, jacobian)
+    type(free_edge_type), intent(in) :: edge
+    real(wp), intent(in) :: tension !! [N]
+    Mat, intent(in) :: jacobian
+    integer :: pair, place(2)
+    real(wp) :: block(2, 2)
+    PetscErrorCode :: ierr
+
+    do pair = 1, edge%pairs()
+      call edge%tension_block(pair, tension, place, block)
+      PetscCallA(MatSetValuesLocal(jacobian, 2_pint, int(place - 1, pint), 2_pint, int(place - 1, pint), [block], ADD_VALUES, ierr))
+    end do
+  end subroutine add_tension
 
   !> Moves the foil's contacts on their laws to where the foils have gone.
   subroutine settle_bearing(self, state, moved)
@@ -401,6 +425,54 @@ contains
     depth = largest_over_ranks([-minval(self%gap(unknown))])
     gap = -depth(1)
   end function smallest_gap
+
+  !> Mean way of the top foil's free edge towards the shaft at the present state, over all ranks [m].
+  function edge_lift(self) result(lift)
+    class(bearing_system_type), intent(in) :: self
+    real(wp) :: lift
+    real(wp) :: unknown(self%local_size()), total(1)
+
+    call self%get_unknowns(unknown)
+    total = sum_over_ranks([self%edge%lift(unknown)])
+    lift = total(1)
+  end function edge_lift
+
+  !> The vector whose product with a state is that lift over the clearance.
+  subroutine edge_direction(self, direction)
+    class(bearing_system_type), intent(in) :: self
+    Vec, intent(in) :: direction
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(direction, 0.0_wp, ierr))
+    call self%exchange%add(self%edge%lift_rates(self%local_size())*self%unknown_scale/self%film%clearance, direction)
+  end subroutine edge_direction
+
+  !> Which contacts open or close first on the way from the present state to another.
+  subroutine contact_direction(self, other, direction, way, distance, closes)
+    class(bearing_system_type), intent(in) :: self
+    Vec, intent(in) :: other             !! scaled state
+    Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
+    real(wp), intent(out) :: way         !! part of the way to there; huge if there is none [1]
+    real(wp), intent(out) :: distance    !! by which that product has to grow until then [1]
+    logical, intent(out) :: closes       !! one of them closes
+    real(wp) :: here(self%local_size()), ahead(self%local_size()), rate(self%local_size()), first(1), total(1)
+    PetscErrorCode :: ierr
+
+    call self%get_unknowns(here)
+    call self%exchange%get(other, ahead)
+    ahead = ahead*self%unknown_scale
+    first = -largest_over_ranks([-self%foil%next_contact_change(here, ahead)])
+    way = first(1)
+    rate = 0.0_wp
+    distance = 0.0_wp
+    closes = .false.
+    if (way < huge(way)) call self%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
+    closes = any_rank(closes)
+    total = sum_over_ranks([distance])
+    distance = total(1)/self%film%clearance
+    PetscCallA(VecSet(direction, 0.0_wp, ierr))
+    call self%exchange%add(rate*self%unknown_scale/self%film%clearance, direction)
+  end subroutine contact_direction
 
   !> Force and torque of the film at the present state, over all ranks [N], [N m].
   function reaction(self) result(force)

@@ -51,6 +51,8 @@ module gfb_contact_set
     logical :: settled = .true.                !! every contact is linearised where it is
   contains
     procedure :: approach
+    procedure :: next_change
+    procedure :: add_penetration_rate
     procedure :: settle
     procedure :: drop_anchor
     procedure :: add_forces
@@ -97,6 +99,39 @@ contains
       value(3) = -value(3) - point%gap
     end associate
   end function approach
+
+  !> The part of the way from one displacement to another, or on beyond it, after which a contact
+  !> opens or closes; huge where it never does.
+  pure function next_change(self, i, here, ahead) result(way)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i                      !! contact
+    real(wp), intent(in) :: here(:), ahead(:)     !! of the set's unknowns [m]
+    real(wp) :: way
+    real(wp) :: first(spatial), last(spatial)
+
+    way = huge(way)
+    if (self%point(i)%pressed) return
+    first = self%approach(i, here)
+    last = self%approach(i, ahead)
+    if (first(3)*(last(3) - first(3)) >= 0.0_wp) return ! the penetration goes away from zero
+    way = first(3)/(first(3) - last(3))
+  end function next_change
+
+  !> Adds the derivatives of a contact's penetration after the set's unknowns, times a factor.
+  pure subroutine add_penetration_rate(self, i, factor, rate)
+    class(contact_set_type), intent(in) :: self
+    integer, intent(in) :: i
+    real(wp), intent(in) :: factor
+    real(wp), intent(inout) :: rate(:)
+    integer :: k
+
+    associate (point => self%point(i))
+      call add_at_node(point%slave, -factor*point%frame(:, 3), rate)
+      do k = 1, size(point%share)
+        call add_at_node(point%master(:, k), factor*point%share(k)*point%frame(:, 3), rate)
+      end do
+    end associate
+  end subroutine add_penetration_rate
 
   !> Displacement at a node, zero where it is held.
   pure function at_node(unknown, displacement) result(value)

@@ -38,6 +38,8 @@ module gfb_foil_model
     procedure :: set_adhesion
     procedure :: softest
     procedure :: crest_lengths
+    procedure :: next_contact_change
+    procedure :: add_penetration_rates
     procedure :: commit
     procedure :: destroy
     procedure :: place
@@ -115,6 +117,27 @@ contains
     real(wp) :: length(2)
     length = 0.0_wp
   end function crest_lengths
+
+  !> The part of the way between two states, or on beyond, after which the first of this rank's
+  !> contacts opens or closes; huge where none does, as here.
+  pure function next_contact_change(self, here, ahead) result(way)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
+    real(wp) :: way
+    way = huge(way)
+  end function next_contact_change
+
+  !> Adds up, for those contacts that change after that part of the way, the derivatives of their
+  !> penetrations after the bearing's local unknowns, in the sense in which they go; and how far they
+  !> go before they change. Here there are none.
+  pure subroutine add_penetration_rates(self, here, ahead, way, rate, distance, closes)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
+    real(wp), intent(in) :: way               !! part of the way to the first change [1]
+    real(wp), intent(inout) :: rate(:)
+    real(wp), intent(inout) :: distance       !! sum of the penetrations' sizes [m]
+    logical, intent(inout) :: closes          !! one of them closes
+  end subroutine add_penetration_rates
 
   !> A new Newton step begins where the contacts are; here none.
   subroutine begin_step(self)

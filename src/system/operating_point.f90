@@ -11,6 +11,8 @@ module gfb_operating_point
     real(wp) :: load(2) = 0.0_wp         !! external force on the shaft, where it floats [N]
     real(wp) :: eccentricity(2) = 0.0_wp !! of the sleeve relative to the shaft, where held [m]
     real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
+    real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
+    real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
   end type operating_point_type
 
 contains
@@ -29,5 +31,7 @@ contains
     point%load = first%load + fraction*(last%load - first%load)
     point%eccentricity = first%eccentricity + fraction*(last%eccentricity - first%eccentricity)
     point%tilt = first%tilt + fraction*(last%tilt - first%tilt)
+    point%edge_pull = first%edge_pull + fraction*(last%edge_pull - first%edge_pull)
+    point%edge_tension = first%edge_tension + fraction*(last%edge_tension - first%edge_tension)
   end function point_between
 end module gfb_operating_point

@@ -42,6 +42,8 @@ module gfb_shell_foil
     procedure :: set_adhesion => shell_set_adhesion
     procedure :: softest => shell_softest
     procedure :: crest_lengths => shell_crest_lengths
+    procedure :: next_contact_change => shell_next_change
+    procedure :: add_penetration_rates => shell_penetration_rates
     procedure :: split_displacements => shell_displacements
     procedure :: nodal_contacts => shell_contacts
     procedure :: commit => shell_commit
@@ -200,6 +202,43 @@ contains
       end associate
     end do
   end function shell_crest_lengths
+
+  !> Where on a way the first of this rank's contacts opens or closes.
+  pure function shell_next_change(self, here, ahead) result(way)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:)
+    real(wp) :: way
+    integer :: i
+
+    way = huge(way)
+    do i = 1, size(self%contacts%point)
+      way = min(way, self%contacts%next_change(i, own_part(self, here), own_part(self, ahead)))
+    end do
+  end function shell_next_change
+
+  !> The contacts that open or close there, all those of a symmetric foil at once.
+  pure subroutine shell_penetration_rates(self, here, ahead, way, rate, distance, closes)
+    class(shell_foil_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:)
+    real(wp), intent(in) :: way
+    real(wp), intent(inout) :: rate(:)
+    real(wp), intent(inout) :: distance
+    logical, intent(inout) :: closes
+    real(wp), parameter :: together = 1.0e-6_wp !! relative
+    real(wp) :: first(3)
+    integer :: i
+
+    associate (mine => rate(self%first + 1:self%first + self%local_unknowns()), now => own_part(self, here), &
+               next => own_part(self, ahead))
+      do i = 1, size(self%contacts%point)
+        if (self%contacts%next_change(i, now, next) > (1.0_wp + together)*way) cycle
+        first = self%contacts%approach(i, now)
+        call self%contacts%add_penetration_rate(i, -sign(1.0_wp, first(3)), mine)
+        distance = distance + abs(first(3))
+        closes = closes .or. first(3) < 0.0_wp
+      end do
+    end associate
+  end subroutine shell_penetration_rates
 
   !> Displacements of all this rank's nodes of both foils, condensed ones recovered.
   subroutine shell_displacements(self, unknown, top, bumps)

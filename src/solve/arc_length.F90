@@ -1,0 +1,310 @@
+#include "gfb_petsc.h"
+!> Follows a branch of answers by its own length, round the folds where the path's parameter turns.
+!>
+!> A step from an answer \( x_0 \) goes along the secant through the last two, and ends where
+!> \( t \cdot (x - x_0) = s \) ([Riks1979]). The measure is the mean square of the scaled unknowns,
+!> with a small weight for the parameter. Where contacts open or close the branch has corners; a
+!> step round one that fails is made in the direction of the free edge instead.
+module gfb_arc_length
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
+  use gfb_path_system, only: path_system_type, create_path_system, destroy_path_system
+  implicit none (type)
+  private
+  public :: begin_arc, advance_arc, end_arc
+
+  real(wp), parameter :: first_step = 1.0e-3_wp
+  real(wp), parameter :: shortest_step = 1.0e-7_wp
+  real(wp), parameter :: longest_step = 0.05_wp
+  real(wp), parameter :: least_start = 1.0e-4_wp   !! to which a step after a very short one is lengthened
+  real(wp), parameter :: growth = 1.5_wp
+  real(wp), parameter :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
+  real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
+  real(wp), parameter :: same_turn = 0.05_wp       !! change of it that is none, relative
+  real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
+  real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
+  integer, parameter :: corner_attempts = 4
+  real(wp), parameter :: longest_leap = 5.0_wp     !! round a corner, over the last step
+  real(wp), parameter :: way_before_corner = 0.1_wp !! share of a step round one that does not show in its direction
+  real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
+  real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
+  real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
+  real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
+  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
+  integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
+  integer, parameter :: hasty_iterations = 12      !! more are not given to a step
+
+  !> A branch and the last answer on it. Keep it where it is.
+  type, public :: arc_type
+    type(path_system_type) :: path
+    type(newton_type) :: newton
+    real(wp) :: place = 0.0_wp        !! lambda of the last answer
+    real(wp) :: place_before = 0.0_wp !! of the one before
+    integer :: steps = 0
+    logical :: turned = .false.       !! the last step went the other way than the one before
+    type(bearing_system_type), pointer, private :: bearing => null()
+    real(wp), private :: step = first_step
+    Vec, private :: secant            !! direction of the last step, of length one
+    real(wp), private :: next_change = 0.0_wp !! on the secant, where a contact opens or closes
+    real(wp), private :: distance = 0.0_wp    !! of that contact from it, over the clearance [1]
+    real(wp), private :: last_way = least_start !! length of the last step
+    logical, private :: closes = .false.
+    Vec, private :: coming            !! direction in which it comes on
+    Vec, private :: work
+  contains
+    procedure :: last_length
+    procedure :: between
+  end type arc_type
+
+contains
+
+  !> Begins at the bearing's present answer, on the path to another point.
+  subroutine begin_arc(bearing, newton, last, sense, arc)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton !! of the bearing: its settings
+    type(operating_point_type), intent(in) :: last
+    real(wp), intent(in) :: sense           !! +1: towards that point, -1: away from it
+    type(arc_type), target, intent(inout) :: arc
+    PetscErrorCode :: ierr
+
+    arc%bearing => bearing
+    call create_path_system(bearing, last, arc%path)
+    call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
+    arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
+    PetscCallA(VecDuplicate(arc%path%state, arc%secant, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
+    call start_along_path(arc, sense)
+  end subroutine begin_arc
+
+  !> The first direction is the path's own.
+  subroutine start_along_path(arc, sense)
+    type(arc_type), intent(inout) :: arc
+    real(wp), intent(in) :: sense
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(arc%secant, 0.0_wp, ierr))
+    call arc%path%set_place(arc%secant, sense/sqrt(place_weight))
+    arc%step = first_step
+    arc%steps = 0
+    arc%place = 0.0_wp
+    arc%place_before = 0.0_wp
+  end subroutine start_along_path
+
+  !> One step along the branch; the bearing is at the new answer, or where it was.
+  subroutine advance_arc(arc, moved)
+    type(arc_type), target, intent(inout) :: arc
+    logical, intent(out) :: moved
+    real(wp) :: length, place, cosine
+    logical :: easy
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(arc%path%state, arc%path%base, ierr))
+    call find_next_change(arc)
+    moved = .false.
+    easy = .false.
+    cosine = -1.0_wp
+    if (arc%next_change < near*arc%step) call turn_corner(arc, moved)
+    do while (.not. moved .and. arc%step >= shortest_step)
+      call try_secant(arc, cosine, moved, easy)
+      if (.not. moved) arc%step = min(cut*arc%step, max(short_of_it*arc%next_change, cut**3*arc%step))
+    end do
+    if (.not. moved) call turn_corner(arc, moved)
+    if (.not. moved) then
+      PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
+      place = arc%path%give()
+      return
+    end if
+    place = arc%path%give()
+    arc%turned = arc%steps > 0 .and. (place - arc%place)*(arc%place - arc%place_before) < 0.0_wp
+    arc%place_before = arc%place
+    arc%place = place
+    length = way_gone(arc)
+    arc%last_way = length
+    PetscCallA(VecCopy(arc%work, arc%secant, ierr))
+    PetscCallA(VecScale(arc%secant, 1.0_wp/length, ierr))
+    arc%step = max(least_start, min(length, longest_step))
+    if (easy) arc%step = min(longest_step, growth*arc%step)
+    arc%steps = arc%steps + 1
+  end subroutine advance_arc
+
+  !> A step along the secant.
+  subroutine try_secant(arc, cosine, moved, easy)
+    type(arc_type), target, intent(inout) :: arc
+    real(wp), intent(inout) :: cosine !! of the turn, at the last length; negative if there is none [1]
+    logical, intent(out) :: moved
+    logical, intent(out) :: easy      !! it took few iterations
+    type(newton_report_type) :: solved
+    real(wp) :: before
+    PetscErrorCode :: ierr
+
+    call weigh(arc, arc%secant, arc%path%direction)
+    arc%path%step = arc%step
+    PetscCallA(VecWAXPY(arc%path%state, arc%step, arc%secant, arc%path%base, ierr))
+    call solve_newton(arc%newton, solved)
+    easy = solved%iterations <= easy_iterations
+    moved = .false.
+    before = cosine
+    cosine = -1.0_wp
+    if (.not. solved%converged) return
+    cosine = arc%step/way_gone(arc)
+    ! A turn that stays as sharp however short the step is a corner at its very beginning.
+    moved = arc%steps == 0 .or. cosine >= sharpest_turn .or. abs(cosine - before) <= same_turn*cosine
+  end subroutine try_secant
+
+  !> Where on the secant a contact opens or closes, and the direction in which it comes on.
+  subroutine find_next_change(arc)
+    type(arc_type), intent(inout) :: arc
+    Vec :: ahead, along
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(arc%bearing%state, ahead, ierr))
+    PetscCallA(VecDuplicate(arc%bearing%state, along, ierr))
+    PetscCallA(VecWAXPY(arc%path%state, 1.0_wp, arc%secant, arc%path%base, ierr))
+    place = arc%path%give()
+    PetscCallA(VecCopy(arc%bearing%state, ahead, ierr))
+    PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
+    place = arc%path%give()
+    call arc%bearing%contact_direction(ahead, along, arc%next_change, arc%distance, arc%closes)
+    call arc%path%join(along, 0.0_wp, arc%coming)
+    PetscCallA(VecDestroy(along, ierr))
+    PetscCallA(VecDestroy(ahead, ierr))
+  end subroutine find_next_change
+
+  !> A step round a corner of the branch: those contacts that open or close next are moved on until
+  !> they have.
+  subroutine turn_corner(arc, moved)
+    type(arc_type), target, intent(inout) :: arc
+    logical, intent(out) :: moved
+    type(newton_report_type) :: solved
+    real(wp) :: beyond
+    Vec :: start
+    integer :: attempt
+    PetscErrorCode :: ierr
+
+    arc%newton%settings%maximum_iterations = corner_iterations
+    PetscCallA(VecDuplicate(arc%path%base, start, ierr))
+    PetscCallA(VecCopy(arc%path%base, start, ierr))
+    moved = .false.
+    beyond = merge(beyond_closing, beyond_opening, arc%closes)
+    PetscCallA(VecCopy(arc%coming, arc%path%direction, ierr))
+    attempt = 0
+    do while (.not. moved .and. attempt < corner_attempts)
+      attempt = attempt + 1
+      PetscCallA(VecCopy(start, arc%path%base, ierr))
+      PetscCallA(VecCopy(start, arc%path%state, ierr))
+      arc%path%step = arc%distance + beyond
+      call solve_newton(arc%newton, solved)
+      moved = solved%converged
+      if (moved) moved = stays_near(arc)
+      call arc%newton%log%detail('corner: a contact is moved on by '//text(arc%path%step, 4)//' ('//text(arc%distance,4)//'): '//solved%reason//' '//text(way_gone(arc),4)//' change at '//text(arc%next_change, 4))
+      if (moved) then
+      if (arc%next_change > way_before_corner*way_gone(arc)) call leave_corner(arc, beyond)
+      end if
+      beyond = closer*beyond
+    end do
+    if (.not. moved) then
+      PetscCallA(VecCopy(start, arc%path%base, ierr))
+    end if
+    PetscCallA(VecDestroy(start, ierr))
+    arc%newton%settings%maximum_iterations = hasty_iterations
+  end subroutine turn_corner
+
+  !> One more step of the same contacts: where much of the last one lay before the corner, its
+  !> direction is not that beyond it.
+  subroutine leave_corner(arc, beyond)
+    type(arc_type), target, intent(inout) :: arc
+    real(wp), intent(in) :: beyond !! that step [1]
+    type(newton_report_type) :: solved
+    Vec :: corner
+    logical :: stayed
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(arc%path%base, corner, ierr))
+    PetscCallA(VecCopy(arc%path%state, corner, ierr))
+    PetscCallA(VecSwap(arc%path%base, corner, ierr))
+    arc%path%step = beyond
+    call solve_newton(arc%newton, solved)
+    stayed = stays_near(arc)
+    if (.not. (solved%converged .and. stayed)) then
+      PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
+      PetscCallA(VecCopy(corner, arc%path%base, ierr))
+    end if
+    PetscCallA(VecDestroy(corner, ierr))
+  end subroutine leave_corner
+
+  !> Whether a step round a corner is not a leap to another branch.
+  function stays_near(arc) result(near_by)
+    type(arc_type), intent(inout) :: arc
+    logical :: near_by
+    near_by = way_gone(arc) <= min(longest_step, longest_leap*max(arc%last_way, least_start))
+  end function stays_near
+
+  !> Puts the bearing between the last two answers.
+  subroutine between(self, share)
+    class(arc_type), intent(inout) :: self
+    real(wp), intent(in) :: share !! of the way from the one before the last to the last [1]
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%path%state, self%work, ierr))
+    PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%path%base, ierr))
+    place = self%path%give()
+    PetscCallA(VecCopy(self%work, self%path%state, ierr))
+  end subroutine between
+
+  function last_length(self) result(length)
+    class(arc_type), intent(in) :: self
+    real(wp) :: length
+    length = self%step
+  end function last_length
+
+  !> Length of the way from the base to the state; leaves the way itself in `work`.
+  function way_gone(arc) result(length)
+    type(arc_type), intent(inout) :: arc
+    real(wp) :: length
+    Vec :: weighted
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecWAXPY(arc%work, -1.0_wp, arc%path%base, arc%path%state, ierr))
+    PetscCallA(VecDuplicate(arc%work, weighted, ierr))
+    call weigh(arc, arc%work, weighted)
+    PetscCallA(VecDot(arc%work, weighted, length, ierr))
+    PetscCallA(VecDestroy(weighted, ierr))
+    length = sqrt(length)
+  end function way_gone
+
+  !> A vector times the weights of the measure.
+  subroutine weigh(arc, vector, weighted)
+    type(arc_type), intent(in) :: arc
+    Vec, intent(in) :: vector
+    Vec, intent(in) :: weighted
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    place = arc%path%place(vector)
+    PetscCallA(VecCopy(vector, weighted, ierr))
+    PetscCallA(VecScale(weighted, 1.0_wp/real(arc%bearing%unknowns, wp), ierr))
+    call arc%path%set_place(weighted, place_weight*place)
+  end subroutine weigh
+
+  !> Frees what PETSc holds; adds what was spent to the bearing's own Newton method.
+  subroutine end_arc(arc, newton)
+    type(arc_type), intent(inout) :: arc
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode :: ierr
+
+    newton%iterations = newton%iterations + arc%newton%iterations
+    newton%factorizations = newton%factorizations + arc%newton%factorizations
+    call destroy_newton(arc%newton)
+    call destroy_path_system(arc%path)
+    PetscCallA(VecDestroy(arc%secant, ierr))
+    PetscCallA(VecDestroy(arc%work, ierr))
+    PetscCallA(VecDestroy(arc%coming, ierr))
+  end subroutine end_arc
+end module gfb_arc_length

@@ -1,0 +1,227 @@
+#include "gfb_petsc.h"
+!> Other equilibria of a bearing, found by pulling at the top foil's free edge.
+!>
+!> A fictitious force lifts the edge. The answers with that force form a curve, followed by its own
+!> length; wherever the force is zero on it, the bearing is in equilibrium by itself. The corners of a
+!> foil of shells lift first. To find those equilibria too whose edge is lifted all along, a fictitious
+!> string keeps the edge straight, and is let go where the force is zero.
+module gfb_branch_search
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_petsc_session, only: any_rank
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
+  implicit none (type)
+  private
+  public :: find_branches, take_branch, destroy_branches
+
+  integer, parameter :: most_steps = 600        !! along one curve
+  real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
+  real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
+  real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
+  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+  !> An equilibrium.
+  type, public :: branch_type
+    Vec :: state
+    type(bearing_answer_type) :: answer
+  end type branch_type
+
+  !> What is looked for, and what was found; the first is where the search began.
+  type, public :: branch_search_type
+    logical :: given(2) = .false.    !! lifts asked for at the midplane, at the bearing's ends
+    real(wp) :: wanted(2) = 0.0_wp   !! them [m]
+    real(wp) :: close_enough = 0.0_wp !! to them [m]
+    real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
+    type(branch_type), allocatable :: branch(:)
+  contains
+    procedure :: nearest_branch
+    procedure :: is_found
+    procedure, private :: collect
+  end type branch_search_type
+
+contains
+
+  !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
+  !> lifts have been looked at.
+  subroutine find_branches(bearing, newton, search)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(branch_search_type), intent(inout) :: search
+    type(operating_point_type) :: free, straight
+    type(path_settings_type) :: settings
+    type(path_report_type) :: report
+    integer :: first
+
+    free = bearing%point
+    call search%collect(bearing, newton)
+    first = size(search%branch)
+    if (search%is_found()) return
+    straight = free
+    straight%edge_tension = tension_share*bearing%force_scale* &
+      (maxval(bearing%whole%row_axial) - minval(bearing%whole%row_axial))/bearing%film%clearance
+    settings%look_for_folds = .false.
+    if (any_rank(bearing%edge%pairs() > 0)) then
+      call newton%log%line('search for other equilibria: the free edge is kept straight and pulled')
+      call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
+      if (report%converged) call pull_edge(bearing, newton, straight, free, search)
+      call take_branch(bearing, free, search%branch(first))
+    end if
+    if (search%is_found()) return
+    call newton%log%line('search for other equilibria: the free edge is pulled')
+    call pull_edge(bearing, newton, free, free, search)
+    call take_branch(bearing, free, search%branch(first))
+  end subroutine find_branches
+
+  !> Goes along the curve of answers with a pulled edge, and collects the equilibria on it.
+  subroutine pull_edge(bearing, newton, point, free, search)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: point !! where the curve begins
+    type(operating_point_type), intent(in) :: free  !! the same without a string
+    type(branch_search_type), intent(inout) :: search
+    type(arc_type), target :: arc
+    type(operating_point_type) :: pulled
+    logical :: moved, here
+    real(wp) :: lift
+
+    pulled = point
+    pulled%edge_pull = pull_share*bearing%force_scale
+    lift = bearing%edge_lift()
+    call begin_arc(bearing, newton, pulled, sign(1.0_wp, 0.5_wp*sum(search%lifts) - lift), arc)
+    moved = .true.
+    do while (moved .and. arc%steps < most_steps .and. .not. search%is_found())
+      call advance_arc(arc, moved)
+      lift = bearing%edge_lift()
+      call newton%log%detail('free edge at '//text(lift*micrometres, 4)//' um, force '// &
+                             text(bearing%point%edge_pull, 4)//' N')
+      if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
+      if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
+      call come_home(arc, bearing, newton, point, free, here)
+      if (here) call search%collect(bearing, newton)
+    end do
+    call end_arc(arc, newton)
+  end subroutine pull_edge
+
+  !> Newton's method without the force, from the line between the two answers beside that place; then
+  !> without the string.
+  subroutine come_home(arc, bearing, newton, point, free, here)
+    type(arc_type), intent(inout) :: arc
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: point, free !! without the force; without the string
+    logical, intent(out) :: here
+    type(newton_report_type) :: solved
+    type(path_settings_type) :: settings
+    type(path_report_type) :: report
+
+    call arc%between(arc%place_before/(arc%place_before - arc%place))
+    bearing%point = point
+    call bearing%apply_point()
+    call solve_newton(newton, solved)
+    here = solved%converged
+    if (.not. here .or. .not. abs(point%edge_tension) > 0.0_wp) return
+    settings%look_for_folds = .false.
+    call follow_path(bearing, newton, free, 1.0_wp, settings, report)
+    here = report%converged
+  end subroutine come_home
+
+  !> Keeps the bearing's present answer unless it is known.
+  subroutine collect(self, bearing, newton)
+    class(branch_search_type), intent(inout) :: self
+    type(bearing_system_type), intent(in) :: bearing
+    type(newton_type), intent(in) :: newton
+    type(branch_type) :: new
+    real(wp) :: difference
+    Vec :: work
+    integer :: i
+    logical :: known
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(self%branch)) allocate (self%branch(0))
+    PetscCallA(VecDuplicate(bearing%state, work, ierr))
+    known = .false.
+    do i = 1, size(self%branch)
+      PetscCallA(VecWAXPY(work, -1.0_wp, self%branch(i)%state, bearing%state, ierr))
+      PetscCallA(VecNorm(work, NORM_INFINITY, difference, ierr))
+      known = known .or. difference < same_state
+    end do
+    if (known) then
+      PetscCallA(VecDestroy(work, ierr))
+      return
+    end if
+    PetscCallA(VecCopy(bearing%state, work, ierr))
+    new%state = work
+    new%answer = bearing_answer(bearing)
+    self%branch = [self%branch, new]
+    associate (answer => new%answer, clearance => bearing%film%clearance)
+      call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
+                           text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
+                           '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
+                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)')
+    end associate
+  end subroutine collect
+
+  !> Two lifts [um].
+  pure function lifts(value) result(words)
+    real(wp), intent(in) :: value(2) !! [m]
+    character(len=:), allocatable :: words
+    words = '('//text(value(1)*micrometres, 3)//', '//text(value(2)*micrometres, 3)//')'
+  end function lifts
+
+  !> The equilibrium whose leading edge is lifted most nearly as asked for.
+  pure function nearest_branch(self) result(number)
+    class(branch_search_type), intent(in) :: self
+    integer :: number
+    integer :: i
+
+    number = minloc([(distance(self, i), i=1, size(self%branch))], 1)
+  end function nearest_branch
+
+  !> Whether one that was asked for has been found.
+  pure function is_found(self) result(found)
+    class(branch_search_type), intent(in) :: self
+    logical :: found
+
+    found = .false.
+    if (any(self%given)) found = distance(self, self%nearest_branch()) <= self%close_enough
+  end function is_found
+
+  !> How far an equilibrium's lifts are from those asked for [m].
+  pure function distance(search, number)
+    type(branch_search_type), intent(in) :: search
+    integer, intent(in) :: number
+    real(wp) :: distance
+    distance = maxval(abs(search%branch(number)%answer%leading_edge_lift - search%wanted), mask=search%given)
+  end function distance
+
+  !> Puts the bearing on a branch.
+  subroutine take_branch(bearing, point, branch)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(operating_point_type), intent(in) :: point !! of the branches
+    type(branch_type), intent(in) :: branch
+    PetscErrorCode :: ierr
+
+    bearing%point = point
+    call bearing%apply_point()
+    PetscCallA(VecCopy(branch%state, bearing%state, ierr))
+  end subroutine take_branch
+
+  !> Frees what PETSc holds.
+  subroutine destroy_branches(search)
+    type(branch_search_type), intent(inout) :: search
+    integer :: i
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(search%branch)) return
+    do i = 1, size(search%branch)
+      PetscCallA(VecDestroy(search%branch(i)%state, ierr))
+    end do
+    deallocate (search%branch)
+  end subroutine destroy_branches
+end module gfb_branch_search
