@@ -21,6 +21,8 @@ module gfb_branch_search
   public :: find_branches, take_branch, destroy_branches
 
   integer, parameter :: most_steps = 600        !! along one curve
+  integer, parameter :: most_release_steps = 200 !! of the string, a decade
+  integer, parameter :: decades = 4             !! of its tension, before it is none
   real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
   real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
@@ -116,20 +118,68 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point, free !! without the force; without the string
     logical, intent(out) :: here
-    type(newton_report_type) :: solved
-    type(path_settings_type) :: settings
-    type(path_report_type) :: report
-
     call arc%between(arc%place_before/(arc%place_before - arc%place))
+    call solve_there(bearing, newton, point, here)
+    if (here .and. abs(point%edge_tension) > 0.0_wp) call let_string_go(bearing, newton, free, here)
+  end subroutine come_home
+
+  !> From an equilibrium of a straight edge to one of a free edge, by decades of the string's tension.
+  subroutine let_string_go(bearing, newton, free, here)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: free
+    logical, intent(out) :: here
+    type(operating_point_type) :: looser
+    integer :: decade
+
+    looser = bearing%point
+    here = .true.
+    decade = 0
+    do while (here .and. decade <= decades)
+      decade = decade + 1
+      looser%edge_tension = 0.1_wp*looser%edge_tension
+      if (decade > decades) looser = free
+      call lead_to(bearing, newton, looser, here)
+      call newton%log%detail('string of '//text(looser%edge_tension, 4)//' N, free edge at '// &
+                             text(bearing%edge_lift()*micrometres, 4)//' um')
+    end do
+  end subroutine let_string_go
+
+  !> Along a branch to a point, round its folds and corners.
+  subroutine lead_to(bearing, newton, point, here)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: point
+    logical, intent(out) :: here
+    type(arc_type), target :: arc
+    logical :: moved
+
+    call begin_arc(bearing, newton, point, 1.0_wp, arc)
+    moved = .true.
+    do while (moved .and. arc%place < 1.0_wp .and. arc%place >= 0.0_wp .and. arc%steps < most_release_steps)
+      call advance_arc(arc, moved)
+    end do
+    here = arc%place >= 1.0_wp
+    if (here) then
+      call arc%between((1.0_wp - arc%place_before)/(arc%place - arc%place_before))
+      call solve_there(bearing, newton, point, here)
+    end if
+    call end_arc(arc, newton)
+  end subroutine lead_to
+
+  !> Newton's method at a point from the present state.
+  subroutine solve_there(bearing, newton, point, here)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: point
+    logical, intent(out) :: here
+    type(newton_report_type) :: solved
+
     bearing%point = point
     call bearing%apply_point()
     call solve_newton(newton, solved)
     here = solved%converged
-    if (.not. here .or. .not. abs(point%edge_tension) > 0.0_wp) return
-    settings%look_for_folds = .false.
-    call follow_path(bearing, newton, free, 1.0_wp, settings, report)
-    here = report%converged
-  end subroutine come_home
+  end subroutine solve_there
 
   !> Keeps the bearing's present answer unless it is known.
   subroutine collect(self, bearing, newton)
