@@ -4,7 +4,8 @@
 !> A step from an answer \( x_0 \) goes along the secant through the last two, and ends where
 !> \( t \cdot (x - x_0) = s \) ([Riks1979]). The measure is the mean square of the scaled unknowns,
 !> with a small weight for the parameter. Where contacts open or close the branch has corners; a
-!> step round one that fails is made in the direction of the free edge instead.
+!> step round one goes along the penetration of the contact that changes: that goes on evenly, while all
+!> else may turn back.
 module gfb_arc_length
   use petscvec
   use gfb_kinds, only: wp
@@ -35,6 +36,8 @@ module gfb_arc_length
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
   real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
   integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
+  real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
+  integer, parameter :: most_retreats = 8          !! before one, for shorter steps
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
   integer, parameter :: hasty_iterations = 12      !! more are not given to a step
 
@@ -45,7 +48,8 @@ module gfb_arc_length
     real(wp) :: place = 0.0_wp        !! lambda of the last answer
     real(wp) :: place_before = 0.0_wp !! of the one before
     integer :: steps = 0
-    logical :: turned = .false.       !! the last step went the other way than the one before
+    real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
+    logical :: turned = .false.       !! it changed in the last step
     type(bearing_system_type), pointer, private :: bearing => null()
     real(wp), private :: step = first_step
     Vec, private :: secant            !! direction of the last step, of length one
@@ -54,10 +58,16 @@ module gfb_arc_length
     real(wp), private :: last_way = least_start !! length of the last step
     logical, private :: closes = .false.
     Vec, private :: coming            !! direction in which it comes on
+    real(wp), private :: place_earlier = 0.0_wp !! lambda of the answer before those two
+    real(wp), private :: earlier_step = 0.0_wp
+    integer, private :: retreats = 0
+    Vec, private :: previous, earlier !! the answers before the last one
+    Vec, private :: previous_secant, earlier_secant !! directions of the steps to them
     Vec, private :: work
   contains
-    procedure :: last_length
     procedure :: between
+    procedure :: return_to
+    procedure :: nears_fold
   end type arc_type
 
 contains
@@ -78,7 +88,13 @@ contains
     PetscCallA(VecDuplicate(arc%path%state, arc%secant, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%previous, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%earlier, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%previous_secant, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%earlier_secant, ierr))
+    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
     call start_along_path(arc, sense)
+    PetscCallA(VecCopy(arc%secant, arc%previous_secant, ierr))
   end subroutine begin_arc
 
   !> The first direction is the path's own.
@@ -103,6 +119,7 @@ contains
     logical :: easy
     PetscErrorCode :: ierr
 
+    call remember(arc)
     PetscCallA(VecCopy(arc%path%state, arc%path%base, ierr))
     call find_next_change(arc)
     moved = .false.
@@ -120,7 +137,8 @@ contains
       return
     end if
     place = arc%path%give()
-    arc%turned = arc%steps > 0 .and. (place - arc%place)*(arc%place - arc%place_before) < 0.0_wp
+    arc%turned = arc%steps > 0 .and. arc%heading*(place - arc%place) < 0.0_wp
+    arc%heading = sign(1.0_wp, place - arc%place)
     arc%place_before = arc%place
     arc%place = place
     length = way_gone(arc)
@@ -131,6 +149,19 @@ contains
     if (easy) arc%step = min(longest_step, growth*arc%step)
     arc%steps = arc%steps + 1
   end subroutine advance_arc
+
+  !> Keeps the last answer but one, and how the branch led from there.
+  subroutine remember(arc)
+    type(arc_type), intent(inout) :: arc
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(arc%previous, arc%earlier, ierr))
+    PetscCallA(VecCopy(arc%previous_secant, arc%earlier_secant, ierr))
+    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
+    PetscCallA(VecCopy(arc%secant, arc%previous_secant, ierr))
+    arc%place_earlier = arc%place_before
+    arc%earlier_step = arc%last_way
+  end subroutine remember
 
   !> A step along the secant.
   subroutine try_secant(arc, cosine, moved, easy)
@@ -190,6 +221,7 @@ contains
     arc%newton%settings%maximum_iterations = corner_iterations
     PetscCallA(VecDuplicate(arc%path%base, start, ierr))
     PetscCallA(VecCopy(arc%path%base, start, ierr))
+    call arc%newton%log%detail('corner of the branch: contacts that change are moved on')
     moved = .false.
     beyond = merge(beyond_closing, beyond_opening, arc%closes)
     PetscCallA(VecCopy(arc%coming, arc%path%direction, ierr))
@@ -202,9 +234,8 @@ contains
       call solve_newton(arc%newton, solved)
       moved = solved%converged
       if (moved) moved = stays_near(arc)
-      call arc%newton%log%detail('corner: a contact is moved on by '//text(arc%path%step, 4)//' ('//text(arc%distance,4)//'): '//solved%reason//' '//text(way_gone(arc),4)//' change at '//text(arc%next_change, 4))
       if (moved) then
-      if (arc%next_change > way_before_corner*way_gone(arc)) call leave_corner(arc, beyond)
+        if (arc%next_change > way_before_corner*way_gone(arc)) call leave_corner(arc, beyond)
       end if
       beyond = closer*beyond
     end do
@@ -253,16 +284,41 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecCopy(self%path%state, self%work, ierr))
-    PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%path%base, ierr))
+    PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%previous, ierr))
     place = self%path%give()
     PetscCallA(VecCopy(self%work, self%path%state, ierr))
   end subroutine between
 
-  function last_length(self) result(length)
-    class(arc_type), intent(in) :: self
-    real(wp) :: length
-    length = self%step
-  end function last_length
+  !> Puts the bearing back to the last answer.
+  subroutine return_to(self)
+    class(arc_type), intent(inout) :: self
+    real(wp) :: place
+    place = self%path%give()
+  end subroutine return_to
+
+  !> Where the place has just turned: goes back behind the turn to pass it in shorter steps, unless
+  !> they are short already. Without that the turn is at `place_before`, to about the last step.
+  subroutine nears_fold(self, again)
+    class(arc_type), intent(inout) :: self
+    logical, intent(out) :: again !! the turn is still ahead
+    PetscErrorCode :: ierr
+
+    again = self%turned .and. self%retreats < most_retreats .and. &
+      max(abs(self%place - self%place_before), abs(self%place_before - self%place_earlier)) > sharp_fold
+    if (.not. again) then
+      self%retreats = 0
+      return
+    end if
+    self%retreats = self%retreats + 1
+    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
+    PetscCallA(VecCopy(self%earlier_secant, self%secant, ierr))
+    self%step = max(shortest_step, cut*min(self%earlier_step, self%last_way))
+    self%place = self%place_earlier
+    self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
+    self%place_before = self%place_earlier
+    self%turned = .false.
+    call self%return_to()
+  end subroutine nears_fold
 
   !> Length of the way from the base to the state; leaves the way itself in `work`.
   function way_gone(arc) result(length)
@@ -306,5 +362,9 @@ contains
     PetscCallA(VecDestroy(arc%secant, ierr))
     PetscCallA(VecDestroy(arc%work, ierr))
     PetscCallA(VecDestroy(arc%coming, ierr))
+    PetscCallA(VecDestroy(arc%previous, ierr))
+    PetscCallA(VecDestroy(arc%earlier, ierr))
+    PetscCallA(VecDestroy(arc%previous_secant, ierr))
+    PetscCallA(VecDestroy(arc%earlier_secant, ierr))
   end subroutine end_arc
 end module gfb_arc_length
