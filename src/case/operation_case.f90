@@ -53,10 +53,10 @@ contains
                               'the sleeve relative to the shaft, about x and y')
     call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
                        'start on the equilibrium whose top foil''s free leading edge is lifted '// &
-                       'so much at the midplane, towards the shaft', &
+                       'so much at the midplane, towards the shaft', not_negative, &
                        default=no_default, given=operation%lift_given(1))
     call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
-                       'the same at the ends of the bearing', default=no_default, &
+                       'the same at the ends of the bearing', not_negative, default=no_default, &
                        given=operation%lift_given(2))
     call keys%finish_group()
   end subroutine read_operation_case

@@ -2,6 +2,7 @@
 module gfb_scene
   use gfb_errors, only: error_type
   use gfb_bearing_case, only: bearing_case_type, read_bearing_case
+  use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_bump_foil_case, only: bump_foil_case_type, read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
   use gfb_case_text, only: read_case_text
@@ -89,6 +90,8 @@ contains
     call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
                              scene%general%analysis)
     call check_plates(keys, scene%strip_load, scene%general%analysis)
+    call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
+    call check_turn_folds(keys, scene%sweep, scene%model)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text

@@ -29,6 +29,7 @@ module gfb_sweep_case
     integer :: parameter = 0               !! `sweep_load`, ...; 0 without a sweep
     real(wp), allocatable :: values(:)     !! of the parameter; a load is its magnitude
     logical :: hold_position = .false.     !! the shaft stays where &operation's equilibrium is
+    logical :: turn_folds = .false.        !! goes on where the branch of answers turns back
     logical :: friction_memory = .false.   !! friction carries its slip from point to point
   end type sweep_case_type
 
@@ -52,6 +53,9 @@ contains
                             rule)
     call keys%logical_key('hold_position', sweep%hold_position, &
                           'hold the shaft where the equilibrium at `&operation` is')
+    call keys%logical_key('turn_folds', sweep%turn_folds, &
+                          'go on round the folds of the branch, where the parameter turns back, until '// &
+                          'the branch leaves the values'' range')
     call keys%logical_key('friction_memory', sweep%friction_memory, &
                           'points are steps of one loading: what slid stays slid; '// &
                           'otherwise every point is loaded from rest')

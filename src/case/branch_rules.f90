@@ -1,0 +1,70 @@
+!> What keys that choose and follow branches of equilibria ask of the rest of a scene.
+module gfb_branch_rules
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: model_case_type, meshes_foils, coupling_partitioned
+  use gfb_operation_case, only: operation_case_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sweep_case, only: sweep_case_type
+  use gfb_top_foil_case, only: top_foil_case_type, top_foil_trailing
+  implicit none (type, external)
+  private
+  public :: check_edge_lift, check_turn_folds
+
+  character(len=*), parameter :: lift_keys(2) = [character(len=22) :: 'leading_edge_lift', &
+                                                 'leading_edge_lift_edge']
+
+contains
+
+  !> A branch can be asked for by the lift of an edge that is free to lift.
+  subroutine check_edge_lift(keys, operation, model, top_foil, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(operation_case_type), intent(in) :: operation
+    type(model_case_type), intent(in) :: model
+    type(top_foil_case_type), intent(in) :: top_foil
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    character(len=:), allocatable :: problem
+    integer :: i
+
+    problem = ''
+    if (analysis /= analysis_equilibrium) then
+      problem = "needs analysis = 'equilibrium'"
+    else if (.not. meshes_foils(model%foil)) then
+      problem = "needs foil = 'shell' in &model, or 'beam': no other foil has an edge that lifts"
+    else if (top_foil%fixed_edge /= top_foil_trailing) then
+      problem = "needs fixed_edge = 'trailing' in &top_foil: a fixed edge does not lift"
+    else if (model%coupling == coupling_partitioned) then
+      problem = "needs coupling = 'monolithic' in &model"
+    end if
+    if (problem == '' .or. analysis == 0 .or. model%foil == 0) return
+    do i = 1, size(lift_keys)
+      if (operation%lift_given(i)) call keys%complain('operation', trim(lift_keys(i)), problem)
+    end do
+  end subroutine check_edge_lift
+
+  !> A branch is followed round its folds between two values, with all its points in equilibrium.
+  subroutine check_turn_folds(keys, sweep, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(sweep_case_type), intent(in) :: sweep
+    type(model_case_type), intent(in) :: model
+    real(wp), allocatable :: change(:)
+
+    if (.not. sweep%turn_folds) return
+    if (sweep%friction_memory) then
+      call keys%complain('sweep', 'turn_folds', 'has no use beside friction_memory: what slid '// &
+                         'must not depend on the way round a fold')
+    end if
+    if (model%coupling == coupling_partitioned) then
+      call keys%complain('sweep', 'turn_folds', "needs coupling = 'monolithic' in &model")
+    end if
+    if (.not. allocated(sweep%values)) return
+    if (size(sweep%values) == 1) then
+      call keys%complain('sweep', 'turn_folds', 'needs two values at least, the ends of the way')
+    else if (size(sweep%values) > 1) then
+      change = sweep%values(2:) - sweep%values(:size(sweep%values) - 1)
+      if (any(change*change(1) <= 0.0_wp)) then
+        call keys%complain('sweep', 'values', 'must all rise or all fall with turn_folds')
+      end if
+    end if
+  end subroutine check_turn_folds
+end module gfb_branch_rules
