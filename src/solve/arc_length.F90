@@ -1,18 +1,21 @@
 #include "gfb_petsc.h"
 !> Follows a branch of answers by its own length, round the folds where the path's parameter turns.
 !>
-!> A step from an answer \( x_0 \) goes along the secant through the last two, and ends where
+!> A step from an answer \( x_0 \) goes along the tangent \( t \), and ends where
 !> \( t \cdot (x - x_0) = s \) ([Riks1979]). The measure is the mean square of the scaled unknowns,
-!> with a small weight for the parameter. Where contacts open or close the branch has corners; a
-!> step round one goes along the penetration of the contact that changes: that goes on evenly, while all
-!> else may turn back.
+!> with a small weight for the parameter. The sign of the determinant of the equations bordered by the
+!> tangent is the same all along a branch: it tells the tangent's sense.
+!>
+!> Where contacts open or close the branch has corners; a step round one goes along the penetration of
+!> the contact that changes, which goes on evenly while all else may turn back.
 module gfb_arc_length
   use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
+  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, find_determinant_sign, &
+                        solve_with_factors, destroy_newton
   use gfb_path_system, only: path_system_type, create_path_system, destroy_path_system
   implicit none (type)
   private
@@ -25,12 +28,10 @@ module gfb_arc_length
   real(wp), parameter :: growth = 1.5_wp
   real(wp), parameter :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
   real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
-  real(wp), parameter :: same_turn = 0.05_wp       !! change of it that is none, relative
   real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
   real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
   integer, parameter :: corner_attempts = 4
   real(wp), parameter :: longest_leap = 5.0_wp     !! round a corner, over the last step
-  real(wp), parameter :: way_before_corner = 0.1_wp !! share of a step round one that does not show in its direction
   real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
   real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
@@ -48,12 +49,13 @@ module gfb_arc_length
     real(wp) :: place = 0.0_wp        !! lambda of the last answer
     real(wp) :: place_before = 0.0_wp !! of the one before
     integer :: steps = 0
+    integer, private :: orientation = 0 !! sign of the determinant with the tangent in its sense
     real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
     logical :: turned = .false.       !! it changed in the last step
     type(bearing_system_type), pointer, private :: bearing => null()
     real(wp), private :: step = first_step
-    Vec, private :: secant            !! direction of the last step, of length one
-    real(wp), private :: next_change = 0.0_wp !! on the secant, where a contact opens or closes
+    Vec, private :: tangent           !! at the last answer, of length one
+    real(wp), private :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
     real(wp), private :: distance = 0.0_wp    !! of that contact from it, over the clearance [1]
     real(wp), private :: last_way = least_start !! length of the last step
     logical, private :: closes = .false.
@@ -62,7 +64,7 @@ module gfb_arc_length
     real(wp), private :: earlier_step = 0.0_wp
     integer, private :: retreats = 0
     Vec, private :: previous, earlier !! the answers before the last one
-    Vec, private :: previous_secant, earlier_secant !! directions of the steps to them
+    Vec, private :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
     Vec, private :: work
   contains
     procedure :: between
@@ -85,37 +87,58 @@ contains
     call create_path_system(bearing, last, arc%path)
     call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
     arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
-    PetscCallA(VecDuplicate(arc%path%state, arc%secant, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%previous, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%earlier, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%previous_secant, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%earlier_secant, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%previous_tangent, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%earlier_tangent, ierr))
     PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
     call start_along_path(arc, sense)
-    PetscCallA(VecCopy(arc%secant, arc%previous_secant, ierr))
+    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
   end subroutine begin_arc
 
-  !> The first direction is the path's own.
+  !> The first direction is the one in which the path goes in the sense asked for.
   subroutine start_along_path(arc, sense)
-    type(arc_type), intent(inout) :: arc
+    type(arc_type), target, intent(inout) :: arc
     real(wp), intent(in) :: sense
     PetscErrorCode :: ierr
 
-    PetscCallA(VecSet(arc%secant, 0.0_wp, ierr))
-    call arc%path%set_place(arc%secant, sense/sqrt(place_weight))
+    PetscCallA(VecSet(arc%tangent, 0.0_wp, ierr))
+    call arc%path%set_place(arc%tangent, sense/sqrt(place_weight))
+    arc%orientation = 0
+    call find_tangent(arc)
     arc%step = first_step
     arc%steps = 0
     arc%place = 0.0_wp
     arc%place_before = 0.0_wp
   end subroutine start_along_path
 
+  !> The branch's direction at the last answer, of length one, in the sense in which it is followed:
+  !> \( f_x t_x + f_\lambda t_\lambda = 0 \), and one along the last direction.
+  subroutine find_tangent(arc)
+    type(arc_type), target, intent(inout) :: arc
+    integer :: sense
+    real(wp) :: length
+    PetscErrorCode :: ierr
+
+    call weigh(arc, arc%tangent, arc%path%direction)
+    call find_determinant_sign(arc%newton, sense)
+    if (sense == 0) return
+    if (arc%orientation == 0) arc%orientation = sense
+    PetscCallA(VecSet(arc%work, 0.0_wp, ierr))
+    call arc%path%set_place(arc%work, 1.0_wp)
+    call solve_with_factors(arc%newton, arc%work, arc%tangent)
+    length = length_of(arc, arc%tangent)
+    PetscCallA(VecScale(arc%tangent, real(sense*arc%orientation, wp)/length, ierr))
+  end subroutine find_tangent
+
   !> One step along the branch; the bearing is at the new answer, or where it was.
   subroutine advance_arc(arc, moved)
     type(arc_type), target, intent(inout) :: arc
     logical, intent(out) :: moved
-    real(wp) :: length, place, cosine
+    real(wp) :: length, place
     logical :: easy
     PetscErrorCode :: ierr
 
@@ -124,10 +147,9 @@ contains
     call find_next_change(arc)
     moved = .false.
     easy = .false.
-    cosine = -1.0_wp
     if (arc%next_change < near*arc%step) call turn_corner(arc, moved)
     do while (.not. moved .and. arc%step >= shortest_step)
-      call try_secant(arc, cosine, moved, easy)
+      call try_step(arc, moved, easy)
       if (.not. moved) arc%step = min(cut*arc%step, max(short_of_it*arc%next_change, cut**3*arc%step))
     end do
     if (.not. moved) call turn_corner(arc, moved)
@@ -143,8 +165,7 @@ contains
     arc%place = place
     length = way_gone(arc)
     arc%last_way = length
-    PetscCallA(VecCopy(arc%work, arc%secant, ierr))
-    PetscCallA(VecScale(arc%secant, 1.0_wp/length, ierr))
+    call find_tangent(arc)
     arc%step = max(least_start, min(length, longest_step))
     if (easy) arc%step = min(longest_step, growth*arc%step)
     arc%steps = arc%steps + 1
@@ -156,38 +177,31 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecCopy(arc%previous, arc%earlier, ierr))
-    PetscCallA(VecCopy(arc%previous_secant, arc%earlier_secant, ierr))
+    PetscCallA(VecCopy(arc%previous_tangent, arc%earlier_tangent, ierr))
     PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
-    PetscCallA(VecCopy(arc%secant, arc%previous_secant, ierr))
+    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
     arc%place_earlier = arc%place_before
     arc%earlier_step = arc%last_way
   end subroutine remember
 
-  !> A step along the secant.
-  subroutine try_secant(arc, cosine, moved, easy)
+  !> A step along the tangent.
+  subroutine try_step(arc, moved, easy)
     type(arc_type), target, intent(inout) :: arc
-    real(wp), intent(inout) :: cosine !! of the turn, at the last length; negative if there is none [1]
     logical, intent(out) :: moved
     logical, intent(out) :: easy      !! it took few iterations
     type(newton_report_type) :: solved
-    real(wp) :: before
     PetscErrorCode :: ierr
 
-    call weigh(arc, arc%secant, arc%path%direction)
+    call weigh(arc, arc%tangent, arc%path%direction)
     arc%path%step = arc%step
-    PetscCallA(VecWAXPY(arc%path%state, arc%step, arc%secant, arc%path%base, ierr))
+    PetscCallA(VecWAXPY(arc%path%state, arc%step, arc%tangent, arc%path%base, ierr))
     call solve_newton(arc%newton, solved)
     easy = solved%iterations <= easy_iterations
-    moved = .false.
-    before = cosine
-    cosine = -1.0_wp
-    if (.not. solved%converged) return
-    cosine = arc%step/way_gone(arc)
-    ! A turn that stays as sharp however short the step is a corner at its very beginning.
-    moved = arc%steps == 0 .or. cosine >= sharpest_turn .or. abs(cosine - before) <= same_turn*cosine
-  end subroutine try_secant
+    moved = solved%converged
+    if (moved) moved = arc%step >= sharpest_turn*way_gone(arc)
+  end subroutine try_step
 
-  !> Where on the secant a contact opens or closes, and the direction in which it comes on.
+  !> Where on the tangent a contact opens or closes, and the direction in which it comes on.
   subroutine find_next_change(arc)
     type(arc_type), intent(inout) :: arc
     Vec :: ahead, along
@@ -196,7 +210,7 @@ contains
 
     PetscCallA(VecDuplicate(arc%bearing%state, ahead, ierr))
     PetscCallA(VecDuplicate(arc%bearing%state, along, ierr))
-    PetscCallA(VecWAXPY(arc%path%state, 1.0_wp, arc%secant, arc%path%base, ierr))
+    PetscCallA(VecWAXPY(arc%path%state, 1.0_wp, arc%tangent, arc%path%base, ierr))
     place = arc%path%give()
     PetscCallA(VecCopy(arc%bearing%state, ahead, ierr))
     PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
@@ -234,9 +248,6 @@ contains
       call solve_newton(arc%newton, solved)
       moved = solved%converged
       if (moved) moved = stays_near(arc)
-      if (moved) then
-        if (arc%next_change > way_before_corner*way_gone(arc)) call leave_corner(arc, beyond)
-      end if
       beyond = closer*beyond
     end do
     if (.not. moved) then
@@ -245,29 +256,6 @@ contains
     PetscCallA(VecDestroy(start, ierr))
     arc%newton%settings%maximum_iterations = hasty_iterations
   end subroutine turn_corner
-
-  !> One more step of the same contacts: where much of the last one lay before the corner, its
-  !> direction is not that beyond it.
-  subroutine leave_corner(arc, beyond)
-    type(arc_type), target, intent(inout) :: arc
-    real(wp), intent(in) :: beyond !! that step [1]
-    type(newton_report_type) :: solved
-    Vec :: corner
-    logical :: stayed
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecDuplicate(arc%path%base, corner, ierr))
-    PetscCallA(VecCopy(arc%path%state, corner, ierr))
-    PetscCallA(VecSwap(arc%path%base, corner, ierr))
-    arc%path%step = beyond
-    call solve_newton(arc%newton, solved)
-    stayed = stays_near(arc)
-    if (.not. (solved%converged .and. stayed)) then
-      PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
-      PetscCallA(VecCopy(corner, arc%path%base, ierr))
-    end if
-    PetscCallA(VecDestroy(corner, ierr))
-  end subroutine leave_corner
 
   !> Whether a step round a corner is not a leap to another branch.
   function stays_near(arc) result(near_by)
@@ -311,7 +299,7 @@ contains
     end if
     self%retreats = self%retreats + 1
     PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
-    PetscCallA(VecCopy(self%earlier_secant, self%secant, ierr))
+    PetscCallA(VecCopy(self%earlier_tangent, self%tangent, ierr))
     self%step = max(shortest_step, cut*min(self%earlier_step, self%last_way))
     self%place = self%place_earlier
     self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
@@ -320,20 +308,30 @@ contains
     call self%return_to()
   end subroutine nears_fold
 
-  !> Length of the way from the base to the state; leaves the way itself in `work`.
+  !> Length of the way from the base to the state.
   function way_gone(arc) result(length)
     type(arc_type), intent(inout) :: arc
+    real(wp) :: length
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecWAXPY(arc%work, -1.0_wp, arc%path%base, arc%path%state, ierr))
+    length = length_of(arc, arc%work)
+  end function way_gone
+
+  !> Length of a vector in the arc's measure.
+  function length_of(arc, vector) result(length)
+    type(arc_type), intent(in) :: arc
+    Vec, intent(in) :: vector
     real(wp) :: length
     Vec :: weighted
     PetscErrorCode :: ierr
 
-    PetscCallA(VecWAXPY(arc%work, -1.0_wp, arc%path%base, arc%path%state, ierr))
-    PetscCallA(VecDuplicate(arc%work, weighted, ierr))
-    call weigh(arc, arc%work, weighted)
-    PetscCallA(VecDot(arc%work, weighted, length, ierr))
+    PetscCallA(VecDuplicate(vector, weighted, ierr))
+    call weigh(arc, vector, weighted)
+    PetscCallA(VecDot(vector, weighted, length, ierr))
     PetscCallA(VecDestroy(weighted, ierr))
     length = sqrt(length)
-  end function way_gone
+  end function length_of
 
   !> A vector times the weights of the measure.
   subroutine weigh(arc, vector, weighted)
@@ -359,12 +357,12 @@ contains
     newton%factorizations = newton%factorizations + arc%newton%factorizations
     call destroy_newton(arc%newton)
     call destroy_path_system(arc%path)
-    PetscCallA(VecDestroy(arc%secant, ierr))
+    PetscCallA(VecDestroy(arc%tangent, ierr))
     PetscCallA(VecDestroy(arc%work, ierr))
     PetscCallA(VecDestroy(arc%coming, ierr))
     PetscCallA(VecDestroy(arc%previous, ierr))
     PetscCallA(VecDestroy(arc%earlier, ierr))
-    PetscCallA(VecDestroy(arc%previous_secant, ierr))
-    PetscCallA(VecDestroy(arc%earlier_secant, ierr))
+    PetscCallA(VecDestroy(arc%previous_tangent, ierr))
+    PetscCallA(VecDestroy(arc%earlier_tangent, ierr))
   end subroutine end_arc
 end module gfb_arc_length

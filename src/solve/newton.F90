@@ -15,10 +15,11 @@ module gfb_newton
   use gfb_run_log, only: run_log_type
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_direct_solver, only: use_factors, factor_matrix
   use gfb_old_factors, only: old_factors_type, use_old_factors, judge_factors
   implicit none (type)
   private
-  public :: create_newton, solve_newton, destroy_newton
+  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, destroy_newton
 
   integer, parameter :: memory = 5                 !! residuals that the line search remembers
   integer, parameter :: halvings = 24              !! shortest trial is 2^-24 of a step
@@ -58,6 +59,7 @@ module gfb_newton
     logical, private :: created = .false.
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
+    logical, private :: ready = .false.      !! they belong to an answer, and no solve has begun since
     type(old_factors_type), private :: old   !! what GMRES has cost with the present factors
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
@@ -83,7 +85,6 @@ contains
 
     SNESLineSearch :: search
     KSP :: linear
-    PC :: factors
     PetscInt :: unknowns
     PetscErrorCode :: ierr
 
@@ -104,34 +105,14 @@ contains
     PetscCallA(SNESLineSearchSetType(search, SNESLINESEARCHSHELL, ierr))
     PetscCallA(SNESLineSearchShellSetUserFunc(search, search_line, newton, ierr))
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
-    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+    call use_factors(linear, prefix, system%symmetric, system%dense_rows)
     if (system%slow_change) then
       call use_old_factors(linear)
       PetscCallA(SNESSetMaxLinearSolveFailures(newton%snes, huge(1_pint), ierr))
     end if
-    PetscCallA(KSPGetPC(linear, factors, ierr))
-    PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', system%symmetric)), ierr))
-    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
-    call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
-    call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
-    ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
-    ! or minimum degree that sets dense rows aside.
-    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', system%dense_rows))
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
     newton%created = .true.
   end subroutine create_newton
-
-  !> Sets an option of PETSc's unless the user has.
-  subroutine set_option_default(name, value)
-    character(len=*), intent(in) :: name, value
-    PetscBool :: given
-    PetscErrorCode :: ierr
-
-    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, name, given, ierr))
-    if (.not. given) then
-      PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, name, value, ierr))
-    end if
-  end subroutine set_option_default
 
   !> Solves from the system's present state; on failure the state is where it stopped.
   subroutine solve_newton(newton, report)
@@ -144,7 +125,8 @@ contains
     PetscErrorCode :: ierr
     logical :: moved
 
-    newton%keep = .false.
+    newton%keep = newton%ready
+    newton%ready = .false.
     newton%impossible = .false.
     newton%step = huge(1.0_wp)
     newton%step_before = huge(1.0_wp)
@@ -167,6 +149,37 @@ contains
     report%reason = reason_in_words(newton, int(GFB_REASON(reason)))
     newton%iterations = newton%iterations + report%iterations
   end subroutine solve_newton
+
+  !> Sign of the determinant of the system's matrix at its present state: 1, -1, or 0 where there is
+  !> none. It changes from state to state only where an eigenvalue goes through zero, as at a fold.
+  !>
+  !> Takes a factorization.
+  subroutine find_determinant_sign(newton, sign_of_determinant)
+    type(newton_type), intent(inout) :: newton
+    integer, intent(out) :: sign_of_determinant
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    call newton%system%linearise(newton%system%state)
+    newton%factorizations = newton%factorizations + 1
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+    call factor_matrix(linear, newton%system%jacobian, sign_of_determinant)
+    newton%ready = sign_of_determinant /= 0
+    call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
+  end subroutine find_determinant_sign
+
+  !> Solves a linear system with the factors that `find_determinant_sign` made.
+  subroutine solve_with_factors(newton, right, solution)
+    type(newton_type), intent(in) :: newton
+    Vec, intent(in) :: right
+    Vec, intent(in) :: solution
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    PetscCallA(KSPSolve(linear, right, solution, ierr))
+  end subroutine solve_with_factors
 
   !> SNES' reason as a sentence.
   function reason_in_words(newton, reason) result(words)
@@ -349,7 +362,7 @@ contains
 
     if (newton%length < 1.0_wp .or. .not. newton%system%settled) then
       newton%keep = .false.
-    else if (newton%fresh) then
+    else if (newton%fresh .or. newton%steps == 1) then
       newton%keep = newton%step < chord_step
     else
       newton%keep = newton%step < chord_contraction*newton%step_before

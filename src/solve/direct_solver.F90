@@ -1,0 +1,77 @@
+#include "gfb_petsc.h"
+!> A linear solver that factors its matrix by MUMPS, and what the factors tell of it.
+module gfb_direct_solver
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  implicit none (type)
+  private
+  public :: use_factors, factor_matrix
+
+contains
+
+  !> Makes a linear solver factor its matrix and do nothing else.
+  subroutine use_factors(linear, prefix, symmetric, dense_rows)
+    KSP, intent(in) :: linear
+    character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
+    logical, intent(in) :: symmetric       !! the matrix is
+    logical, intent(in) :: dense_rows      !! a few of its rows are almost full
+    PC :: factors
+    PetscErrorCode :: ierr
+
+    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(linear, factors, ierr))
+    PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', symmetric)), ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    call set_option_default('-'//prefix//'mat_mumps_icntl_14', '60') ! room for pivoting [%]
+    call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
+    ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
+    ! or minimum degree that sets dense rows aside.
+    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', dense_rows))
+    call set_option_default('-'//prefix//'mat_mumps_icntl_33', '1') ! the determinant, for its sign
+  end subroutine use_factors
+
+  !> Sets an option of PETSc's unless the user has.
+  subroutine set_option_default(name, value)
+    character(len=*), intent(in) :: name, value
+    PetscBool :: given
+    PetscErrorCode :: ierr
+
+    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, name, given, ierr))
+    if (.not. given) then
+      PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, name, value, ierr))
+    end if
+  end subroutine set_option_default
+
+  !> Factors a matrix now; the solver keeps the factors until the matrix is touched.
+  !>
+  !> The sign is that of the determinant: 1, -1, or 0 where the matrix could not be factored, or the
+  !> user chose another package than MUMPS. Rows and columns that are numbered alike otherwise, as on
+  !> other ranks, leave it as it is.
+  subroutine factor_matrix(linear, matrix, sign_of_determinant)
+    KSP, intent(in) :: linear !! prepared by `use_factors`
+    Mat, intent(in) :: matrix
+    integer, intent(out) :: sign_of_determinant
+
+    integer, parameter :: mantissa_place = 12 ! in MUMPS' RINFOG
+    character(len=80) :: package
+    PetscReal :: mantissa
+    KSPConvergedReason :: reason
+    Mat :: factor
+    PC :: factors
+    PetscErrorCode :: ierr
+
+    sign_of_determinant = 0
+    PetscCallA(KSPSetOperators(linear, matrix, matrix, ierr))
+    PetscCallA(KSPSetReusePreconditioner(linear, PETSC_FALSE, ierr))
+    PetscCallA(KSPSetUp(linear, ierr))
+    PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
+    if (GFB_REASON(reason) == GFB_REASON(KSP_DIVERGED_PC_FAILED)) return
+    PetscCallA(KSPGetPC(linear, factors, ierr))
+    PetscCallA(PCFactorGetMatSolverType(factors, package, ierr))
+    if (package /= MATSOLVERMUMPS) return
+    PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
+    PetscCallA(MatMumpsGetRinfog(factor, int(mantissa_place, pint), mantissa, ierr))
+    if (abs(mantissa) > 0.0_wp) sign_of_determinant = nint(sign(1.0_wp, mantissa))
+  end subroutine factor_matrix
+end module gfb_direct_solver
