@@ -26,14 +26,14 @@ module gfb_bearing_analysis
   use gfb_cold_start, only: start_bearing
   use gfb_partitioned, only: partitioned_type, start_partitioned, follow_partitioned, &
                              destroy_partitioned
-  use gfb_case_file, only: history_row_type, case_array_type
   use gfb_bearing_plan, only: plan_bearing
-  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, count_quantities, &
+  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
+  use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name, sweep_name, sweep_unit
+  use gfb_fold_sweep, only: sweep_round_folds
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
-  use gfb_contact_output, only: contact_record_type
-  use gfb_foil_output, only: add_foil_grids, record_foil_contacts, foil_contact_arrays, foil_quantities
+  use gfb_foil_output, only: add_foil_grids, foil_contact_arrays, foil_quantities
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -62,16 +62,15 @@ contains
     type(bearing_system_type), target :: bearing
     type(newton_type), target :: newton
     type(bearing_answer_type) :: answer
-    type(history_row_type), allocatable :: history(:)
+    type(bearing_record_type) :: record
     type(quantity_type), allocatable :: summary(:)
     type(result_grid_type), allocatable :: grids(:)
     type(cost_type) :: cost
-    type(contact_record_type) :: contacts
 
     converged = .false.
     call plan_bearing(scene, log, plan)
     call log%heading('solution')
-    call solve_scene(scene, plan, log, bearing, newton, history, contacts, converged, error)
+    call solve_scene(scene, plan, log, bearing, newton, record, converged, error)
     if (allocated(error)) return
     call enter_stage('output')
     answer = bearing_answer(bearing)
@@ -86,22 +85,21 @@ contains
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)
     call add_foil_grids(bearing, grids)
-    call write_result_set(scene, folder, converged, provenance(command), summary, history, &
-                          foil_contact_arrays(bearing, contacts, size(history)), grids, log, error)
+    call write_result_set(scene, folder, converged, provenance(command), summary, record%history, &
+                          foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, log, error)
     call leave_stage()
     call destroy_newton(newton)
     call bearing%destroy()
   end subroutine run_bearing
 
   !> The first answer, and those of the sweep, each from its neighbour.
-  subroutine solve_scene(scene, plan, log, bearing, newton, history, contacts, converged, error)
+  subroutine solve_scene(scene, plan, log, bearing, newton, record, converged, error)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
-    type(history_row_type), allocatable, intent(out) :: history(:)
-    type(contact_record_type), intent(inout) :: contacts
+    type(bearing_record_type), intent(inout) :: record
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
 
@@ -110,11 +108,10 @@ contains
     type(newton_settings_type) :: newton_settings
     type(partitioned_type), target :: sides
     type(operation_case_type) :: operation
-    real(wp) :: begun
     integer :: point, first
     logical :: partitioned
 
-    allocate (history(0))
+    allocate (record%history(0))
     path = path_settings_type(scene%solver%maximum_load_steps, scene%solver%smallest_load_step, &
                               scene%solver%touch_down_gap)
     operation = scene%operation
@@ -135,11 +132,11 @@ contains
     end if
     if (allocated(error)) return
     if (report%converged .and. any(operation%lift_given)) call seek_branch(scene, bearing, newton)
-    begun = wall_time()
+    record%begun = wall_time()
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
-      call add_row(scene, bearing, newton, 0, converged, history, contacts)
+      call add_row(scene, bearing, newton, converged, record)
       call destroy_partitioned(sides)
       return
     end if
@@ -148,11 +145,18 @@ contains
       call hold_shaft(bearing, log)
       path%touch_down_gap = 0.0_wp
     else if (converged) then
-      call end_point(scene, log, 1, begun, bearing, newton, history, contacts)
+      call end_point(scene, log, 1, bearing, newton, record)
     end if
     call enter_stage('sweep')
     do point = first, size(scene%sweep%values)
       if (.not. converged) exit
+      if (scene%sweep%turn_folds .and. point > 1) then
+        call sweep_round_folds(scene, log, sweep_target(scene, bearing, size(scene%sweep%values)), path, bearing, &
+                               newton, record, report)
+        converged = report%converged
+        if (.not. converged) call explain(log, scene, bearing, report)
+        exit
+      end if
       if (partitioned) then
         call follow_partitioned(bearing, newton, sweep_target(scene, bearing, point), path, sides, report)
       else
@@ -160,8 +164,8 @@ contains
       end if
       converged = report%converged
       if (.not. converged) call explain(log, scene, bearing, report)
-      if (converged) call end_point(scene, log, point, begun, bearing, newton, history, contacts)
-      if (point == 1) begun = wall_time()
+      if (converged) call end_point(scene, log, point, bearing, newton, record)
+      if (point == 1) record%begun = wall_time()
     end do
     call leave_stage()
     call destroy_partitioned(sides)
@@ -191,19 +195,21 @@ contains
   end subroutine seek_branch
 
   !> Keeps a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
-  subroutine end_point(scene, log, point, begun, bearing, newton, history, contacts)
+  subroutine end_point(scene, log, point, bearing, newton, record)
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     integer, intent(in) :: point
-    real(wp), intent(in) :: begun !! when the first point was there [s]
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(in) :: newton
-    type(history_row_type), allocatable, intent(inout) :: history(:)
-    type(contact_record_type), intent(inout) :: contacts
+    type(bearing_record_type), intent(inout) :: record
 
-    call add_row(scene, bearing, newton, point, .true., history, contacts)
+    if (scene%sweep%turn_folds) then
+      call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point), .false.)
+    else
+      call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point))
+    end if
     if (scene%sweep%friction_memory) call bearing%commit()
-    call show_progress(log, scene%sweep, point, begun)
+    call show_progress(log, scene%sweep, point, record%begun)
   end subroutine end_point
 
   !> Where a sweep point puts the shaft; a held shaft stays where it is.
@@ -250,30 +256,6 @@ contains
     end associate
   end subroutine explain
 
-  !> Adds the present state to the history.
-  subroutine add_row(scene, bearing, newton, point, converged, history, contacts)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(in) :: bearing
-    type(newton_type), intent(in) :: newton
-    integer, intent(in) :: point !! of the sweep; 0 without one
-    logical, intent(in) :: converged
-    type(history_row_type), allocatable, intent(inout) :: history(:)
-    type(contact_record_type), intent(inout) :: contacts
-    type(history_row_type) :: row
-
-    row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
-                                     bearing%film%clearance, bearing%force_scale)
-    row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
-    if (point > 0) then
-      if (scene%sweep%parameter < sweep_eccentricity_x) then ! the answer has the eccentricities anyway
-        row%quantity = [number_quantity(sweep_name(scene%sweep), scene%sweep%values(point), &
-                                        sweep_unit(scene%sweep), 'what the sweep changes'), row%quantity]
-      end if
-    end if
-    history = [history, row]
-    call record_foil_contacts(bearing, size(history), max(1, size(scene%sweep%values)), contacts)
-  end subroutine add_row
-
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
   subroutine show_progress(log, sweep, point, begun)
     type(run_log_type), intent(in) :: log
@@ -305,38 +287,4 @@ contains
                      wall_time() - start_time, memory(1))
   end function cost_of
 
-  !> The word for the scene's analysis.
-  pure function analysis_name(scene) result(name)
-    type(scene_type), intent(in) :: scene
-    character(len=:), allocatable :: name
-
-    name = 'fixed_position'
-    if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
-  end function analysis_name
-
-  !> The word for what a sweep changes.
-  pure function sweep_name(sweep) result(name)
-    type(sweep_case_type), intent(in) :: sweep
-    character(len=:), allocatable :: name
-    character(len=14), parameter :: names(6) = [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', &
-                                                'tilt_y', 'eccentricity_x', 'eccentricity_y']
-    name = trim(names(sweep%parameter))
-  end function sweep_name
-
-  !> Its unit.
-  pure function sweep_unit(sweep) result(unit)
-    type(sweep_case_type), intent(in) :: sweep
-    character(len=:), allocatable :: unit
-
-    select case (sweep%parameter)
-    case (sweep_load)
-      unit = 'N'
-    case (sweep_speed)
-      unit = 'rpm'
-    case (sweep_tilt_x, sweep_tilt_y)
-      unit = 'rad'
-    case default
-      unit = 'm'
-    end select
-  end function sweep_unit
 end module gfb_bearing_analysis

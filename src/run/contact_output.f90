@@ -23,13 +23,14 @@ contains
   subroutine record_contacts(contacts, step, steps, record)
     type(contact_set_type), intent(in) :: contacts
     integer, intent(in) :: step
-    integer, intent(in) :: steps !! that there will be
+    integer, intent(in) :: steps !! that there will be, as far as is known
     type(contact_record_type), intent(inout) :: record
     integer :: i
 
     if (.not. allocated(record%value)) then
       allocate (record%value(fields, size(contacts%point), steps), source=0.0_wp)
     end if
+    if (step > size(record%value, 3)) call make_room(2*step, record%value)
     do i = 1, size(contacts%point)
       associate (point => contacts%point(i))
         record%value(:, i, step) = [normal_line_force(contacts, i), point%force(:2)/point%length, &
@@ -37,6 +38,17 @@ contains
       end associate
     end do
   end subroutine record_contacts
+
+  !> Makes room for more steps.
+  pure subroutine make_room(steps, value)
+    integer, intent(in) :: steps
+    real(wp), allocatable, intent(inout) :: value(:, :, :)
+    real(wp), allocatable :: longer(:, :, :)
+
+    allocate (longer(size(value, 1), size(value, 2), steps), source=0.0_wp)
+    longer(:, :, :size(value, 3)) = value
+    call move_alloc(longer, value)
+  end subroutine make_room
 
   !> Normal force of a contact per length of its line [N/m].
   pure function normal_line_force(contacts, i) result(force)

@@ -24,8 +24,8 @@ module gfb_arc_length
   real(wp), parameter :: first_step = 1.0e-3_wp
   real(wp), parameter :: shortest_step = 1.0e-7_wp
   real(wp), parameter :: longest_step = 0.05_wp
-  real(wp), parameter :: least_start = 1.0e-4_wp   !! to which a step after a very short one is lengthened
-  real(wp), parameter :: growth = 1.5_wp
+  real(wp), parameter :: least_start = 5.0e-4_wp   !! to which a step after a very short one is lengthened
+  real(wp), parameter :: growth = 2.0_wp
   real(wp), parameter :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
   real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
   real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]

@@ -1,0 +1,89 @@
+!> What is kept of a bearing's answers: a row of the history and the contacts, for each.
+module gfb_bearing_record
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, number_quantity, truth_quantity
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sweep_case, only: sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, sweep_tilt_y, &
+                            sweep_eccentricity_x
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer
+  use gfb_newton, only: newton_type
+  use gfb_case_file, only: history_row_type
+  use gfb_bearing_summary, only: answer_quantities, count_quantities
+  use gfb_contact_output, only: contact_record_type
+  use gfb_foil_output, only: record_foil_contacts
+  implicit none (type, external)
+  private
+  public :: add_row, analysis_name, sweep_name, sweep_unit
+
+  !> Answers of a scene, in the order in which they were found.
+  type, public :: bearing_record_type
+    type(history_row_type), allocatable :: history(:)
+    type(contact_record_type) :: contacts
+    real(wp) :: begun = 0.0_wp !! when the first point was there [s]
+  end type bearing_record_type
+
+contains
+
+  !> Adds the present state to the record.
+  subroutine add_row(scene, bearing, newton, converged, record, value, fold)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(newton_type), intent(in) :: newton
+    logical, intent(in) :: converged
+    type(bearing_record_type), intent(inout) :: record
+    real(wp), intent(in), optional :: value !! of what the sweep changes
+    logical, intent(in), optional :: fold   !! the sweep's parameter turns back there
+    type(history_row_type) :: row
+
+    row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
+                                     bearing%film%clearance, bearing%force_scale)
+    row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
+    if (present(fold)) then
+      row%quantity = [truth_quantity('fold', fold, 'what the sweep changes turns back there'), row%quantity]
+    end if
+    if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then ! the answer has the eccentricities anyway
+      row%quantity = [number_quantity(sweep_name(scene%sweep), value, sweep_unit(scene%sweep), &
+                                      'what the sweep changes'), row%quantity]
+    end if
+    if (.not. allocated(record%history)) allocate (record%history(0))
+    record%history = [record%history, row]
+    call record_foil_contacts(bearing, size(record%history), max(1, size(scene%sweep%values)), record%contacts)
+  end subroutine add_row
+
+  !> The word for the scene's analysis.
+  pure function analysis_name(scene) result(name)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: name
+
+    name = 'fixed_position'
+    if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
+  end function analysis_name
+
+  !> The word for what a sweep changes.
+  pure function sweep_name(sweep) result(name)
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=:), allocatable :: name
+    character(len=14), parameter :: names(6) = [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', &
+                                                'tilt_y', 'eccentricity_x', 'eccentricity_y']
+    name = trim(names(sweep%parameter))
+  end function sweep_name
+
+  !> Its unit.
+  pure function sweep_unit(sweep) result(unit)
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=:), allocatable :: unit
+
+    select case (sweep%parameter)
+    case (sweep_load)
+      unit = 'N'
+    case (sweep_speed)
+      unit = 'rpm'
+    case (sweep_tilt_x, sweep_tilt_y)
+      unit = 'rad'
+    case default
+      unit = 'm'
+    end select
+  end function sweep_unit
+end module gfb_bearing_record
