@@ -132,8 +132,8 @@ contains
     type(bearing_record_type), intent(inout) :: record
     real(wp) :: fold
 
+    call way%arc%to_turn()
     fold = way%arc%place_before
-    call way%arc%between(0.0_wp)
     call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
     way%kept = 0
     call log%line('fold: the branch turns back at '//value_text(scene, fold))

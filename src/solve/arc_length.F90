@@ -38,7 +38,7 @@ module gfb_arc_length
   real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
   integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
   real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
-  integer, parameter :: most_retreats = 8          !! before one, for shorter steps
+  integer, parameter :: most_retreats = 6          !! before one, for shorter steps
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
   integer, parameter :: hasty_iterations = 12      !! more are not given to a step
 
@@ -63,6 +63,7 @@ module gfb_arc_length
     real(wp), private :: place_earlier = 0.0_wp !! lambda of the answer before those two
     real(wp), private :: earlier_step = 0.0_wp
     integer, private :: retreats = 0
+    real(wp), private :: step_limit = longest_step
     Vec, private :: previous, earlier !! the answers before the last one
     Vec, private :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
     Vec, private :: work
@@ -70,6 +71,7 @@ module gfb_arc_length
     procedure :: between
     procedure :: return_to
     procedure :: nears_fold
+    procedure :: to_turn
   end type arc_type
 
 contains
@@ -166,8 +168,8 @@ contains
     length = way_gone(arc)
     arc%last_way = length
     call find_tangent(arc)
-    arc%step = max(least_start, min(length, longest_step))
-    if (easy) arc%step = min(longest_step, growth*arc%step)
+    arc%step = min(arc%step_limit, max(least_start, length))
+    if (easy) arc%step = min(arc%step_limit, growth*arc%step)
     arc%steps = arc%steps + 1
   end subroutine advance_arc
 
@@ -284,6 +286,32 @@ contains
     place = self%path%give()
   end subroutine return_to
 
+  !> Puts the bearing where the place has just turned: at the answer before the last, or where a contact
+  !> changed since then, if the place went farther there.
+  subroutine to_turn(self)
+    class(arc_type), target, intent(inout) :: self
+    type(newton_report_type) :: solved
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%path%state, self%earlier, ierr))
+    PetscCallA(VecCopy(self%previous, self%path%base, ierr))
+    PetscCallA(VecCopy(self%previous, self%path%state, ierr))
+    if (self%next_change <= self%last_way) then
+      PetscCallA(VecCopy(self%coming, self%path%direction, ierr))
+      self%path%step = self%distance
+      call solve_newton(self%newton, solved)
+      place = self%path%place(self%path%state)
+      if (solved%converged .and. self%heading*(place - self%place_before) < 0.0_wp) then
+        self%place_before = place
+      else
+        PetscCallA(VecCopy(self%previous, self%path%state, ierr))
+      end if
+    end if
+    place = self%path%give()
+    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
+  end subroutine to_turn
+
   !> Where the place has just turned: goes back behind the turn to pass it in shorter steps, unless
   !> they are short already. Without that the turn is at `place_before`, to about the last step.
   subroutine nears_fold(self, again)
@@ -295,12 +323,14 @@ contains
       max(abs(self%place - self%place_before), abs(self%place_before - self%place_earlier)) > sharp_fold
     if (.not. again) then
       self%retreats = 0
+      self%step_limit = longest_step
       return
     end if
     self%retreats = self%retreats + 1
     PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
     PetscCallA(VecCopy(self%earlier_tangent, self%tangent, ierr))
-    self%step = max(shortest_step, cut*min(self%earlier_step, self%last_way))
+    self%step = max(shortest_step, cut*min(self%step_limit, self%earlier_step, self%last_way))
+    self%step_limit = self%step
     self%place = self%place_earlier
     self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
     self%place_before = self%place_earlier
