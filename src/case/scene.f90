@@ -17,7 +17,8 @@ module gfb_scene
   use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
-                             check_rigid_position, check_strip, check_plates, check_friction_memory
+                             check_rigid_position, check_strip, check_plates, &
+                             check_friction_memory, check_stability
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -92,6 +93,7 @@ contains
     call check_plates(keys, scene%strip_load, scene%general%analysis)
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)
+    call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text

@@ -13,6 +13,7 @@ module gfb_scene_rules
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_modes, is_bearing
+  use gfb_solver_case, only: solver_case_type
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
@@ -21,7 +22,7 @@ module gfb_scene_rules
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
   public :: check_shell_bearing, check_friction_memory
-  public :: check_plates, is_symmetric
+  public :: check_plates, check_stability, is_symmetric
 
 contains
 
@@ -79,6 +80,22 @@ contains
                          '&contact: without friction nothing is remembered')
     end if
   end subroutine check_friction_memory
+
+  !> Stability is that of foils under a film.
+  subroutine check_stability(keys, solver, model, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(solver_case_type), intent(in) :: solver
+    type(model_case_type), intent(in) :: model
+    integer, intent(in) :: analysis  !! 0 where it is not known
+
+    if (.not. solver%stability .or. analysis == 0 .or. model%foil == 0) return
+    if (.not. is_bearing(analysis)) then
+      call keys%complain('solver', 'stability', 'needs a bearing: it is that of foils under a film')
+    else if (.not. meshes_foils(model%foil)) then
+      call keys%complain('solver', 'stability', "needs foil = 'shell' in &model, or 'beam': "// &
+                         'nothing else moves by itself')
+    end if
+  end subroutine check_stability
 
   !> An elastic foundation needs its stiffness, or what it is computed from.
   subroutine check_foundation(keys, model)

@@ -20,6 +20,7 @@ module gfb_solver_case
     integer :: maximum_load_steps = 200
     real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole way [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
+    logical :: stability = .false.              !! count the foils' modes that grow
   end type solver_case_type
 
 contains
@@ -50,6 +51,8 @@ contains
       call keys%complain('solver', 'touch_down_gap', 'must be less than the clearance, '// &
                          text(bearing%clearance)//' m')
     end if
+    call keys%logical_key('stability', solver%stability, &
+                          'count the modes of the foils that grow while the shaft is held')
     call keys%finish_group()
   end subroutine read_solver_case
 end module gfb_solver_case

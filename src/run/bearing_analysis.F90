@@ -29,6 +29,7 @@ module gfb_bearing_analysis
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
+  use gfb_answer_judgement, only: judge_answer
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name, sweep_name, sweep_unit
   use gfb_fold_sweep, only: sweep_round_folds
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -76,7 +77,7 @@ contains
     answer = bearing_answer(bearing)
     cost = cost_of(bearing, newton, start_time)
     summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-                                 bearing%force_scale), foil_quantities(bearing), cost_quantities(cost)]
+                                 bearing%force_scale), foil_quantities(bearing), record%judged, cost_quantities(cost)]
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -111,7 +112,7 @@ contains
     integer :: point, first
     logical :: partitioned
 
-    allocate (record%history(0))
+    allocate (record%history(0), record%judged(0))
     path = path_settings_type(scene%solver%maximum_load_steps, scene%solver%smallest_load_step, &
                               scene%solver%touch_down_gap)
     operation = scene%operation
@@ -136,6 +137,7 @@ contains
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report)
     if (.not. scene%sweep%present) then
+      if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
       call add_row(scene, bearing, newton, converged, record)
       call destroy_partitioned(sides)
       return
@@ -154,7 +156,7 @@ contains
         call sweep_round_folds(scene, log, sweep_target(scene, bearing, size(scene%sweep%values)), path, bearing, &
                                newton, record, report)
         converged = report%converged
-        if (.not. converged) call explain(log, scene, bearing, report)
+        if (.not. converged) call stop_short(log, scene, bearing, report, record)
         exit
       end if
       if (partitioned) then
@@ -163,7 +165,7 @@ contains
         call follow_path(bearing, newton, sweep_target(scene, bearing, point), 1.0_wp, path, report)
       end if
       converged = report%converged
-      if (.not. converged) call explain(log, scene, bearing, report)
+      if (.not. converged) call stop_short(log, scene, bearing, report, record)
       if (converged) call end_point(scene, log, point, bearing, newton, record)
       if (point == 1) record%begun = wall_time()
     end do
@@ -200,9 +202,10 @@ contains
     type(run_log_type), intent(in) :: log
     integer, intent(in) :: point
     type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(in) :: newton
+    type(newton_type), intent(inout) :: newton
     type(bearing_record_type), intent(inout) :: record
 
+    call judge_answer(scene, log, bearing, newton, record%judged)
     if (scene%sweep%turn_folds) then
       call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point), .false.)
     else
@@ -234,6 +237,18 @@ contains
     call log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
                   text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
   end subroutine hold_shaft
+
+  !> Ends a sweep before its last point; what was known of the last answer is not of the state now.
+  subroutine stop_short(log, scene, bearing, report, record)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(path_report_type), intent(in) :: report
+    type(bearing_record_type), intent(inout) :: record
+
+    call explain(log, scene, bearing, report)
+    record%judged = record%judged(:0)
+  end subroutine stop_short
 
   !> Says why there is no answer, and how far the way led.
   subroutine explain(log, scene, bearing, report)

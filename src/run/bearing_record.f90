@@ -1,7 +1,7 @@
 !> What is kept of a bearing's answers: a row of the history and the contacts, for each.
 module gfb_bearing_record
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, truth_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, sweep_tilt_y, &
@@ -21,13 +21,14 @@ module gfb_bearing_record
   type, public :: bearing_record_type
     type(history_row_type), allocatable :: history(:)
     type(contact_record_type) :: contacts
+    type(quantity_type), allocatable :: judged(:) !! what else is known of the last answer
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
   end type bearing_record_type
 
 contains
 
   !> Adds the present state to the record.
-  subroutine add_row(scene, bearing, newton, converged, record, value, fold)
+  subroutine add_row(scene, bearing, newton, converged, record, value, fold, branch)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing
     type(newton_type), intent(in) :: newton
@@ -35,11 +36,14 @@ contains
     type(bearing_record_type), intent(inout) :: record
     real(wp), intent(in), optional :: value !! of what the sweep changes
     logical, intent(in), optional :: fold   !! the sweep's parameter turns back there
+    integer, intent(in), optional :: branch !! number of the equilibrium among several
     type(history_row_type) :: row
 
     row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
                                      bearing%film%clearance, bearing%force_scale)
+    if (allocated(record%judged)) row%quantity = [row%quantity, record%judged]
     row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
+    if (present(branch)) row%quantity = [count_quantity('branch', branch, 'number of the equilibrium'), row%quantity]
     if (present(fold)) then
       row%quantity = [truth_quantity('fold', fold, 'what the sweep changes turns back there'), row%quantity]
     end if

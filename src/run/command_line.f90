@@ -11,6 +11,7 @@ module gfb_command_line
     character(len=:), allocatable :: case_file
     character(len=:), allocatable :: folder !! where results go
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
+    logical :: branches = .false. !! look for all equilibria
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
@@ -18,7 +19,7 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=9), parameter :: options(7) = [character(len=9) :: '--check', '--output', &
+  character(len=10), parameter :: options(8) = [character(len=10) :: '--branches', '--check', '--output', &
     '--help', &
                                                '--version', '--keys', '--quiet', '--petsc']
 
@@ -45,6 +46,8 @@ contains
       select case (word)
       case ('--check')
         line%check = .true.
+      case ('--branches')
+        line%branches = .true.
       case ('--help', '-h')
         line%help = .true.
       case ('--version')
@@ -115,6 +118,7 @@ contains
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
+      '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
       '  --quiet         no line per iteration'//next// &
       '  --keys          table of all keys of a case file'//next// &
@@ -123,7 +127,7 @@ contains
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
       next// &
       'results: CASE.summary, .h5, .used.nml, and surfaces as .<part>.vtkhdf;'//next// &
-      'CASE.unconverged.* where no answer was found'//next// &
+      'CASE.unconverged.* where no answer was found, CASE.branches.* of --branches'//next// &
       'exit status: 0 done, 1 the input is wrong, 2 did not converge,'//next// &
       '             3 a file or the machine failed'
   end function help_text

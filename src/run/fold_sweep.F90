@@ -12,6 +12,7 @@ module gfb_fold_sweep
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
+  use gfb_answer_judgement, only: judge_answer
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   implicit none (type)
   private
@@ -109,6 +110,7 @@ contains
         end if
         way%kept = k
         way%kept_heading = way%arc%heading
+        call judge_answer(scene, log, bearing, newton, record%judged)
         call add_row(scene, bearing, newton, .true., record, scene%sweep%values(k), .false.)
         call log%line('on the branch: '//value_text(scene, way%place(k)))
         ended = k == values .and. to >= way%place(k) .or. k == 1 .and. to <= way%place(k)
@@ -127,13 +129,14 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(in) :: newton
+    type(newton_type), intent(inout) :: newton
     type(fold_sweep_type), intent(inout) :: way
     type(bearing_record_type), intent(inout) :: record
     real(wp) :: fold
 
     call way%arc%to_turn()
     fold = way%arc%place_before
+    call judge_answer(scene, log, bearing, newton, record%judged)
     call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
     way%kept = 0
     call log%line('fold: the branch turns back at '//value_text(scene, fold))

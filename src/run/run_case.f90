@@ -14,6 +14,7 @@ module gfb_run_case
   use gfb_foil_plan, only: plan_foil
   use gfb_scene_case, only: analysis_strip, analysis_modes, is_bearing
   use gfb_bearing_analysis, only: run_bearing
+  use gfb_branch_analysis, only: run_branches
   use gfb_strip_analysis, only: run_strip
   use gfb_modes_analysis, only: run_modes
   use gfb_command_line, only: command_line_type
@@ -60,6 +61,10 @@ contains
       case (analysis_modes)
         call run_modes(scene, line%folder, line%words, start_time, log, converged, error)
       case default
+        if (line%branches) then
+          call run_branches(scene, line%folder, line%words, start_time, log, converged, error)
+          return
+        end if
         call run_bearing(scene, line%folder, line%words, start_time, log, converged, error)
       end select
     end if

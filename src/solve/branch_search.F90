@@ -21,6 +21,7 @@ module gfb_branch_search
   public :: find_branches, take_branch, destroy_branches
 
   integer, parameter :: most_steps = 600        !! along one curve
+  integer, parameter :: steps_a_line = 100      !! of progress
   integer, parameter :: most_release_steps = 200 !! of the string, a decade
   integer, parameter :: decades = 4             !! of its tension, before it is none
   real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
@@ -50,7 +51,7 @@ module gfb_branch_search
 contains
 
   !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
-  !> lifts have been looked at.
+  !> lifts have been looked at; from one that is known already it does not look again.
   subroutine find_branches(bearing, newton, search)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
@@ -58,34 +59,60 @@ contains
     type(operating_point_type) :: free, straight
     type(path_settings_type) :: settings
     type(path_report_type) :: report
-    integer :: first
+    integer :: known, first
 
     free = bearing%point
+    known = 0
+    if (allocated(search%branch)) known = size(search%branch)
     call search%collect(bearing, newton)
     first = size(search%branch)
-    if (search%is_found()) return
-    straight = free
-    straight%edge_tension = tension_share*bearing%force_scale* &
-      (maxval(bearing%whole%row_axial) - minval(bearing%whole%row_axial))/bearing%film%clearance
-    settings%look_for_folds = .false.
+    if (first == known .or. search%is_found()) return
     if (any_rank(bearing%edge%pairs() > 0)) then
-      call newton%log%line('search for other equilibria: the free edge is kept straight and pulled')
+      call newton%log%line('from equilibrium '//text(first)//', its free edge kept straight and pulled:')
+      straight = free
+      straight%edge_tension = tension_share*bearing%force_scale* &
+        (maxval(bearing%whole%row_axial) - minval(bearing%whole%row_axial))/bearing%film%clearance
+      settings%look_for_folds = .false.
       call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
-      if (report%converged) call pull_edge(bearing, newton, straight, free, search)
+      if (report%converged) call pull_both_ways(bearing, newton, straight, free, search)
       call take_branch(bearing, free, search%branch(first))
     end if
     if (search%is_found()) return
-    call newton%log%line('search for other equilibria: the free edge is pulled')
-    call pull_edge(bearing, newton, free, free, search)
+    call newton%log%line('from equilibrium '//text(first)//', its free edge pulled:')
+    call pull_both_ways(bearing, newton, free, free, search)
     call take_branch(bearing, free, search%branch(first))
   end subroutine find_branches
 
+  !> Pulls the edge in the sense that leads to the lift asked for; in both where none is.
+  subroutine pull_both_ways(bearing, newton, point, free, search)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: point, free !! where the curve begins; without a string
+    type(branch_search_type), intent(inout) :: search
+    Vec :: start
+    real(wp) :: sense
+    PetscErrorCode :: ierr
+
+    sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - bearing%edge_lift())
+    PetscCallA(VecDuplicate(bearing%state, start, ierr))
+    PetscCallA(VecCopy(bearing%state, start, ierr))
+    call pull_edge(bearing, newton, point, free, sense, search)
+    if (.not. any(search%given)) then
+      PetscCallA(VecCopy(start, bearing%state, ierr))
+      bearing%point = point
+      call bearing%apply_point()
+      call pull_edge(bearing, newton, point, free, -sense, search)
+    end if
+    PetscCallA(VecDestroy(start, ierr))
+  end subroutine pull_both_ways
+
   !> Goes along the curve of answers with a pulled edge, and collects the equilibria on it.
-  subroutine pull_edge(bearing, newton, point, free, search)
+  subroutine pull_edge(bearing, newton, point, free, sense, search)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point !! where the curve begins
     type(operating_point_type), intent(in) :: free  !! the same without a string
+    real(wp), intent(in) :: sense                   !! +1: up, -1: down
     type(branch_search_type), intent(inout) :: search
     type(arc_type), target :: arc
     type(operating_point_type) :: pulled
@@ -94,14 +121,15 @@ contains
 
     pulled = point
     pulled%edge_pull = pull_share*bearing%force_scale
-    lift = bearing%edge_lift()
-    call begin_arc(bearing, newton, pulled, sign(1.0_wp, 0.5_wp*sum(search%lifts) - lift), arc)
+    call begin_arc(bearing, newton, pulled, sense, arc)
     moved = .true.
     do while (moved .and. arc%steps < most_steps .and. .not. search%is_found())
       call advance_arc(arc, moved)
       lift = bearing%edge_lift()
       call newton%log%detail('free edge at '//text(lift*micrometres, 4)//' um, force '// &
                              text(bearing%point%edge_pull, 4)//' N')
+      if (modulo(arc%steps, steps_a_line) == 0) call newton%log%line('  '//text(arc%steps)// &
+        ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
       call come_home(arc, bearing, newton, point, free, here)
@@ -255,11 +283,18 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     type(operating_point_type), intent(in) :: point !! of the branches
     type(branch_type), intent(in) :: branch
+    integer, parameter :: settlings = 2 !! what slides the other way sticks first
+    integer :: pass
+    logical :: moved
     PetscErrorCode :: ierr
 
     bearing%point = point
     call bearing%apply_point()
     PetscCallA(VecCopy(branch%state, bearing%state, ierr))
+    do pass = 1, settlings
+      call bearing%begin_step()
+      call bearing%settle(bearing%state, moved)
+    end do
   end subroutine take_branch
 
   !> Frees what PETSc holds.

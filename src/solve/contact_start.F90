@@ -18,7 +18,7 @@ module gfb_contact_start
   use gfb_start_position, only: guess_position, find_position, let_go, solve_at
   implicit none (type)
   private
-  public :: find_with_contacts
+  public :: find_with_contacts, try_start
 
   !> Eccentricities to begin with where none is given, over the free clearance; when contacts let go,
   !> before the shaft does or after; and by how many decades of their stiffness at first. The first
@@ -29,6 +29,7 @@ module gfb_contact_start
   integer, parameter :: let_go_when(6) = [by_load, against_load, after, after, before, before]
   real(wp), parameter :: first_decades(6) = [1.5_wp, 1.5_wp, 0.8_wp, 1.5_wp, 1.5_wp, 1.5_wp]
   real(wp), parameter :: growth(6) = [1.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 1.0_wp] !! of a step that succeeded
+  integer, parameter, public :: start_count = size(start_eccentricity)
   integer, parameter :: plain_starts = 4            !! those that differ only in how contacts let go
   integer, parameter :: most_halvings = 1           !! of the speed, to come to the target from below
   real(wp), parameter :: shortest_trial = 0.02_wp   !! step of a start while others are left [1]
@@ -66,8 +67,7 @@ contains
     do attempt = 1, attempts
       trial = settings
       if (attempt < attempts) trial%smallest_step = max(trial%smallest_step, shortest_trial)
-      call guess_position(bearing, scene, target, start_eccentricity(attempt))
-      call find_from(bearing, newton, target, trial, attempt, report)
+      call try_start(scene, target, trial, attempt, bearing, newton, report)
       call keep_nearest(bearing, target, attempt == 1, report, nearest, kept)
       if (report%converged .or. report%touched) exit
       if (attempt < attempts) call newton%log%line('no answer from this start ('//report%reason//'): another one')
@@ -95,6 +95,20 @@ contains
     end if
     PetscCallA(VecDestroy(kept, ierr))
   end subroutine find_with_contacts
+
+  !> One of the starts.
+  subroutine try_start(scene, target, settings, attempt, bearing, newton, report)
+    type(scene_type), intent(in) :: scene
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    integer, intent(in) :: attempt !! from 1 to `start_count`
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(path_report_type), intent(out) :: report
+
+    call guess_position(bearing, scene, target, start_eccentricity(attempt))
+    call find_from(bearing, newton, target, settings, attempt, report)
+  end subroutine try_start
 
   !> Keeps a state if it is the nearest to the target so far: an equilibrium rather than a held
   !> position, at the speed asked for, and the load's.

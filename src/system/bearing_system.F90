@@ -58,6 +58,7 @@ module gfb_bearing_system
     procedure :: commit => commit_bearing
     procedure :: get_unknowns
     procedure :: set_unknowns
+    procedure :: add_up => add_up_unknowns
     procedure :: local_size
     procedure :: gap => bearing_gap
     procedure :: position => bearing_position
@@ -511,6 +512,17 @@ contains
     real(wp), intent(in) :: unknown(:)
     call self%exchange%put(unknown/self%unknown_scale, self%state)
   end subroutine set_unknowns
+
+  !> Adds every rank's local unknowns, in SI, up in a scaled vector.
+  subroutine add_up_unknowns(self, unknown, vector)
+    class(bearing_system_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    Vec, intent(in) :: vector
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(vector, 0.0_wp, ierr))
+    call self%exchange%add(unknown/self%unknown_scale, vector)
+  end subroutine add_up_unknowns
 
   !> Local unknowns of this rank.
   pure function local_size(self) result(unknowns)

@@ -1,0 +1,78 @@
+!> What is asked of an answer once it is there: whether it folds, whether the foils stay.
+module gfb_answer_judgement
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text
+  use gfb_scene, only: scene_type
+  use gfb_model_case, only: foil_shell
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, find_determinant_sign
+  use gfb_stability, only: stability_type, find_stability
+  implicit none (type, external)
+  private
+  public :: judge_answer
+
+contains
+
+  !> Judges the bearing's present state, which must be an answer; state and point stay as they are.
+  subroutine judge_answer(scene, log, bearing, newton, list)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(quantity_type), allocatable, intent(out) :: list(:)
+    type(stability_type) :: stability
+    integer :: sign_of_determinant
+
+    allocate (list(0))
+    if (scene%solver%stability) then
+      call find_stability(bearing, stability)
+      newton%factorizations = newton%factorizations + stability%factorizations
+      call log%line('stability: '//stability_words(stability, &
+                    bearing%whole%half .and. scene%model%foil == foil_shell))
+      if (stability%found) list = stability_quantities(stability)
+    end if
+    if (.not. bearing%floats .or. bearing%held) return
+    ! The last of the factors, so that the next solve can begin with them.
+    call find_determinant_sign(newton, sign_of_determinant)
+    if (sign_of_determinant == 0) return
+    list = [list, count_quantity('determinant_sign', sign_of_determinant, &
+                                 'sign of the determinant of all equations; it changes at folds')]
+  end subroutine judge_answer
+
+  !> The count of growing modes, and how near another one is.
+  function stability_quantities(stability) result(list)
+    type(stability_type), intent(in) :: stability
+    type(quantity_type) :: list(2)
+
+    list(1) = count_quantity('stability', stability%growing, 'modes of the foils that grow '// &
+                             'while the shaft is held; 0: stable')
+    list(2) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
+                              'stiffness over p_a/C of the mode nearest to a change; negative: '// &
+                              'it grows')
+  end function stability_quantities
+
+  !> The same as a sentence.
+  function stability_words(stability, symmetric) result(words)
+    type(stability_type), intent(in) :: stability
+    logical, intent(in) :: symmetric !! no others were looked for
+    character(len=:), allocatable :: words
+
+    if (.not. stability%found) then
+      words = 'the eigenvalues of the foils were not found'
+      return
+    end if
+    words = 'no mode of the foils grows (stable'
+    if (stability%growing == 1) words = '1 mode of the foils grows (unstable'
+    if (stability%growing > 1) words = text(stability%growing)//' modes of the foils grow (unstable'
+    if (stability%nearly_neutral) words = words//', one nearly neutral'
+    words = words//') while the shaft is held; nearest to a change: ('// &
+            text(real(stability%nearest, wp), 3)
+    if (aimag(stability%nearest) > 0.0_wp) then
+      words = words//' +- '//text(aimag(stability%nearest), 3)//' i'
+    end if
+    words = words//') p_a/C'
+    if (symmetric) words = words//'; of modes symmetric about z = 0'
+  end function stability_words
+end module gfb_answer_judgement
