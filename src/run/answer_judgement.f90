@@ -44,11 +44,13 @@ contains
   !> The count of growing modes, and how near another one is.
   function stability_quantities(stability) result(list)
     type(stability_type), intent(in) :: stability
-    type(quantity_type) :: list(2)
+    type(quantity_type) :: list(3)
 
-    list(1) = count_quantity('stability', stability%growing, 'modes of the foils that grow '// &
-                             'while the shaft is held; 0: stable')
-    list(2) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
+    list(1) = count_quantity('stability', stability%negative, 'negative eigenvalues of the foils'' '// &
+                             'stiffness with the film eliminated, shaft held; 0: stable')
+    list(2) = count_quantity('growing_modes', stability%growing, 'modes that grow where the gas '// &
+                             'resists the top foil''s motion, shaft held')
+    list(3) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
                               'stiffness over p_a/C of the mode nearest to a change; negative: '// &
                               'it grows')
   end function stability_quantities
@@ -63,9 +65,10 @@ contains
       words = 'the eigenvalues of the foils were not found'
       return
     end if
-    words = 'no mode of the foils grows (stable'
-    if (stability%growing == 1) words = '1 mode of the foils grows (unstable'
-    if (stability%growing > 1) words = text(stability%growing)//' modes of the foils grow (unstable'
+    words = text(stability%negative)//' negative eigenvalues of the foils'' stiffness; no mode grows (stable'
+    if (stability%growing == 1) words = text(stability%negative)//' negative eigenvalues of the foils'' stiffness; 1 mode grows (unstable'
+    if (stability%growing > 1) words = text(stability%negative)// &
+      ' negative eigenvalues of the foils'' stiffness; '//text(stability%growing)//' modes grow (unstable'
     if (stability%nearly_neutral) words = words//', one nearly neutral'
     words = words//') while the shaft is held; nearest to a change: ('// &
             text(real(stability%nearest, wp), 3)

@@ -2,9 +2,11 @@
 !> Whether an equilibrium of the foils is stable while the shaft is held.
 !>
 !> The foil's stiffness with the film eliminated, \( K \), is not symmetric: film and sliding friction
-!> see to that. So which modes grow depends on what resists motion. Here that is a damping of the top
-!> foil's motion towards the shaft, the same all over its area, as the gas that has to leave the gap
-!> gives it; nothing else has any. With \( M \) the film nodes' shares of the area,
+!> see to that. How many of its eigenvalues are negative is one measure; it weighs displacements and
+!> rotations of all nodes alike, in SI units. Which modes grow depends on what resists motion. Here
+!> that is a damping of the top foil's motion towards the shaft, the same all over its area, as the gas
+!> that has to leave the gap gives it; nothing else has any. With \( M \) the film nodes' shares of the
+!> area,
 !>
 !> $$ K u = \lambda \frac{p_a}{C} M u, $$
 !>
@@ -38,7 +40,8 @@ module gfb_stability
   !> How the foils stand.
   type, public :: stability_type
     logical :: found = .false.          !! the modes were
-    integer :: growing = 0              !! eigenvalues with negative real part
+    integer :: negative = 0             !! eigenvalues of K with negative real part
+    integer :: growing = 0              !! eigenvalues lambda with negative real part
     complex(wp) :: nearest = 0.0_wp     !! lambda nearest to a change, its real part the smallest [1]
     logical :: nearly_neutral = .false. !! it is next to none
     integer :: factorizations = 0       !! spent
@@ -55,6 +58,7 @@ contains
     type(stability_type), intent(out) :: stability
 
     type(operating_point_type) :: point
+    type(stability_type) :: plain
     logical :: held
     Mat :: stiffness
     Vec :: damping
@@ -72,6 +76,11 @@ contains
     PetscCallA(VecDuplicate(bearing%state, damping, ierr))
     call measure_damping(bearing, damping)
     call find_growth(stiffness, damping, bearing%dense_rows, stability)
+    call bearing%foil_unit(damping)
+    call find_growth(stiffness, damping, bearing%dense_rows, plain)
+    stability%negative = plain%growing
+    stability%found = stability%found .and. plain%found
+    stability%factorizations = stability%factorizations + plain%factorizations
     PetscCallA(VecDestroy(damping, ierr))
     PetscCallA(MatDestroy(stiffness, ierr))
   end subroutine find_stability

@@ -67,6 +67,7 @@ module gfb_bearing_system
     procedure :: edge_lift
     procedure :: edge_direction
     procedure :: contact_direction
+    procedure :: foil_unit
     procedure :: reaction
     procedure :: apply_point
     procedure :: destroy => destroy_bearing
@@ -446,6 +447,20 @@ contains
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
     call self%exchange%add(self%edge%lift_rates(self%local_size())*self%unknown_scale/self%film%clearance, direction)
   end subroutine edge_direction
+
+  !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
+  !> zero for all other unknowns.
+  subroutine foil_unit(self, diagonal)
+    class(bearing_system_type), intent(in) :: self
+    Vec, intent(in) :: diagonal
+    real(wp) :: value(self%local_size())
+
+    value = 0.0_wp
+    associate (first => self%foil%first + 1, last => self%foil%first + self%foil%local_unknowns())
+      value(first:last) = self%unknown_scale(first:last)/self%equation_scale(first:last)
+    end associate
+    call self%exchange%put(value, diagonal)
+  end subroutine foil_unit
 
   !> Which contacts open or close first on the way from the present state to another.
   subroutine contact_direction(self, other, direction, way, distance, closes)
