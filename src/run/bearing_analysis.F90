@@ -30,6 +30,7 @@ module gfb_bearing_analysis
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
   use gfb_answer_judgement, only: judge_answer
+  use gfb_tilt_response, only: begin_tilt, measure_tilt, summary_quantities, show_tilt_response
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name, sweep_name, sweep_unit
   use gfb_fold_sweep, only: sweep_round_folds
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -77,8 +78,10 @@ contains
     answer = bearing_answer(bearing)
     cost = cost_of(bearing, newton, start_time)
     summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-                                 bearing%force_scale), foil_quantities(bearing), record%judged, cost_quantities(cost)]
+                                 bearing%force_scale), summary_quantities(record%tilted), foil_quantities(bearing), &
+               record%judged, cost_quantities(cost)]
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
+    call show_tilt_response(log, record%tilted)
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
                        'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg''')
@@ -135,7 +138,7 @@ contains
     if (report%converged .and. any(operation%lift_given)) call seek_branch(scene, bearing, newton)
     record%begun = wall_time()
     converged = report%converged
-    if (.not. converged) call explain(log, scene, bearing, report)
+    if (.not. converged) call explain(log, scene, bearing, report, .false.)
     if (.not. scene%sweep%present) then
       if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
       call add_row(scene, bearing, newton, converged, record)
@@ -145,7 +148,7 @@ contains
     if (converged .and. scene%sweep%hold_position) then
       if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first way the foils went
       call hold_shaft(bearing, log)
-      path%touch_down_gap = 0.0_wp
+      call begin_tilt(scene, bearing, newton, record%tilted)
     else if (converged) then
       call end_point(scene, log, 1, bearing, newton, record)
     end if
@@ -205,6 +208,7 @@ contains
     type(newton_type), intent(inout) :: newton
     type(bearing_record_type), intent(inout) :: record
 
+    call measure_tilt(scene, scene%sweep%values(point), bearing, newton, record%tilted)
     call judge_answer(scene, log, bearing, newton, record%judged)
     if (scene%sweep%turn_folds) then
       call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point), .false.)
@@ -246,19 +250,25 @@ contains
     type(path_report_type), intent(in) :: report
     type(bearing_record_type), intent(inout) :: record
 
-    call explain(log, scene, bearing, report)
+    call explain(log, scene, bearing, report, bearing%held)
     record%judged = record%judged(:0)
   end subroutine stop_short
 
   !> Says why there is no answer, and how far the way led.
-  subroutine explain(log, scene, bearing, report)
+  subroutine explain(log, scene, bearing, report, held)
     type(run_log_type), intent(in) :: log
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing
     type(path_report_type), intent(in) :: report
+    logical, intent(in) :: held !! the shaft was, at an equilibrium
 
     associate (point => report%reached, force => bearing%reaction())
-      if (scene%general%analysis == analysis_equilibrium) then
+      if (held) then
+        call log%line('no answer found with the shaft held: '//report%reason)
+        call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)// &
+                      ') rad, film force ('//text(force(1), 5)//', '//text(force(2), 5)//') N, smallest gap '// &
+                      text(bearing%smallest_gap()*1.0e6_wp, 3)//' um')
+      else if (scene%general%analysis == analysis_equilibrium) then
         call log%line('no equilibrium found: '//report%reason)
         call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &

@@ -13,6 +13,7 @@ module gfb_bearing_record
   use gfb_bearing_summary, only: answer_quantities, count_quantities
   use gfb_contact_output, only: contact_record_type
   use gfb_foil_output, only: record_foil_contacts
+  use gfb_tilt_response, only: tilt_response_type, row_quantities
   implicit none (type, external)
   private
   public :: add_row, analysis_name, sweep_name, sweep_unit
@@ -22,6 +23,7 @@ module gfb_bearing_record
     type(history_row_type), allocatable :: history(:)
     type(contact_record_type) :: contacts
     type(quantity_type), allocatable :: judged(:) !! what else is known of the last answer
+    type(tilt_response_type) :: tilted
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
   end type bearing_record_type
 
@@ -41,6 +43,7 @@ contains
 
     row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
                                      bearing%film%clearance, bearing%force_scale)
+    row%quantity = [row%quantity, row_quantities(record%tilted)]
     if (allocated(record%judged)) row%quantity = [row%quantity, record%judged]
     row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
     if (present(branch)) row%quantity = [count_quantity('branch', branch, 'number of the equilibrium'), row%quantity]

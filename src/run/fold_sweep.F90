@@ -13,6 +13,7 @@ module gfb_fold_sweep
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
   use gfb_answer_judgement, only: judge_answer
+  use gfb_tilt_response, only: measure_tilt
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   implicit none (type)
   private
@@ -110,6 +111,7 @@ contains
         end if
         way%kept = k
         way%kept_heading = way%arc%heading
+        call measure_tilt(scene, scene%sweep%values(k), bearing, newton, record%tilted)
         call judge_answer(scene, log, bearing, newton, record%judged)
         call add_row(scene, bearing, newton, .true., record, scene%sweep%values(k), .false.)
         call log%line('on the branch: '//value_text(scene, way%place(k)))
@@ -136,6 +138,7 @@ contains
 
     call way%arc%to_turn()
     fold = way%arc%place_before
+    call measure_tilt(scene, value_at(scene, fold), bearing, newton, record%tilted)
     call judge_answer(scene, log, bearing, newton, record%judged)
     call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
     way%kept = 0

@@ -1,0 +1,210 @@
+!> What a sweep of tilt tells beside the answers: angular stiffness, and where the shaft is held.
+module gfb_tilt_response
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, number_quantity
+  use gfb_scene, only: scene_type
+  use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type
+  use gfb_angular_stiffness, only: angular_stiffness
+  implicit none (type, external)
+  private
+  public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response
+
+  character(len=1), parameter :: axes(2) = ['x', 'y']
+
+  !> Torques over tilts along the sweep.
+  type, public :: tilt_response_type
+    logical :: measured = .false.       !! there is a slope
+    integer :: axis = 0                 !! that the sweep tilts about: 1 is x, 2 is y, 0 none
+    real(wp) :: tilt = 0.0_wp           !! about it, at the last point [rad]
+    real(wp) :: slope(2, 2) = 0.0_wp    !! torque about x, y by tilt about x, y, there [N m/rad]
+    real(wp) :: first_slope(2, 2) = 0.0_wp !! where the sweep begins [N m/rad]
+    logical :: has_secant = .false.     !! the torque without tilt is known
+    real(wp) :: untilted(2) = 0.0_wp    !! it [N m]
+    real(wp) :: secant(2) = 0.0_wp      !! torque less that, over the tilt, there [N m/rad]
+    logical :: held = .false.           !! the shaft is; otherwise the load
+    logical :: rubs = .false.           !! there are contacts
+    logical :: from_equilibrium = .false. !! the shaft was let find its place first
+    type(bearing_answer_type) :: equilibrium !! there
+  end type tilt_response_type
+
+contains
+
+  !> At the equilibrium at which the shaft is held, before the sweep tilts it; nothing where it
+  !> tilts nothing.
+  subroutine begin_tilt(scene, bearing, newton, response)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(tilt_response_type), intent(inout) :: response
+
+    response%axis = tilt_axis(scene%sweep)
+    if (response%axis == 0) return
+    response%from_equilibrium = .true.
+    response%equilibrium = bearing_answer(bearing)
+    call measure(scene%operation%tilt, bearing, newton, response)
+  end subroutine begin_tilt
+
+  !> At a sweep's point; nothing where the sweep tilts nothing.
+  subroutine measure_tilt(scene, value, bearing, newton, response)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: value !! of what the sweep changes
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(tilt_response_type), intent(inout) :: response
+    real(wp) :: tilt(2)
+
+    response%axis = tilt_axis(scene%sweep)
+    if (response%axis == 0) return
+    tilt = scene%operation%tilt
+    tilt(response%axis) = value
+    call measure(tilt, bearing, newton, response)
+  end subroutine measure_tilt
+
+  !> Slope and secant at the present state.
+  subroutine measure(tilt, bearing, newton, response)
+    real(wp), intent(in) :: tilt(2) !! of the state [rad]
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(tilt_response_type), intent(inout) :: response
+    real(wp) :: force(4)
+
+    call angular_stiffness(bearing, newton, response%slope)
+    force = bearing%reaction()
+    response%held = bearing%held .or. .not. bearing%floats
+    response%rubs = bearing%foil%has_elastic
+    response%tilt = tilt(response%axis)
+    if (.not. response%measured) then
+      response%first_slope = response%slope
+      call find_untilted(tilt, force(3:4), response)
+    end if
+    response%measured = .true.
+    if (abs(response%tilt) > 0.0_wp) then
+      response%secant = (force(3:4) - response%untilted)/response%tilt
+    else
+      response%secant = response%slope(:, response%axis)
+    end if
+  end subroutine measure
+
+  !> Torque without tilt: that of the sweep's first state where that is not tilted about the swept
+  !> axis; none, by symmetry about z = 0, where nothing else is tilted; otherwise not known.
+  pure subroutine find_untilted(tilt, torque, response)
+    real(wp), intent(in) :: tilt(2), torque(2) !! of the first state [rad], [N m]
+    type(tilt_response_type), intent(inout) :: response
+
+    if (abs(tilt(response%axis)) <= 0.0_wp) response%untilted = torque
+    response%has_secant = any(abs(tilt([response%axis, 3 - response%axis])) <= 0.0_wp)
+  end subroutine find_untilted
+
+  !> Axis that a sweep tilts about, 0 for none.
+  pure function tilt_axis(sweep) result(axis)
+    type(sweep_case_type), intent(in) :: sweep
+    integer :: axis
+
+    axis = 0
+    if (.not. sweep%present) return
+    if (sweep%parameter == sweep_tilt_x) axis = 1
+    if (sweep%parameter == sweep_tilt_y) axis = 2
+  end function tilt_axis
+
+  !> What a point adds to its row of the history.
+  function row_quantities(response) result(list)
+    type(tilt_response_type), intent(in) :: response
+    type(quantity_type), allocatable :: list(:)
+    integer :: i
+
+    allocate (list(0))
+    if (.not. response%measured) return
+    list = slope_quantities(response, response%slope, 'at this point')
+    if (.not. response%has_secant) return
+    do i = 1, 2
+      list = [list, number_quantity('secant_stiffness_'//axes(i), response%secant(i), 'N m/rad', &
+        'torque_'//axes(i)//' less that at tilt_'//axes(response%axis)//' = 0, over tilt_'// &
+        axes(response%axis)//'; the slope where that is zero')]
+    end do
+  end function row_quantities
+
+  !> What the sweep adds to the summary: the slope where it begins, and where the shaft is held.
+  function summary_quantities(response) result(list)
+    type(tilt_response_type), intent(in) :: response
+    type(quantity_type), allocatable :: list(:)
+    character(len=*), parameter :: meaning = ' in the equilibrium at which the shaft is held'
+    integer :: i
+
+    allocate (list(0))
+    if (.not. response%measured) return
+    if (.not. response%from_equilibrium) then
+      list = slope_quantities(response, response%first_slope, 'at the sweep''s first point')
+      return
+    end if
+    list = slope_quantities(response, response%first_slope, meaning(2:))
+    associate (there => response%equilibrium)
+      do i = 1, 2
+        list = [list, number_quantity('held_force_'//axes(i), there%force(i), 'N', &
+                                      'film force on the sleeve'//meaning)]
+      end do
+      if (.not. there%has_foils) return
+      list = [list, number_quantity('held_leading_edge_lift', there%leading_edge_lift(1), 'm', &
+                                    'leading_edge_lift'//meaning), &
+              number_quantity('held_leading_edge_lift_edge', there%leading_edge_lift(2), 'm', &
+                              'leading_edge_lift_edge'//meaning), &
+              number_quantity('held_lifted_length', there%lifted_length, '1', &
+                              'lifted_length'//meaning)]
+    end associate
+  end function summary_quantities
+
+  !> Four slopes with their names: first letter the torque, second the tilt.
+  function slope_quantities(response, slope, place) result(list)
+    type(tilt_response_type), intent(in) :: response
+    real(wp), intent(in) :: slope(2, 2)   !! [N m/rad]
+    character(len=*), intent(in) :: place !! where on the sweep
+    type(quantity_type) :: list(4)
+    character(len=:), allocatable :: kept
+    integer :: torque, tilt
+
+    kept = '; the load is kept'
+    if (response%held) kept = '; the shaft is held'
+    if (response%rubs) kept = kept//', contact and friction linearised there'
+    do torque = 1, 2
+      do tilt = 1, 2
+        list(2*(torque - 1) + tilt) = number_quantity( &
+          'angular_stiffness_'//axes(torque)//axes(tilt), slope(torque, tilt), 'N m/rad', &
+          'slope of torque_'//axes(torque)//' over tilt_'//axes(tilt)//', '//place//kept)
+      end do
+    end do
+  end function slope_quantities
+
+  !> Lines of the closing block.
+  subroutine show_tilt_response(log, response)
+    type(run_log_type), intent(in) :: log
+    type(tilt_response_type), intent(in) :: response
+    character(len=:), allocatable :: place
+
+    if (.not. response%measured) return
+    place = 'at the first point, '
+    if (response%from_equilibrium) place = 'at the equilibrium, '
+    call log%line('angular stiffness xx, xy, yx, yy '//four(transpose(response%first_slope))// &
+                  ' N m/rad '//place//trim(merge('shaft held', 'load kept ', response%held)))
+    if (.not. response%has_secant) return
+    call log%line('secant stiffness x, y '//two(response%secant)//' N m/rad at tilt_'// &
+                  axes(response%axis)//' = '//text(response%tilt, 4)//' rad')
+  end subroutine show_tilt_response
+
+  !> Two numbers with a comma.
+  pure function two(number) result(words)
+    real(wp), intent(in) :: number(2)
+    character(len=:), allocatable :: words
+    words = text(number(1), 5)//', '//text(number(2), 5)
+  end function two
+
+  !> Four numbers with commas.
+  pure function four(number) result(words)
+    real(wp), intent(in) :: number(2, 2)
+    character(len=:), allocatable :: words
+    words = two(number(:, 1))//', '//two(number(:, 2))
+  end function four
+end module gfb_tilt_response

@@ -1,0 +1,143 @@
+#include "gfb_petsc.h"
+!> How the film's torque follows a tilt, at an answer.
+!>
+!> Along a tilt \( t \) the bearing's equations are \( f(x, t) = 0 \). So \( f_x x' = -f_t \), and
+!> the torque changes by \( w \cdot p' \), where \( p' \) are the pressures in \( x' \): the weights
+!> \( w \) of [Gu2020] eq. 16 do not depend on the tilt. What the bearing keeps is kept: the shaft's
+!> position where it is held, the load where it floats. Contacts stay on the tangents of their laws.
+module gfb_angular_stiffness
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_film_load, only: film_forces
+  use gfb_operating_point, only: operating_point_type
+  use gfb_shell_foil, only: shell_foil_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_direct_solver, only: use_factors
+  implicit none (type)
+  private
+  public :: angular_stiffness
+
+  !> Change of the gap in the differences after the tilt, over the smallest gap [1]. The film's
+  !> residual is a cubic in the gap, for which they are exact; with SUPG their error goes with the
+  !> fourth power of this.
+  real(wp), parameter :: reach = 1.0e-3_wp
+
+contains
+
+  !> Derivatives of the film's torque on the shaft by the tilt, at the bearing's present state, that
+  !> must be an answer over the whole width; not a number where the matrix cannot be factorized. Costs
+  !> one factorization.
+  subroutine angular_stiffness(bearing, newton, stiffness)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton !! its factorizations are counted
+    real(wp), intent(out) :: stiffness(2, 2)   !! torque about x, y by tilt about x, y [N m/rad]
+
+    KSP :: linear
+    Vec :: change, response
+    KSPConvergedReason :: reason
+    PetscErrorCode :: ierr
+    integer :: axis
+    logical :: moved
+
+    stiffness = ieee_value(1.0_wp, ieee_quiet_nan)
+    call bearing%settle(bearing%state, moved)
+    call linearise_exactly(bearing)
+    newton%factorizations = newton%factorizations + 1
+    call create_solver(bearing, linear)
+    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    PetscCallA(VecDuplicate(bearing%state, response, ierr))
+    do axis = 1, 2
+      call differentiate(bearing, axis, change)
+      PetscCallA(KSPSolve(linear, change, response, ierr))
+      PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
+      if (GFB_REASON(reason) > 0) stiffness(:, axis) = -torque_of(bearing, response)
+    end do
+    PetscCallA(VecDestroy(response, ierr))
+    PetscCallA(VecDestroy(change, ierr))
+    PetscCallA(KSPDestroy(linear, ierr))
+  end subroutine angular_stiffness
+
+  !> The bearing's matrix at its state, without what is lent to contacts that are open: that keeps
+  !> Newton's steps short, but is no derivative. The foils are held at an edge: it is regular.
+  subroutine linearise_exactly(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp) :: lent
+
+    select type (foil => bearing%foil)
+    class is (shell_foil_type)
+      lent = foil%contacts%floor_normal
+      foil%contacts%floor_normal = 0.0_wp
+      call bearing%linearise(bearing%state)
+      foil%contacts%floor_normal = lent
+    class default
+      call bearing%linearise(bearing%state)
+    end select
+  end subroutine linearise_exactly
+
+  !> A direct solver of the bearing's matrix, with the orderings of Newton's method.
+  subroutine create_solver(bearing, linear)
+    type(bearing_system_type), intent(in) :: bearing
+    KSP, intent(out) :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(KSPCreate(PETSC_COMM_WORLD, linear, ierr))
+    PetscCallA(KSPSetOptionsPrefix(linear, 'bearing_', ierr))
+    PetscCallA(KSPSetOperators(linear, bearing%jacobian, bearing%jacobian, ierr))
+    call use_factors(linear, 'bearing_', .false., bearing%dense_rows)
+    PetscCallA(KSPSetFromOptions(linear, ierr))
+  end subroutine create_solver
+
+  !> Derivative of the residual by a tilt at the present state: differences over two and four steps.
+  subroutine differentiate(bearing, axis, change)
+    type(bearing_system_type), intent(inout) :: bearing
+    integer, intent(in) :: axis !! 1 about x, 2 about y
+    Vec, intent(in) :: change   !! per radian
+
+    integer, parameter :: steps(4) = [-2, -1, 1, 2]
+    real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
+    type(operating_point_type) :: here
+    Vec :: residual
+    PetscErrorCode :: ierr
+    real(wp) :: step
+    logical :: valid
+    integer :: i
+
+    here = bearing%point
+    associate (z => bearing%whole%row_axial)
+      step = reach*bearing%smallest_gap()/max(z(size(z)), -z(1))
+    end associate
+    PetscCallA(VecDuplicate(change, residual, ierr))
+    PetscCallA(VecSet(change, 0.0_wp, ierr))
+    do i = 1, size(steps)
+      bearing%point%tilt(axis) = here%tilt(axis) + real(steps(i), wp)*step
+      call bearing%evaluate(bearing%state, residual, valid)
+      PetscCallA(VecAXPY(change, weight(i)/step, residual, ierr))
+    end do
+    bearing%point = here
+    PetscCallA(VecDestroy(residual, ierr))
+  end subroutine differentiate
+
+  !> Torque of the pressures in a change of the state [N m].
+  function torque_of(bearing, response) result(torque)
+    type(bearing_system_type), intent(inout) :: bearing !! its state is kept
+    Vec, intent(in) :: response
+    real(wp) :: torque(2)
+    Vec :: state
+    real(wp) :: unknown(bearing%local_size()), force(film_forces)
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(bearing%state, state, ierr))
+    PetscCallA(VecCopy(bearing%state, state, ierr))
+    PetscCallA(VecCopy(response, bearing%state, ierr))
+    call bearing%get_unknowns(unknown)
+    PetscCallA(VecCopy(state, bearing%state, ierr))
+    PetscCallA(VecDestroy(state, ierr))
+    associate (film => bearing%film)
+      force = sum_over_ranks(film%force(film%ambient_pressure + unknown(:size(film%angle))))
+    end associate
+    torque = force(3:4)
+  end function torque_of
+end module gfb_angular_stiffness
