@@ -12,7 +12,7 @@ import numpy
 
 GFB = os.environ.get("GFB", "gfb")
 MPIEXEC = os.environ.get("GFB_MPIEXEC", "mpiexec")
-SECONDS = 240  # no run here takes that long
+SECONDS = 900  # no run here takes that long
 
 # Names of the summary that say what the answer cost, not what it is.
 COST = {"unknowns", "newton_iterations", "factorizations", "wall_time", "peak_memory"}
@@ -149,6 +149,8 @@ def run_file(path, folder, ranks=1, options=(), status=0):
     if done.returncode != status:
         sys.exit(f"{' '.join(command)}: status {done.returncode}, not {status}\n{log[-3000:]}\n{complaint[-3000:]}")
     stem = pathlib.Path(folder)/pathlib.Path(path).stem
+    if "--branches" in options:
+        stem = stem.with_name(stem.name + ".branches")
     if status == 2:
         stem = stem.with_name(stem.name + ".unconverged")
     values, units = {}, {}

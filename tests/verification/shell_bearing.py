@@ -35,7 +35,7 @@ SIZES = natural_sizes(BEARING) | {name: BEARING.clearance for name in (
     "leading_edge_lift", "leading_edge_lift_edge", "trailing_edge_lift", "trailing_edge_lift_edge")}
 
 
-def solve(folder, name, ranks=1, status=0, bearing=BEARING, **groups):
+def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), **groups):
     """Writes a case of the reference bearing with changed groups, and runs it; what is None is left out."""
     content = {
         "scene": {"analysis": "equilibrium"},
@@ -60,7 +60,7 @@ def solve(folder, name, ranks=1, status=0, bearing=BEARING, **groups):
             text += f"&{group}\n{lines}/\n"
     path = pathlib.Path(folder)/f"{name}.nml"
     path.write_text(text, encoding="utf-8")
-    return run_file(path, folder, ranks=ranks, options=["--quiet"], status=status)
+    return run_file(path, folder, ranks=ranks, options=["--quiet", *options], status=status)
 
 
 def held(eccentricity, **operation):
