@@ -65,10 +65,9 @@ contains
       words = 'the eigenvalues of the foils were not found'
       return
     end if
-    words = text(stability%negative)//' negative eigenvalues of the foils'' stiffness; no mode grows (stable'
-    if (stability%growing == 1) words = text(stability%negative)//' negative eigenvalues of the foils'' stiffness; 1 mode grows (unstable'
-    if (stability%growing > 1) words = text(stability%negative)// &
-      ' negative eigenvalues of the foils'' stiffness; '//text(stability%growing)//' modes grow (unstable'
+    words = text(stability%negative)//' negative eigenvalue(s) of the foils'' stiffness, '// &
+      text(stability%growing)//' growing mode(s) ('// &
+      trim(merge('stable  ', 'unstable', stability%negative + stability%growing == 0))
     if (stability%nearly_neutral) words = words//', one nearly neutral'
     words = words//') while the shaft is held; nearest to a change: ('// &
             text(real(stability%nearest, wp), 3)

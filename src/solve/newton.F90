@@ -60,6 +60,7 @@ module gfb_newton
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
     logical, private :: ready = .false.      !! they belong to an answer, and no solve has begun since
+    integer, private :: filled = 0           !! times that the matrix had been filled then
     type(old_factors_type), private :: old   !! what GMRES has cost with the present factors
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
@@ -125,7 +126,7 @@ contains
     PetscErrorCode :: ierr
     logical :: moved
 
-    newton%keep = newton%ready
+    newton%keep = newton%ready .and. newton%filled == newton%system%times_filled
     newton%ready = .false.
     newton%impossible = .false.
     newton%step = huge(1.0_wp)
@@ -166,6 +167,7 @@ contains
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     call factor_matrix(linear, newton%system%jacobian, sign_of_determinant)
     newton%ready = sign_of_determinant /= 0
+    newton%filled = newton%system%times_filled
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
   end subroutine find_determinant_sign
 

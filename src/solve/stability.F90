@@ -27,7 +27,7 @@ module gfb_stability
   public :: find_stability, find_growth
 
   character(len=*), parameter :: prefix = 'stability_' !! of PETSc's options
-  real(wp), parameter :: neutral = 0.01_wp      !! a real part no larger is next to none [1]
+  real(wp), parameter :: neutral = 0.01_wp      !! next to none: p_a/100 moves the mode by all of C [1]
   real(wp), parameter :: first_shift = 1.0_wp   !! of the eigenvalues, their size where the film is stiff
   real(wp), parameter :: safe_share = 0.5_wp    !! of the shift, that no mode may grow beyond
   real(wp), parameter :: tolerance = 1.0e-11_wp !! of the eigenvalues, relative to the shift
@@ -242,7 +242,7 @@ contains
       allocate (value(found))
       do i = 1, found
         PetscCallA(EPSGetEigenvalue(solver, i - 1, real_part, imaginary_part, ierr))
-        value(i) = 1.0_wp/cmplx(real_part, imaginary_part, wp) - shift
+        value(i) = inverse_of(real_part, imaginary_part) - shift
       end do
       if (any(real(value) >= 0.0_wp) .or. wanted == unknowns) exit
       wanted = min(2*wanted, unknowns)
@@ -261,24 +261,23 @@ contains
     PetscErrorCode, intent(out) :: ierr
     real(wp) :: first, second
 
-    first = real_of_inverse(first_real, first_imaginary)
-    second = real_of_inverse(second_real, second_imaginary)
+    first = real(inverse_of(first_real, first_imaginary))
+    second = real(inverse_of(second_real, second_imaginary))
     order = 0
     if (first < second) order = -1
     if (first > second) order = 1
     ierr = 0
   end subroutine compare_values
 
-  !> Real part of a complex number's inverse.
-  pure function real_of_inverse(real_part, imaginary_part) result(inverse)
+  !> Inverse of a complex number, huge where it is nothing.
+  pure function inverse_of(real_part, imaginary_part) result(inverse)
     real(wp), intent(in) :: real_part, imaginary_part
-    real(wp) :: inverse
+    complex(wp) :: inverse
 
     inverse = huge(1.0_wp)
-    if (hypot(real_part, imaginary_part) > sqrt(tiny(1.0_wp))) then
-      inverse = real_part/(real_part**2 + imaginary_part**2)
-    end if
-  end function real_of_inverse
+    if (hypot(real_part, imaginary_part) <= sqrt(tiny(1.0_wp))) return
+    inverse = 1.0_wp/cmplx(real_part, imaginary_part, wp)
+  end function inverse_of
 
   !> Counts, and picks the eigenvalue whose mode is nearest to change its mind.
   pure subroutine judge_values(value, stability)

@@ -289,6 +289,7 @@ contains
     real(wp) :: unknown(self%local_size()), gap(size(self%mesh%mesh_node))
     PetscErrorCode :: ierr
 
+    self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale

@@ -13,6 +13,7 @@ module gfb_nonlinear_system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
     logical :: symmetric = .false.  !! the matrix is, at every state
     logical :: slow_change = .false. !! matrices differ in few entries: old factors precondition well
+    integer :: times_filled = 0     !! the matrix, by whomever
     logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
     procedure :: settle
