@@ -54,8 +54,8 @@ contains
     call keys%logical_key('hold_position', sweep%hold_position, &
                           'hold the shaft where the equilibrium at `&operation` is')
     call keys%logical_key('turn_folds', sweep%turn_folds, &
-                          'go on round the folds of the branch, where the parameter turns back, until '// &
-                          'the branch leaves the values'' range')
+                          'go on round the folds of the branch, where the parameter turns '// &
+                          'back, until the branch leaves the values'' range')
     call keys%logical_key('friction_memory', sweep%friction_memory, &
                           'points are steps of one loading: what slid stays slid; '// &
                           'otherwise every point is loaded from rest')

@@ -46,9 +46,11 @@ contains
     type(stability_type), intent(in) :: stability
     type(quantity_type) :: list(3)
 
-    list(1) = count_quantity('stability', stability%negative, 'negative eigenvalues of the foils'' '// &
+    list(1) = count_quantity('stability', stability%negative, &
+                             'negative eigenvalues of the foils'' '// &
                              'stiffness with the film eliminated, shaft held; 0: stable')
-    list(2) = count_quantity('growing_modes', stability%growing, 'modes that grow where the gas '// &
+    list(2) = count_quantity('growing_modes', stability%growing, &
+                             'modes that grow where the gas '// &
                              'resists the top foil''s motion, shaft held')
     list(3) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
                               'stiffness over p_a/C of the mode nearest to a change; negative: '// &

@@ -18,6 +18,7 @@ module gfb_bearing_analysis
   use gfb_operating_point, only: operating_point_type
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_lift
   use gfb_bearing_builder, only: bearing_plan_type, operating_point
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
@@ -187,7 +188,7 @@ contains
     search%given = scene%operation%lift_given
     search%wanted = scene%operation%leading_edge_lift
     search%close_enough = same_lift*bearing%film%clearance
-    lift = bearing%edge_lift()
+    lift = edge_lift(bearing)
     mean = sum(search%wanted, mask=search%given)/real(count(search%given), wp)
     search%lifts = [min(lift, mean), max(lift, mean)]
     search%lifts = search%lifts + lift_margin*(bearing%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]

@@ -46,17 +46,22 @@ contains
     row%quantity = [row%quantity, row_quantities(record%tilted)]
     if (allocated(record%judged)) row%quantity = [row%quantity, record%judged]
     row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
-    if (present(branch)) row%quantity = [count_quantity('branch', branch, 'number of the equilibrium'), row%quantity]
-    if (present(fold)) then
-      row%quantity = [truth_quantity('fold', fold, 'what the sweep changes turns back there'), row%quantity]
+    if (present(branch)) then
+      row%quantity = [count_quantity('branch', branch, 'number of the equilibrium'), row%quantity]
     end if
-    if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then ! the answer has the eccentricities anyway
+    if (present(fold)) then
+      row%quantity = [truth_quantity('fold', fold, 'what the sweep changes turns back there'), &
+                      row%quantity]
+    end if
+    ! The answer has the eccentricities anyway.
+    if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then
       row%quantity = [number_quantity(sweep_name(scene%sweep), value, sweep_unit(scene%sweep), &
                                       'what the sweep changes'), row%quantity]
     end if
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
-    call record_foil_contacts(bearing, size(record%history), max(1, size(scene%sweep%values)), record%contacts)
+    call record_foil_contacts(bearing, size(record%history), max(1, size(scene%sweep%values)), &
+                              record%contacts)
   end subroutine add_row
 
   !> The word for the scene's analysis.
@@ -72,8 +77,9 @@ contains
   pure function sweep_name(sweep) result(name)
     type(sweep_case_type), intent(in) :: sweep
     character(len=:), allocatable :: name
-    character(len=14), parameter :: names(6) = [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', &
-                                                'tilt_y', 'eccentricity_x', 'eccentricity_y']
+    character(len=14), parameter :: names(6) = [character(len=14) :: &
+                                                'load', 'speed_rpm', 'tilt_x', 'tilt_y', &
+                                                'eccentricity_x', 'eccentricity_y']
     name = trim(names(sweep%parameter))
   end function sweep_name
 

@@ -19,8 +19,8 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=10), parameter :: options(8) = [character(len=10) :: '--branches', '--check', '--output', &
-    '--help', &
+  character(len=10), parameter :: options(8) = [character(len=10) :: &
+    '--branches', '--check', '--output', '--help', &
                                                '--version', '--keys', '--quiet', '--petsc']
 
 contains

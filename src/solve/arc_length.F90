@@ -14,6 +14,7 @@ module gfb_arc_length
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: contact_direction
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, find_determinant_sign, &
                         solve_with_factors, destroy_newton
   use gfb_path_system, only: path_system_type, create_path_system, destroy_path_system
@@ -217,7 +218,7 @@ contains
     PetscCallA(VecCopy(arc%bearing%state, ahead, ierr))
     PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
     place = arc%path%give()
-    call arc%bearing%contact_direction(ahead, along, arc%next_change, arc%distance, arc%closes)
+    call contact_direction(arc%bearing, ahead, along, arc%next_change, arc%distance, arc%closes)
     call arc%path%join(along, 0.0_wp, arc%coming)
     PetscCallA(VecDestroy(along, ierr))
     PetscCallA(VecDestroy(ahead, ierr))

@@ -12,6 +12,7 @@ module gfb_branch_search
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_lift
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
@@ -27,6 +28,7 @@ module gfb_branch_search
   real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
   real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
+  real(wp), parameter :: home_range = 0.35_wp   !! change of the mean lift when a string is let go, over the clearance [1]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   !> An equilibrium.
@@ -93,7 +95,7 @@ contains
     real(wp) :: sense
     PetscErrorCode :: ierr
 
-    sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - bearing%edge_lift())
+    sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - edge_lift(bearing))
     PetscCallA(VecDuplicate(bearing%state, start, ierr))
     PetscCallA(VecCopy(bearing%state, start, ierr))
     call pull_edge(bearing, newton, point, free, sense, search)
@@ -125,18 +127,31 @@ contains
     moved = .true.
     do while (moved .and. arc%steps < most_steps .and. .not. search%is_found())
       call advance_arc(arc, moved)
-      lift = bearing%edge_lift()
+      lift = edge_lift(bearing)
       call newton%log%detail('free edge at '//text(lift*micrometres, 4)//' um, force '// &
                              text(bearing%point%edge_pull, 4)//' N')
       if (modulo(arc%steps, steps_a_line) == 0) call newton%log%line('  '//text(arc%steps)// &
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
+      if (.not. worth_it(search, lift, bearing%film%clearance)) cycle
       call come_home(arc, bearing, newton, point, free, here)
       if (here) call search%collect(bearing, newton)
     end do
     call end_arc(arc, newton)
   end subroutine pull_edge
+
+  !> Whether an edge that is lifted so much in the mean may come home to the lift asked for.
+  pure function worth_it(search, lift, clearance) result(worth)
+    type(branch_search_type), intent(in) :: search
+    real(wp), intent(in) :: lift, clearance !! [m]
+    logical :: worth
+
+    worth = .not. any(search%given)
+    if (.not. worth) then
+      worth = abs(lift - sum(search%wanted, mask=search%given)/real(count(search%given), wp)) <= home_range*clearance
+    end if
+  end function worth_it
 
   !> Newton's method without the force, from the line between the two answers beside that place; then
   !> without the string.
@@ -169,7 +184,7 @@ contains
       if (decade > decades) looser = free
       call lead_to(bearing, newton, looser, here)
       call newton%log%detail('string of '//text(looser%edge_tension, 4)//' N, free edge at '// &
-                             text(bearing%edge_lift()*micrometres, 4)//' um')
+                             text(edge_lift(bearing)*micrometres, 4)//' um')
     end do
   end subroutine let_string_go
 

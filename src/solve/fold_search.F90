@@ -9,6 +9,7 @@ module gfb_fold_search
   use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_direction
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
   use gfb_path_system, only: path_system_type, create_path_system, destroy_path_system
   implicit none (type)
@@ -119,7 +120,7 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, edge, ierr))
-    call bearing%edge_direction(edge)
+    call edge_direction(bearing, edge)
     PetscCallA(VecDot(edge, bearing%state, is, ierr))
     was = is
     if (known) then

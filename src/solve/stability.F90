@@ -21,6 +21,7 @@ module gfb_stability
   use gfb_film_geometry, only: film_shape
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: foil_unit
   use gfb_direct_solver, only: use_factors, factor_matrix
   implicit none (type)
   private
@@ -76,7 +77,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, damping, ierr))
     call measure_damping(bearing, damping)
     call find_growth(stiffness, damping, bearing%dense_rows, stability)
-    call bearing%foil_unit(damping)
+    call foil_unit(bearing, damping)
     call find_growth(stiffness, damping, bearing%dense_rows, plain)
     stability%negative = plain%growing
     stability%found = stability%found .and. plain%found

@@ -43,11 +43,11 @@ module gfb_bearing_system
     integer :: first_shaft = 0             !! local unknowns before e_x
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp) :: force_scale = 1.0_wp       !! size of a force [N]
-    real(wp), allocatable, private :: unknown_scale(:)  !! of the local unknowns, in SI
-    real(wp), allocatable, private :: equation_scale(:) !! of the local equations, in SI
+    real(wp), allocatable :: unknown_scale(:)  !! of the local unknowns, in SI
+    real(wp), allocatable :: equation_scale(:) !! of the local equations, in SI
     Mat, private :: constant    !! what of the matrix never changes, in SI
     Vec, private :: left, right !! sizes of equations, inverted, and of unknowns
-    type(local_exchange_type), private :: exchange
+    type(local_exchange_type) :: exchange
     type(cost_events_type), private :: events !! of PETSc's log
   contains
     procedure :: evaluate => evaluate_bearing
@@ -64,10 +64,6 @@ module gfb_bearing_system
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
     procedure :: smallest_gap
-    procedure :: edge_lift
-    procedure :: edge_direction
-    procedure :: contact_direction
-    procedure :: foil_unit
     procedure :: reaction
     procedure :: apply_point
     procedure :: destroy => destroy_bearing
@@ -427,68 +423,6 @@ contains
     depth = largest_over_ranks([-minval(self%gap(unknown))])
     gap = -depth(1)
   end function smallest_gap
-
-  !> Mean way of the top foil's free edge towards the shaft at the present state, over all ranks [m].
-  function edge_lift(self) result(lift)
-    class(bearing_system_type), intent(in) :: self
-    real(wp) :: lift
-    real(wp) :: unknown(self%local_size()), total(1)
-
-    call self%get_unknowns(unknown)
-    total = sum_over_ranks([self%edge%lift(unknown)])
-    lift = total(1)
-  end function edge_lift
-
-  !> The vector whose product with a state is that lift over the clearance.
-  subroutine edge_direction(self, direction)
-    class(bearing_system_type), intent(in) :: self
-    Vec, intent(in) :: direction
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call self%exchange%add(self%edge%lift_rates(self%local_size())*self%unknown_scale/self%film%clearance, direction)
-  end subroutine edge_direction
-
-  !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
-  !> zero for all other unknowns.
-  subroutine foil_unit(self, diagonal)
-    class(bearing_system_type), intent(in) :: self
-    Vec, intent(in) :: diagonal
-    real(wp) :: value(self%local_size())
-
-    value = 0.0_wp
-    associate (first => self%foil%first + 1, last => self%foil%first + self%foil%local_unknowns())
-      value(first:last) = self%unknown_scale(first:last)/self%equation_scale(first:last)
-    end associate
-    call self%exchange%put(value, diagonal)
-  end subroutine foil_unit
-
-  !> Which contacts open or close first on the way from the present state to another.
-  subroutine contact_direction(self, other, direction, way, distance, closes)
-    class(bearing_system_type), intent(in) :: self
-    Vec, intent(in) :: other             !! scaled state
-    Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
-    real(wp), intent(out) :: way         !! part of the way to there; huge if there is none [1]
-    real(wp), intent(out) :: distance    !! by which that product has to grow until then [1]
-    logical, intent(out) :: closes       !! one of them closes
-    real(wp) :: here(self%local_size()), ahead(self%local_size()), rate(self%local_size()), first(1), total(1)
-    PetscErrorCode :: ierr
-
-    call self%get_unknowns(here)
-    call self%exchange%get(other, ahead)
-    ahead = ahead*self%unknown_scale
-    first = -largest_over_ranks([-self%foil%next_contact_change(here, ahead)])
-    way = first(1)
-    rate = 0.0_wp
-    distance = 0.0_wp
-    closes = .false.
-    if (way < huge(way)) call self%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
-    closes = any_rank(closes)
-    total = sum_over_ranks([distance])
-    distance = total(1)/self%film%clearance
-    PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call self%exchange%add(rate*self%unknown_scale/self%film%clearance, direction)
-  end subroutine contact_direction
 
   !> Force and torque of the film at the present state, over all ranks [N], [N m].
   function reaction(self) result(force)

@@ -1,8 +1,8 @@
 !> The edge of the top foil that nothing holds, and fictitious forces on it: one that lifts it, and
 !> the tension of a string along it that keeps it straight.
 !>
-!> They lead from one equilibrium of a bearing to others: where both are zero again, the bearing is in
-!> equilibrium by itself.
+!> They lead from one equilibrium of a bearing to others: where both are zero again, the bearing is
+!> in equilibrium by itself.
 module gfb_free_edge
   use gfb_kinds, only: wp
   use gfb_film_mesh, only: film_mesh_type
@@ -66,15 +66,18 @@ contains
     type(local_mesh_type), intent(in) :: mesh
     class(foil_model_type), intent(in) :: foil
     type(free_edge_type), intent(inout) :: edge
-    integer :: element, corner, node(2), station(2), row(2), pairs, pass
+    integer :: element, corner, next, node(2), station(2), row(2), pairs, pass
 
     pairs = 0
     do pass = 1, 2
-      if (pass == 2) allocate (edge%neighbours(2, pairs), edge%pair_rate(2, pairs), edge%distance(pairs))
+      if (pass == 2) then
+        allocate (edge%neighbours(2, pairs), edge%pair_rate(2, pairs), edge%distance(pairs))
+      end if
       pairs = 0
       do element = 1, merge(size(mesh%element_nodes, 2), 0, foil%has_elastic)
         do corner = 1, size(mesh%element_nodes, 1)
-          node = mesh%element_nodes([corner, modulo(corner, size(mesh%element_nodes, 1)) + 1], element)
+          next = modulo(corner, size(mesh%element_nodes, 1)) + 1
+          node = mesh%element_nodes([corner, next], element)
           station = (mesh%mesh_node(node) - 1)/whole%rows() + 1
           row = mesh%mesh_node(node) - (station - 1)*whole%rows()
           if (station(1) /= station(2) .or. any(foil%source(node) == 0)) cycle

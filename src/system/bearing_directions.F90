@@ -1,0 +1,75 @@
+#include "gfb_petsc.h"
+!> Directions in the space of a bearing's unknowns: of the free edge, of contacts, of the foil.
+module gfb_bearing_directions
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: edge_lift, edge_direction, contact_direction, foil_unit
+
+contains
+
+  !> Mean way of the top foil's free edge towards the shaft at the present state, over all ranks [m].
+  function edge_lift(bearing) result(lift)
+    class(bearing_system_type), intent(in) :: bearing
+    real(wp) :: lift
+    real(wp) :: unknown(bearing%local_size()), total(1)
+
+    call bearing%get_unknowns(unknown)
+    total = sum_over_ranks([bearing%edge%lift(unknown)])
+    lift = total(1)
+  end function edge_lift
+
+  !> The vector whose product with a state is that lift over the clearance.
+  subroutine edge_direction(bearing, direction)
+    class(bearing_system_type), intent(in) :: bearing
+    Vec, intent(in) :: direction
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(direction, 0.0_wp, ierr))
+    call bearing%exchange%add(bearing%edge%lift_rates(bearing%local_size())*bearing%unknown_scale/bearing%film%clearance, direction)
+  end subroutine edge_direction
+
+  !> Which contacts open or close first on the way from the present state to another.
+  subroutine contact_direction(bearing, other, direction, way, distance, closes)
+    class(bearing_system_type), intent(in) :: bearing
+    Vec, intent(in) :: other             !! scaled state
+    Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
+    real(wp), intent(out) :: way         !! part of the way to there; huge if there is none [1]
+    real(wp), intent(out) :: distance    !! by which that product has to grow until then [1]
+    logical, intent(out) :: closes       !! one of them closes
+    real(wp) :: here(bearing%local_size()), ahead(bearing%local_size()), rate(bearing%local_size()), first(1), total(1)
+    PetscErrorCode :: ierr
+
+    call bearing%get_unknowns(here)
+    call bearing%exchange%get(other, ahead)
+    ahead = ahead*bearing%unknown_scale
+    first = -largest_over_ranks([-bearing%foil%next_contact_change(here, ahead)])
+    way = first(1)
+    rate = 0.0_wp
+    distance = 0.0_wp
+    closes = .false.
+    if (way < huge(way)) call bearing%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
+    closes = any_rank(closes)
+    total = sum_over_ranks([distance])
+    distance = total(1)/bearing%film%clearance
+    PetscCallA(VecSet(direction, 0.0_wp, ierr))
+    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%film%clearance, direction)
+  end subroutine contact_direction
+
+  !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
+  !> zero for all other unknowns.
+  subroutine foil_unit(bearing, diagonal)
+    class(bearing_system_type), intent(in) :: bearing
+    Vec, intent(in) :: diagonal
+    real(wp) :: value(bearing%local_size())
+
+    value = 0.0_wp
+    associate (first => bearing%foil%first + 1, last => bearing%foil%first + bearing%foil%local_unknowns())
+      value(first:last) = bearing%unknown_scale(first:last)/bearing%equation_scale(first:last)
+    end associate
+    call bearing%exchange%put(value, diagonal)
+  end subroutine foil_unit
+end module gfb_bearing_directions
