@@ -18,12 +18,10 @@ module gfb_bearing_analysis
   use gfb_operating_point, only: operating_point_type
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift
   use gfb_bearing_builder, only: bearing_plan_type, operating_point
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_branch_search, only: branch_search_type, find_branches, take_branch, destroy_branches
   use gfb_cold_start, only: start_bearing
   use gfb_partitioned, only: partitioned_type, start_partitioned, follow_partitioned, &
                              destroy_partitioned
@@ -44,8 +42,6 @@ module gfb_bearing_analysis
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
 
-  real(wp), parameter :: same_lift = 0.03_wp   !! a lift this near to the one asked for is it, over the clearance [1]
-  real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and way [1]
 
 contains
 
@@ -136,7 +132,6 @@ contains
                          newton, report, error)
     end if
     if (allocated(error)) return
-    if (report%converged .and. any(operation%lift_given)) call seek_branch(scene, bearing, newton)
     record%begun = wall_time()
     converged = report%converged
     if (.not. converged) call explain(log, scene, bearing, report, .false.)
@@ -176,29 +171,6 @@ contains
     call leave_stage()
     call destroy_partitioned(sides)
   end subroutine solve_scene
-
-  !> Goes over to the equilibrium whose leading edge is lifted as the scene asks.
-  subroutine seek_branch(scene, bearing, newton)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(branch_search_type) :: search
-    real(wp) :: lift, mean
-
-    search%given = scene%operation%lift_given
-    search%wanted = scene%operation%leading_edge_lift
-    search%close_enough = same_lift*bearing%film%clearance
-    lift = edge_lift(bearing)
-    mean = sum(search%wanted, mask=search%given)/real(count(search%given), wp)
-    search%lifts = [min(lift, mean), max(lift, mean)]
-    search%lifts = search%lifts + lift_margin*(bearing%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
-    call find_branches(bearing, newton, search)
-    call take_branch(bearing, bearing%point, search%branch(search%nearest_branch()))
-    if (.not. search%is_found()) then
-      call newton%log%line('no equilibrium was found with its leading edge lifted as asked for; the nearest is taken')
-    end if
-    call destroy_branches(search)
-  end subroutine seek_branch
 
   !> Keeps a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
   subroutine end_point(scene, log, point, bearing, newton, record)

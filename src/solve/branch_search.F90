@@ -19,7 +19,7 @@ module gfb_branch_search
   use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
   implicit none (type)
   private
-  public :: find_branches, take_branch, destroy_branches
+  public :: find_branches, seek_branch, take_branch, destroy_branches
 
   integer, parameter :: most_steps = 600        !! along one curve
   integer, parameter :: steps_a_line = 100      !! of progress
@@ -29,6 +29,8 @@ module gfb_branch_search
   real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
   real(wp), parameter :: home_range = 0.35_wp   !! change of the mean lift when a string is let go, over the clearance [1]
+  real(wp), parameter :: same_lift = 0.03_wp   !! a lift this near to the one asked for is it, over the clearance [1]
+  real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and way [1]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   !> An equilibrium.
@@ -51,6 +53,30 @@ module gfb_branch_search
   end type branch_search_type
 
 contains
+
+  !> Goes over to the equilibrium whose leading edge is lifted as asked for.
+  subroutine seek_branch(given, wanted, bearing, newton)
+    logical, intent(in) :: given(2)   !! lifts asked for at the midplane, at the bearing's ends
+    real(wp), intent(in) :: wanted(2) !! them [m]
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(branch_search_type) :: search
+    real(wp) :: lift, mean
+
+    search%given = given
+    search%wanted = wanted
+    search%close_enough = same_lift*bearing%film%clearance
+    lift = edge_lift(bearing)
+    mean = sum(search%wanted, mask=search%given)/real(count(search%given), wp)
+    search%lifts = [min(lift, mean), max(lift, mean)]
+    search%lifts = search%lifts + lift_margin*(bearing%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
+    call find_branches(bearing, newton, search)
+    call take_branch(bearing, bearing%point, search%branch(search%nearest_branch()))
+    if (.not. search%is_found()) then
+      call newton%log%line('no equilibrium was found with its leading edge lifted as asked for; the nearest is taken')
+    end if
+    call destroy_branches(search)
+  end subroutine seek_branch
 
   !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
   !> lifts have been looked at; from one that is known already it does not look again.

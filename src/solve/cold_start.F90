@@ -5,7 +5,8 @@
 !> position; from there the shaft is brought to speed at a held position, and then the load vector
 !> is moved from the film's reaction to the load asked for. A finer mesh starts from the coarser
 !> one's answer, and goes the same way itself only if that fails. Coarse meshes use SUPG, which
-!> comes home from far away at cell Peclet numbers where Galerkin's pressure becomes negative.
+!> comes home from far away at cell Peclet numbers where Galerkin's pressure becomes negative. Foils that
+!> only a sweep will tilt start from the answer on half the width.
 module gfb_cold_start
   use petscvec
   use gfb_kinds, only: wp
@@ -21,6 +22,9 @@ module gfb_cold_start
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_position, only: guess_position, find_position, let_go, solve_at
   use gfb_contact_start, only: find_with_contacts
+  use gfb_branch_search, only: seek_branch
+  use gfb_wide_start, only: widen
+  use gfb_model_case, only: meshes_foils, half_width_auto
   implicit none (type)
   private
   public :: start_bearing, refine
@@ -48,14 +52,14 @@ contains
 
     type(bearing_system_type), target :: coarse
     type(newton_type), target :: coarse_newton
-    logical :: helped
+    logical :: helped, found_before
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    helped = can_coarsen(plan)
+    helped = can_coarsen(plan) .or. can_halve(scene, plan, target)
     if (helped) then
-      call start_bearing(scene, coarser(plan), target, newton_settings, path_settings, log, coarse, &
+      call start_bearing(scene, smaller(plan), target, newton_settings, path_settings, log, coarse, &
                          coarse_newton, report, error)
       if (allocated(error)) return
       newton%iterations = coarse_newton%iterations
@@ -64,18 +68,21 @@ contains
       call destroy_newton(coarse_newton)
     end if
     call log%detail('film '//text(plan%circumferential)//' x '//text(plan%axial))
-    call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, report)
+    call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, found_before, report)
     if (.not. report%converged .and. plan%may_upwind .and. .not. plan%upwind) then
       bearing%film%flow%upwind = .true.
       call log%line('film: Galerkin finds no answer, SUPG is tried')
-      call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, report)
+      call find_answer(scene, target, path_settings, helped, coarse, bearing, newton, found_before, report)
     end if
     call coarse%destroy()
+    if (report%converged .and. .not. found_before .and. any(scene%operation%lift_given)) then
+      call seek_branch(scene%operation%lift_given, scene%operation%leading_edge_lift, bearing, newton)
+    end if
   end subroutine start_bearing
 
   !> Tries the starts there are, the cheapest first: at the target from the coarser mesh's answer;
   !> held at the coarser mesh's position, then let go; from nothing.
-  subroutine find_answer(scene, target, settings, helped, coarse, bearing, newton, report)
+  subroutine find_answer(scene, target, settings, helped, coarse, bearing, newton, found_before, report)
     type(scene_type), intent(in) :: scene
     type(operating_point_type), intent(in) :: target
     type(path_settings_type), intent(in) :: settings
@@ -83,19 +90,23 @@ contains
     type(bearing_system_type), intent(in) :: coarse
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
+    logical, intent(out) :: found_before !! it is the smaller system's answer
     type(path_report_type), intent(out) :: report
     type(operating_point_type) :: held
 
+    found_before = .false.
     if (helped) then
-      call refine(coarse, bearing)
+      call take_over(coarse, bearing)
       call solve_at(bearing, newton, target, .false., settings, report)
+      found_before = report%converged
       if (report%converged) return
       if (bearing%floats) then
-        call refine(coarse, bearing)
+        call take_over(coarse, bearing)
         held = target
         held%eccentricity = bearing%eccentricity()
         call solve_at(bearing, newton, held, .true., settings, report)
         if (report%converged) call let_go(bearing, newton, target, settings, report)
+        found_before = report%converged
         if (report%converged) return
       end if
     end if
@@ -107,6 +118,18 @@ contains
       if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, settings, report)
     end if
   end subroutine find_answer
+
+  !> Takes an answer over from a smaller system: on half the width, or on a coarser mesh.
+  subroutine take_over(small, bearing)
+    type(bearing_system_type), intent(in) :: small
+    type(bearing_system_type), intent(inout) :: bearing
+
+    if (small%whole%half .and. .not. bearing%whole%half) then
+      call widen(small, bearing)
+    else
+      call refine(small, bearing)
+    end if
+  end subroutine take_over
 
   !> Takes pressure and position over from a coarser mesh.
   subroutine refine(coarse, fine)
@@ -139,14 +162,29 @@ contains
       plan%circumferential >= 2*least_circumferential .and. solved >= 2*least_axial
   end function can_coarsen
 
-  !> The plan with half the elements each way.
-  pure function coarser(plan) result(coarse)
+  !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
+  pure function can_halve(scene, plan, target) result(can)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(operating_point_type), intent(in) :: target
+    logical :: can
+
+    can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
+      modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
+  end function can_halve
+
+  !> The plan with half the width, or else with half the elements each way.
+  pure function smaller(plan) result(coarse)
     type(bearing_plan_type), intent(in) :: plan
     type(bearing_plan_type) :: coarse
 
     coarse = plan
+    if (.not. plan%may_coarsen) then
+      coarse%half = .true.
+      return
+    end if
     coarse%circumferential = plan%circumferential/2
     coarse%axial = plan%axial/2
     coarse%upwind = .true.
-  end function coarser
+  end function smaller
 end module gfb_cold_start

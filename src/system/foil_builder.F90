@@ -23,8 +23,8 @@ module gfb_foil_builder
   public :: build_part, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
             plate_fixed_edge, symmetry_supports
 
-  integer, parameter :: axial = 3                             !! component of a displacement
-  integer, parameter :: about_tangent = 5                     !! rotation about the second axis
+  integer, parameter, public :: axial = 3         !! component of a displacement
+  integer, parameter, public :: about_tangent = 5 !! rotation about the second axis
 
   !> What the program decided about a foil.
   type, public :: foil_plan_type
