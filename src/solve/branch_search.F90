@@ -29,7 +29,7 @@ module gfb_branch_search
   real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
   real(wp), parameter :: home_range = 0.35_wp   !! change of the mean lift when a string is let go, over the clearance [1]
-  real(wp), parameter :: same_lift = 0.03_wp   !! a lift this near to the one asked for is it, over the clearance [1]
+  real(wp), parameter :: same_lift = 0.01_wp   !! a lift this near to the one asked for is it, over the clearance [1]
   real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and way [1]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
