@@ -104,7 +104,7 @@ def used_keys(file):
     echo = file["scene/used"][()]
     echo = echo.decode() if isinstance(echo, bytes) else str(echo)
     keys, group = {}, ""
-    for line in echo.splitlines():
+    for line in re.sub(r",\s*\n\s+", ", ", echo).splitlines():  # long lists go on in the next line
         found = re.match(r"&(\w+)", line)
         if found:
             group = found[1]
