@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy
 
-from gallery_bearing import MICRO, PAPER_MESH, ambient, lifted
+from gallery_bearing import COARSER_MESH, MICRO, PAPER_MESH, ambient, lifted
 from gallery_page import Page
 
 MODELS = {"beam": "beams (2D)", "shell": "shells (3D)"}
@@ -34,18 +34,18 @@ class Answer:
 
 
 def answers(runs):
-    """Answers on both meshes and, on the paper's, on the lifted branch, and words on what was not found."""
+    """Answers on both meshes, on a coarser one on the lifted branch, and words on what was not found."""
     found = [resting(runs, "default mesh", {}), resting(runs, "paper's mesh", PAPER_MESH)]
     sweeps, missed = {}, []
     for model, axis, case in cases():
         if missed:
             break
-        one, words = lifted(runs, model, case, PAPER_MESH)
+        one, words = lifted(runs, model, case, COARSER_MESH)
         if one is None or not one.converged:
-            missed.append(f"Lifted branch on the paper's mesh, {MODELS[model]} tilted about {axis}: {words}.")
+            missed.append(f"Lifted branch on a coarser mesh, {MODELS[model]} tilted about {axis}: {words}.")
         sweeps[model, axis] = one
     if not missed:
-        found.append(Answer("lifted, paper's mesh", sweeps))
+        found.append(Answer("lifted, coarser mesh (104 x 16, bumps of 6 + 2)", sweeps))
     return found, missed
 
 
