@@ -71,7 +71,7 @@ def curve(result, axis, name):
 
 def tilts(result, axis):
     """Tilts of a sweep, growing [rad]."""
-    return curve(result, axis, "torque_x")[0]
+    return numpy.sort(result.history[f"tilt_{axis}"])
 
 
 def torque_at(result, axis, name, tilt=TILT):

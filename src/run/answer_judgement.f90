@@ -31,7 +31,8 @@ contains
       newton%factorizations = newton%factorizations + stability%factorizations
       call log%line('stability: '//stability_words(stability, &
                     bearing%whole%half .and. scene%model%foil == foil_shell))
-      if (stability%found) list = stability_quantities(stability)
+      if (stability%counted) list = [negative_eigenvalues(stability%negative)]
+      if (stability%found) list = [list, growth_quantities(stability)]
     end if
     if (.not. bearing%floats .or. bearing%held) return
     ! The last of the factors, so that the next solve can begin with them.
@@ -41,21 +42,27 @@ contains
                                  'sign of the determinant of all equations; it changes at folds')]
   end subroutine judge_answer
 
-  !> The count of growing modes, and how near another one is.
-  function stability_quantities(stability) result(list)
-    type(stability_type), intent(in) :: stability
-    type(quantity_type) :: list(3)
+  !> How many eigenvalues of the foils' stiffness are negative.
+  function negative_eigenvalues(number) result(quantity)
+    integer, intent(in) :: number
+    type(quantity_type) :: quantity
 
-    list(1) = count_quantity('stability', stability%negative, &
-                             'negative eigenvalues of the foils'' '// &
-                             'stiffness with the film eliminated, shaft held; 0: stable')
-    list(2) = count_quantity('growing_modes', stability%growing, &
+    quantity = count_quantity('stability', number, 'negative eigenvalues of the foils'' '// &
+                              'stiffness with the film eliminated, shaft held; 0: stable')
+  end function negative_eigenvalues
+
+  !> The count of growing modes, and how near another one is.
+  function growth_quantities(stability) result(list)
+    type(stability_type), intent(in) :: stability
+    type(quantity_type) :: list(2)
+
+    list(1) = count_quantity('growing_modes', stability%growing, &
                              'modes that grow where the gas '// &
                              'resists the top foil''s motion, shaft held')
-    list(3) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
+    list(2) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
                               'stiffness over p_a/C of the mode nearest to a change; negative: '// &
                               'it grows')
-  end function stability_quantities
+  end function growth_quantities
 
   !> The same as a sentence.
   function stability_words(stability, symmetric) result(words)
@@ -67,7 +74,9 @@ contains
       words = 'the eigenvalues of the foils were not found'
       return
     end if
-    words = text(stability%negative)//' negative eigenvalue(s) of the foils'' stiffness, '// &
+    words = 'an unknown number of'
+    if (stability%counted) words = text(stability%negative)
+    words = words//' negative eigenvalue(s) of the foils'' stiffness, '// &
       text(stability%growing)//' growing mode(s) ('// &
       trim(merge('stable  ', 'unstable', stability%negative + stability%growing == 0))
     if (stability%nearly_neutral) words = words//', one nearly neutral'

@@ -41,7 +41,8 @@ module gfb_stability
   !> How the foils stand.
   type, public :: stability_type
     logical :: found = .false.          !! the modes were
-    integer :: negative = 0             !! eigenvalues of K with negative real part
+    logical :: counted = .false.        !! the negative eigenvalues of K were
+    integer :: negative = 0             !! them, by their real parts
     integer :: growing = 0              !! eigenvalues lambda with negative real part
     complex(wp) :: nearest = 0.0_wp     !! lambda nearest to a change, its real part the smallest [1]
     logical :: nearly_neutral = .false. !! it is next to none
@@ -79,8 +80,8 @@ contains
     call find_growth(stiffness, damping, bearing%dense_rows, stability)
     call foil_unit(bearing, damping)
     call find_growth(stiffness, damping, bearing%dense_rows, plain)
+    stability%counted = plain%found
     stability%negative = plain%growing
-    stability%found = stability%found .and. plain%found
     stability%factorizations = stability%factorizations + plain%factorizations
     PetscCallA(VecDestroy(damping, ierr))
     PetscCallA(MatDestroy(stiffness, ierr))
