@@ -3,6 +3,7 @@
 
 import tempfile
 
+import gfb_run
 from gfb_run import Checks
 from shell_bearing import BEARING, MICROMETRE, PAPER_MESH, check_balance, solve
 
@@ -11,6 +12,7 @@ LIFTED = {"eccentricity": (0.9319, 0.2181), "lifts": (20.8, 42.2)}
 
 
 def main():
+    gfb_run.SECONDS = 2300
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         lifts = [lift*MICROMETRE for lift in LIFTED["lifts"]]
