@@ -4,8 +4,13 @@
 #include <stdint.h>
 #include <petscsys.h>
 
-/* Gives a DMPlex (its Fortran handle) the part of every cell before it is distributed: sizes of the
-   parts, and the cells of each part one after the other, both read on the first rank. */
+/* A DMPlex of quadrilaterals, of which every rank gives some cells (numbers of their vertices among all, from 0)
+   and the places of some vertices (in the order of the ranks); hands out its Fortran handle. */
+PetscErrorCode gfb_create_plex(MPI_Fint communicator, PetscInt cells, PetscInt vertices, PetscInt all_vertices,
+                               const PetscInt cell[], const PetscReal coordinate[], intptr_t *dm);
+
+/* Gives a DMPlex (its Fortran handle) the part of each of this rank's cells before it is distributed: sizes of the
+   parts, and the cells of each part one after the other. */
 PetscErrorCode gfb_set_shell_partition(intptr_t dm, PetscInt parts, const PetscInt sizes[], const PetscInt cells[]);
 
 #endif

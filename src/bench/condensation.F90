@@ -123,9 +123,9 @@ contains
     apart = 0.0_wp
     do kind = 1, kind_count(piece)
       associate (one => piece(findloc(piece%kind, kind, 1)))
-        call assemble_piece(foil%mesh, foil%section, foil%free, one, .false., stiffness, error)
+        call assemble_piece(foil%mesh, foil%section, foil%free(:, one%nodes), one, .false., stiffness, error)
         call stop_on(error)
-        is_retained = retained_in_piece(foil%free, one)
+        is_retained = retained_in_piece(foil%free(:, one%nodes), one)
       end associate
       call cpu_time(start)
       call condense(stiffness, is_retained, 'super_', super)

@@ -3,7 +3,7 @@ module gfb_film_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: uniform_film_mesh, film_mesh_at, film_elements, interpolate_film
+  public :: uniform_film_mesh, film_mesh_at, cell_nodes, find_film_place
 
   !> A film mesh by its stations along the shaft's motion and its rows along the axis.
   !>
@@ -64,31 +64,25 @@ contains
     mesh%station_angle = station_angle
   end function film_mesh_at
 
-  !> Nodes of every element, counter-clockwise in (x, z); element numbers run along the axis first.
-  pure function film_elements(mesh) result(element_nodes)
-    type(film_mesh_type), intent(in) :: mesh
-    integer, allocatable :: element_nodes(:, :) !! (4, elements)
-    integer :: i, j, here, next, element
+  !> Nodes of a cell, counter-clockwise in (x, z).
+  pure function cell_nodes(column, row, stations, rows) result(nodes)
+    integer, intent(in) :: column, row    !! of the cell, from 1
+    integer, intent(in) :: stations, rows !! of the whole mesh; the last station's next is the first
+    integer :: nodes(4)
+    integer :: here, next
 
-    allocate (element_nodes(4, mesh%circumferential()*mesh%axial()))
-    element = 0
-    do i = 1, mesh%circumferential()
-      here = (i - 1)*mesh%rows()
-      next = modulo(i, mesh%stations())*mesh%rows()
-      do j = 1, mesh%axial()
-        element = element + 1
-        element_nodes(:, element) = [here + j, next + j, next + j + 1, here + j + 1]
-      end do
-    end do
-  end function film_elements
+    here = (column - 1)*rows + row
+    next = modulo(column, stations)*rows + row
+    nodes = [here, next, next + 1, here + 1]
+  end function cell_nodes
 
-  !> A nodal field of the whole mesh at one place, bilinear between the nodes.
-  pure function interpolate_film(mesh, field, angle, axial) result(value)
+  !> The nodes around a place, and their bilinear shares of it.
+  pure subroutine find_film_place(mesh, angle, axial, node, share)
     type(film_mesh_type), intent(in) :: mesh
-    real(wp), intent(in) :: field(:) !! at the nodes of the whole mesh
-    real(wp), intent(in) :: angle    !! theta on the pad [rad]
-    real(wp), intent(in) :: axial    !! z on the meshed width [m]
-    real(wp) :: value
+    real(wp), intent(in) :: angle     !! theta on the pad [rad]
+    real(wp), intent(in) :: axial     !! z on the meshed width [m]
+    integer, intent(out) :: node(4)   !! of the whole mesh
+    real(wp), intent(out) :: share(4) !! adding up to one
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: along, across
     integer :: i, j, here, next
@@ -101,9 +95,9 @@ contains
     call find_interval(mesh%row_axial, axial, j, across)
     here = (i - 1)*mesh%rows() + j
     next = modulo(i, mesh%stations())*mesh%rows() + j
-    value = (1.0_wp - along)*((1.0_wp - across)*field(here) + across*field(here + 1)) &
-      + along*((1.0_wp - across)*field(next) + across*field(next + 1))
-  end function interpolate_film
+    node = [here, here + 1, next, next + 1]
+    share = [(1.0_wp - along)*(1.0_wp - across), (1.0_wp - along)*across, along*(1.0_wp - across), along*across]
+  end subroutine find_film_place
 
   !> Interval of rising numbers that holds one, and where in it the number lies, 0 to 1.
   pure subroutine find_interval(bounds, number, interval, share)

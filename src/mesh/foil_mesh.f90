@@ -1,17 +1,17 @@
 !> Meshes of the bump strip and the top foil, unrolled.
 !>
 !> Stations follow each other along x, rows along z; node (station i, row j) is number
-!> (i - 1)*rows + j, wherever the strip is fixed.
+!> (i - 1)*rows + j, wherever the strip is fixed. A rank needs a stretch of the stations only.
 module gfb_foil_mesh
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_quad_mesh, only: quad_mesh_type, add_node_set
   use gfb_bump_profile, only: arc_point, arc_normal
-  use gfb_substructures, only: substructure_type, substructure
+  use gfb_substructures, only: substructure_type
   implicit none (type, external)
   private
   public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
-  public :: crest_positions, aligned_stations
+  public :: crest_positions, aligned_stations, station_positions, dividing_stations
 
   integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, &
                                 begins_with_half_flat = 3
@@ -60,42 +60,65 @@ contains
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
   !> trailing_edge, fixed_edge, free_edge, midplane; crest_1 and corner_1 lie at the smallest x.
-  pure function bump_strip_mesh(shape, rows, half) result(mesh)
+  pure function bump_strip_mesh(shape, rows, half, window) result(mesh)
     type(strip_shape_type), intent(in) :: shape
     real(wp), intent(in) :: rows(:) !! z [m]
     logical, intent(in) :: half     !! rows begin at z = 0
+    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
     type(quad_mesh_type) :: mesh
     type(station_type), allocatable :: station(:)
 
     station = strip_stations(shape)
-    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half)
+    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window)
     call name_sets(mesh, station, shape)
   end function bump_strip_mesh
 
-  !> The strip's pieces between its corners and crests, from the smallest x on.
-  pure function strip_substructures(shape, mesh) result(pieces)
+  !> Stations of a strip where its substructures meet or end, rising.
+  pure function dividing_stations(shape) result(divide)
     type(strip_shape_type), intent(in) :: shape
-    type(quad_mesh_type), intent(in) :: mesh
-    type(substructure_type), allocatable :: pieces(:)
-
-    type(station_type), allocatable :: station(:)
-    logical :: is_retained(size(mesh%position, 2))
     integer, allocatable :: divide(:)
-    integer :: i, columns
+    type(station_type), allocatable :: station(:)
+    integer :: i
 
     station = strip_stations(shape)
     divide = pack([(i, i=1, size(station))], station%divides)
     if (shape%mirrored) divide = size(station) + 1 - divide(size(divide):1:-1)
-    is_retained = .false.
-    do i = 1, size(divide)
-      is_retained((divide(i) - 1)*mesh%rows + 1:divide(i)*mesh%rows) = .true.
-    end do
-    columns = mesh%rows - 1
+  end function dividing_stations
+
+  !> Where the stations of a strip are, from the smallest x on [m].
+  pure function station_positions(shape) result(x)
+    type(strip_shape_type), intent(in) :: shape
+    real(wp), allocatable :: x(:)
+    type(station_type), allocatable :: station(:)
+
+    station = strip_stations(shape)
+    x = shape%edge + merge(-1.0_wp, 1.0_wp, shape%mirrored)*station%along
+    if (shape%mirrored) x = x(size(x):1:-1)
+  end function station_positions
+
+  !> The strip's pieces between its corners and crests, from the smallest x on; those outside the
+  !> mesh's stretch have no nodes.
+  pure function strip_substructures(shape, mesh) result(pieces)
+    type(strip_shape_type), intent(in) :: shape
+    type(quad_mesh_type), intent(in) :: mesh
+    type(substructure_type), allocatable :: pieces(:)
+    integer, allocatable :: divide(:)
+    integer :: i, first, last
+
+    divide = dividing_stations(shape)
     allocate (pieces(size(divide) - 1))
     do i = 1, size(pieces)
-      associate (first => (divide(i) - 1)*columns + 1, last => (divide(i + 1) - 1)*columns)
-        pieces(i) = substructure(mesh, numbers(first, last), is_retained)
-      end associate
+      first = (divide(i) - 1)*mesh%rows + 1
+      last = divide(i + 1)*mesh%rows
+      if (first < lbound(mesh%position, 2) .or. last > ubound(mesh%position, 2)) last = first - 1
+      pieces(i)%column = divide(i)
+      pieces(i)%nodes = numbers(first, last)
+      allocate (pieces(i)%retained(size(pieces(i)%nodes)), source=.false.)
+      pieces(i)%elements = numbers(1, 0)
+      if (last < first) cycle
+      pieces(i)%retained(:mesh%rows) = .true.
+      pieces(i)%retained(size(pieces(i)%nodes) - mesh%rows + 1:) = .true.
+      pieces(i)%elements = numbers((divide(i) - 1)*(mesh%rows - 1) + 1, (divide(i + 1) - 1)*(mesh%rows - 1))
     end do
   end function strip_substructures
 
@@ -132,11 +155,12 @@ contains
   end function aligned_stations
 
   !> A flat plate with given stations; sets leading_edge, trailing_edge, midplane.
-  pure function top_foil_mesh(position_x, height, rows, half) result(mesh)
+  pure function top_foil_mesh(position_x, height, rows, half, window) result(mesh)
     real(wp), intent(in) :: position_x(:) !! of the stations [m]
     real(wp), intent(in) :: height        !! v of the mid-surface [m]
     real(wp), intent(in) :: rows(:)       !! z [m]
     logical, intent(in) :: half           !! rows begin at z = 0
+    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
     type(quad_mesh_type) :: mesh
     type(station_type) :: station(size(position_x))
     integer :: i
@@ -146,10 +170,9 @@ contains
       station(i)%height = height
       station(i)%normal = reshape([0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], [2, 2])
     end do
-    mesh = station_mesh(station, position_x(1), .false., rows, half)
-    call add_node_set(mesh, 'leading_edge', numbers(1, mesh%rows))
-    call add_node_set(mesh, 'trailing_edge', numbers((size(station) - 1)*mesh%rows + 1, &
-                                                     size(station)*mesh%rows))
+    mesh = station_mesh(station, position_x(1), .false., rows, half, window)
+    call add_node_set(mesh, 'leading_edge', line_at(mesh, 1))
+    call add_node_set(mesh, 'trailing_edge', line_at(mesh, size(station)))
     call add_midplane(mesh)
   end function top_foil_mesh
 
@@ -233,17 +256,24 @@ contains
   end subroutine add_flat
 
   !> Nodes, elements and directors over stations and rows.
-  pure function station_mesh(station, edge, mirrored, rows, half) result(mesh)
+  pure function station_mesh(station, edge, mirrored, rows, half, window) result(mesh)
     type(station_type), intent(in) :: station(:)
     real(wp), intent(in) :: edge     !! x of the first station [m]
     logical, intent(in) :: mirrored  !! stations run towards smaller x
     real(wp), intent(in) :: rows(:)  !! z [m]
     logical, intent(in) :: half
+    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
     type(quad_mesh_type) :: mesh
     real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2)
     logical :: kink(size(station))
-    integer :: i, j, node, element, here
+    integer :: i, j, node, element, here, first, last
 
+    first = 1
+    last = size(station)
+    if (present(window)) then
+      first = window(1)
+      last = window(2)
+    end if
     v = station%height
     kink = station%corner > 0
     do i = 1, size(station)
@@ -258,11 +288,12 @@ contains
       normal(1, :, :) = -normal(1, :, :)
     end if
     mesh%rows = size(rows)
+    mesh%stations = size(x)
     mesh%half = half
-    allocate (mesh%position(3, size(x)*size(rows)), mesh%axis_1(3, size(x)*size(rows)))
-    allocate (mesh%axis_2(3, size(x)*size(rows)))
-    node = 0
-    do i = 1, size(x)
+    node = (first - 1)*mesh%rows
+    allocate (mesh%position(3, node + 1:last*mesh%rows), mesh%axis_1(3, node + 1:last*mesh%rows))
+    allocate (mesh%axis_2(3, node + 1:last*mesh%rows))
+    do i = first, last
       mean = normal(:, 1, i)
       ! At corners the flat's, also at an end without a flat: pieces stay congruent.
       if (kink(i)) mean = [0.0_wp, 1.0_wp]
@@ -273,10 +304,10 @@ contains
         mesh%axis_2(:, node) = [mean(2), -mean(1), 0.0_wp] ! normal x axis_1
       end do
     end do
-    allocate (mesh%element_nodes(4, (size(x) - 1)*(size(rows) - 1)))
-    allocate (mesh%director(3, 4, size(mesh%element_nodes, 2)), source=0.0_wp)
-    element = 0
-    do i = 1, size(x) - 1
+    element = (first - 1)*(mesh%rows - 1)
+    allocate (mesh%element_nodes(4, element + 1:(last - 1)*(mesh%rows - 1)))
+    allocate (mesh%director(3, 4, element + 1:(last - 1)*(mesh%rows - 1)), source=0.0_wp)
+    do i = first, last - 1
       do j = 1, size(rows) - 1
         element = element + 1
         here = (i - 1)*size(rows) + j
@@ -302,7 +333,7 @@ contains
     allocate (crests(0), corners(0))
     do place = 1, stations
       i = merge(stations + 1 - place, place, shape%mirrored)
-      line = line_at(place)
+      line = line_at(mesh, place)
       if (station(i)%crest > 0) then
         crest = crest + 1
         crests = [crests, line]
@@ -315,28 +346,29 @@ contains
     end do
     call add_node_set(mesh, 'crests', crests)
     call add_node_set(mesh, 'corners', corners)
-    call add_node_set(mesh, 'leading_edge', line_at(1))
-    call add_node_set(mesh, 'trailing_edge', line_at(stations))
-    call add_node_set(mesh, 'fixed_edge', line_at(merge(stations, 1, shape%mirrored)))
-    call add_node_set(mesh, 'free_edge', line_at(merge(1, stations, shape%mirrored)))
+    call add_node_set(mesh, 'leading_edge', line_at(mesh, 1))
+    call add_node_set(mesh, 'trailing_edge', line_at(mesh, stations))
+    call add_node_set(mesh, 'fixed_edge', line_at(mesh, merge(stations, 1, shape%mirrored)))
+    call add_node_set(mesh, 'free_edge', line_at(mesh, merge(1, stations, shape%mirrored)))
     call add_midplane(mesh)
-
-  contains
-
-    !> Nodes of a station, counted from the smallest x, in order of z.
-    pure function line_at(place) result(nodes)
-      integer, intent(in) :: place
-      integer :: nodes(mesh%rows)
-      nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
-    end function line_at
   end subroutine name_sets
+
+  !> Nodes of a station, counted from the smallest x, in order of z; none outside the stretch.
+  pure function line_at(mesh, place) result(nodes)
+    type(quad_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: place
+    integer, allocatable :: nodes(:)
+
+    nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
+    if (nodes(1) < lbound(mesh%position, 2) .or. nodes(mesh%rows) > ubound(mesh%position, 2)) nodes = numbers(1, 0)
+  end function line_at
 
   !> Names the nodes at z = 0; none where no row lies there.
   pure subroutine add_midplane(mesh)
     type(quad_mesh_type), intent(inout) :: mesh
     integer :: i
 
-    call add_node_set(mesh, 'midplane', pack([(i, i=1, size(mesh%position, 2))], &
+    call add_node_set(mesh, 'midplane', pack([(i, i=lbound(mesh%position, 2), ubound(mesh%position, 2))], &
                                              abs(mesh%position(3, :)) <= 0.0_wp))
   end subroutine add_midplane
 

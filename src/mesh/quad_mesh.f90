@@ -1,9 +1,12 @@
 !> A surface of quadrilaterals in space: nodes, elements, directors, named sets of nodes.
+!>
+!> A mesh may hold a stretch of its stations only. Nodes and elements keep the numbers they have in
+!> the whole mesh: the arrays' bounds are those of the stretch.
 module gfb_quad_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: node_set, add_node_set, sub_mesh
+  public :: node_set, set_count, add_node_set, sub_mesh
 
   !> Nodes that have a name, such as a line of crests.
   type, public :: node_set_type
@@ -25,12 +28,30 @@ module gfb_quad_mesh
     type(node_set_type), allocatable :: sets(:)
     !> nodes of a station; numbers run along stations first
     integer :: rows = 0
+    integer :: stations = 0                      !! of the whole mesh
     logical :: half = .false.                    !! z >= 0 only
+  contains
+    procedure :: nodes => whole_nodes
+    procedure :: elements => whole_elements
   end type quad_mesh_type
 
 contains
 
-  !> Nodes of a set; stops the program where there is no such set.
+  !> Nodes of the whole mesh.
+  pure function whole_nodes(self) result(nodes)
+    class(quad_mesh_type), intent(in) :: self
+    integer :: nodes
+    nodes = self%stations*self%rows
+  end function whole_nodes
+
+  !> Elements of the whole mesh.
+  pure function whole_elements(self) result(elements)
+    class(quad_mesh_type), intent(in) :: self
+    integer :: elements
+    elements = max(0, self%stations - 1)*(self%rows - 1)
+  end function whole_elements
+
+  !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no such set.
   pure function node_set(mesh, name) result(nodes)
     type(quad_mesh_type), intent(in) :: mesh
     character(len=*), intent(in) :: name
@@ -44,6 +65,19 @@ contains
     end do
     error stop 'a mesh was asked for a node set it does not have'
   end function node_set
+
+  !> Sets whose names begin so and end with a number.
+  pure function set_count(mesh, beginning) result(sets)
+    type(quad_mesh_type), intent(in) :: mesh
+    character(len=*), intent(in) :: beginning
+    integer :: sets
+    integer :: i
+
+    sets = 0
+    do i = 1, size(mesh%sets)
+      if (index(mesh%sets(i)%name, beginning) == 1) sets = sets + 1
+    end do
+  end function set_count
 
   !> Adds a set of nodes.
   pure subroutine add_node_set(mesh, name, nodes)
@@ -83,6 +117,7 @@ contains
     part%axis_2 = mesh%axis_2(:, nodes)
     part%director = mesh%director(:, :, elements)
     part%rows = mesh%rows
+    part%stations = size(nodes)/mesh%rows
     part%half = mesh%half
     allocate (part%element_nodes(4, size(elements)), part%sets(0))
     do i = 1, size(elements)

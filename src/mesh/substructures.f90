@@ -4,15 +4,16 @@ module gfb_substructures
   use gfb_quad_mesh, only: quad_mesh_type
   implicit none (type, external)
   private
-  public :: substructure, find_kinds, kind_count
+  public :: substructure, find_kinds, kind_count, places_in
 
   real(wp), parameter :: congruence = 1.0e-9_wp !! of positions, over the piece's size [1]
 
   !> A piece of a mesh with any retained nodes.
   type, public :: substructure_type
-    integer, allocatable :: elements(:)  !! of the whole mesh
+    integer, allocatable :: elements(:)  !! of the whole mesh; none known where it is another rank's
     integer, allocatable :: nodes(:)     !! of the whole mesh, rising
     logical, allocatable :: retained(:)  !! which of them are kept
+    integer :: column = 0                !! of the whole mesh's columns of elements, its first
     integer :: kind = 0                  !! congruent pieces have the same
   end type substructure_type
 
@@ -32,6 +33,7 @@ contains
       used(mesh%element_nodes(:, elements(i))) = .true.
     end do
     piece%elements = elements
+    piece%column = (minval(elements) - 1)/max(1, mesh%rows - 1) + 1
     piece%nodes = pack([(i, i=1, size(used))], used)
     piece%retained = is_retained(piece%nodes)
   end function substructure
@@ -97,8 +99,8 @@ contains
       if (.not. congruent) return
     end do
     do i = 1, size(one%elements)
-      congruent = all(place(one, mesh%element_nodes(:, one%elements(i))) == &
-                      place(other, mesh%element_nodes(:, other%elements(i)))) .and. &
+      congruent = all(places_in(one, mesh%element_nodes(:, one%elements(i))) == &
+                      places_in(other, mesh%element_nodes(:, other%elements(i)))) .and. &
         all(abs(mesh%director(:, :, one%elements(i)) - mesh%director(:, :, other%elements(i))) &
             <= congruence)
       if (.not. congruent) return
@@ -106,7 +108,7 @@ contains
   end function are_congruent
 
   !> Places of nodes in a piece.
-  pure function place(piece, nodes) result(places)
+  pure function places_in(piece, nodes) result(places)
     type(substructure_type), intent(in) :: piece
     integer, intent(in) :: nodes(:)
     integer :: places(size(nodes))
@@ -125,5 +127,5 @@ contains
       end do
       places(i) = low
     end do
-  end function place
+  end function places_in
 end module gfb_substructures

@@ -19,21 +19,24 @@ contains
     type(foil_structure_type), intent(in) :: foil
     character(len=*), intent(in) :: name
     type(result_grid_type), intent(out) :: grid
-    integer :: rows, stations, first, last, i, node, corner
-    logical :: mirrored
+    integer :: rows, stations, first, last, i, corner
+    integer, allocatable :: node(:)
+    logical, allocatable :: mirrored(:)
 
     rows = full_rows(foil)
-    stations = size(foil%mesh%position, 2)/foil%mesh%rows
+    stations = foil%mesh%stations
     grid%name = name
     grid%grid%points = stations*rows
     grid%grid%cells = (stations - 1)*(rows - 1)
     call block_bounds(grid%grid%points, this_rank(), rank_count(), first, last)
-    allocate (grid%grid%point(3, last - first + 1))
+    allocate (node(last - first + 1), mirrored(last - first + 1))
     do i = first, last
-      call solved_node(foil, i, node, mirrored)
-      grid%grid%point(:, i - first + 1) = foil%mesh%position(:, node)
-      if (mirrored) grid%grid%point(3, i - first + 1) = -foil%mesh%position(3, node)
+      call solved_node(foil, i, node(i - first + 1), mirrored(i - first + 1))
     end do
+    associate (own => pack(foil%part%mesh_node, foil%part%owned))
+      grid%grid%point = fetch_entries(foil%mesh%nodes(), own, foil%mesh%position(:, own), node)
+    end associate
+    where (mirrored) grid%grid%point(3, :) = -grid%grid%point(3, :)
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
     allocate (grid%grid%cell(4, last - first + 1))
     do i = first, last
@@ -70,7 +73,7 @@ contains
     do i = first, last
       call solved_node(foil, i, wanted(i - first + 1), mirrored(i - first + 1))
     end do
-    block = fetch_entries(size(foil%mesh%position, 2), pack(foil%part%mesh_node, foil%part%owned), &
+    block = fetch_entries(foil%mesh%nodes(), pack(foil%part%mesh_node, foil%part%owned), &
                           own_columns(value, foil%part%owned), wanted)
     do i = 1, size(wanted)
       if (mirrored(i) .and. size(block, 1) == size(mirror)) block(:, i) = block(:, i)*mirror
@@ -89,7 +92,7 @@ contains
 
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
     wanted = [(solved_cell(foil, i), i=first, last)]
-    block = fetch_entries(size(foil%mesh%element_nodes, 2), foil%my_elements, stress, wanted)
+    block = fetch_entries(foil%mesh%elements(), foil%my_elements, stress, wanted)
     call add_grid_field(grid%cell_field, 'membrane_stress', 'Pa', &
                         'at the centre: along the axis, across it, shear', block(1:3, :))
     call add_grid_field(grid%cell_field, 'bending_stress', 'Pa', &

@@ -6,7 +6,6 @@ module gfb_foil_output
   use gfb_bearing_system, only: bearing_system_type
   use gfb_beam_foil, only: beam_foil_type
   use gfb_planar_beam, only: beam_unknowns
-  use gfb_quad_mesh, only: quad_mesh_type
   use gfb_shell_foil, only: shell_foil_type
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type
@@ -112,14 +111,14 @@ contains
     type is (shell_foil_type)
       rows = foil%bumps%mesh%rows
       if (foil%bumps%mesh%half) rows = 2*rows - 1
-      list = [unknowns_full(node_unknowns*rows*stations(foil%bumps%mesh)), &
+      list = [unknowns_full(node_unknowns*rows*foil%bumps%mesh%stations), &
               count_quantity('foil_unknowns_retained', &
                              node_unknowns*(size(foil%bumps%substructure) + 1)*rows, &
                              'of its retained lines, whole width, before constraints'), &
               count_quantity('distinct_super_elements', kind_count(foil%bumps%substructure), &
                              'condensed once each')]
     type is (beam_foil_type)
-      list = [unknowns_full(beam_unknowns*stations(foil%bumps%mesh))]
+      list = [unknowns_full(beam_unknowns*foil%bumps%mesh%stations)]
     end select
   end function foil_quantities
 
@@ -130,11 +129,4 @@ contains
     quantity = count_quantity('foil_unknowns_full', number, &
                               'of the bump foil, whole width, before constraints')
   end function unknowns_full
-
-  !> Lines of nodes across a foil.
-  pure function stations(mesh)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer :: stations
-    stations = size(mesh%position, 2)/mesh%rows
-  end function stations
 end module gfb_foil_output

@@ -275,7 +275,7 @@ contains
     real(wp) :: memory(1)
     integer :: stations, rows
 
-    stations = size(strip%foil%mesh%position, 2)/strip%foil%mesh%rows
+    stations = strip%foil%mesh%stations
     rows = scene%mesh%axial_elements + 1
     memory = sum_over_ranks([peak_memory()])
     list = [count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'), &

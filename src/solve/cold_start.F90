@@ -15,8 +15,8 @@ module gfb_cold_start
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_film_mesh, only: interpolate_film
-  use gfb_bearing_system, only: bearing_system_type, film_on_all_ranks
+  use gfb_film_mesh, only: find_film_place
+  use gfb_bearing_system, only: bearing_system_type, film_values
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
@@ -31,6 +31,7 @@ module gfb_cold_start
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
+  integer, parameter :: corners = 4                !! of an element
 
 contains
 
@@ -137,15 +138,15 @@ contains
     type(bearing_system_type), intent(inout) :: fine
 
     real(wp) :: rough(coarse%local_size()), unknown(fine%local_size())
-    real(wp) :: whole(coarse%whole%nodes())
-    integer :: node
+    real(wp) :: share(corners, size(fine%mesh%mesh_node))
+    integer :: around(corners, size(fine%mesh%mesh_node)), node
 
     call coarse%get_unknowns(rough)
-    whole = film_on_all_ranks(coarse, rough(:size(coarse%mesh%mesh_node)))
-    unknown = 0.0_wp
     do node = 1, size(fine%mesh%mesh_node)
-      unknown(node) = interpolate_film(coarse%whole, whole, fine%film%angle(node), fine%film%axial(node))
+      call find_film_place(coarse%whole, fine%film%angle(node), fine%film%axial(node), around(:, node), share(:, node))
     end do
+    unknown = 0.0_wp
+    unknown(:size(share, 2)) = sum(share*reshape(film_values(coarse, rough(:size(coarse%mesh%mesh_node)), [around]), shape(share)), 1)
     call fine%foil%estimate(unknown)
     if (fine%floats) unknown(fine%first_shaft + 1:) = coarse%eccentricity()
     call fine%set_unknowns(unknown)

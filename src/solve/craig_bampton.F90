@@ -65,11 +65,11 @@ contains
     PetscErrorCode :: ierr
     integer :: i, kept
 
-    call assemble_piece(foil%mesh, foil%section, foil%free, piece, .false., stiffness, error)
+    call assemble_piece(foil%mesh, foil%section, foil%free(:, piece%nodes), piece, .false., stiffness, error)
     if (allocated(error)) return
-    call assemble_piece(foil%mesh, foil%section, foil%free, piece, .true., mass, error)
+    call assemble_piece(foil%mesh, foil%section, foil%free(:, piece%nodes), piece, .true., mass, error)
     if (allocated(error)) return
-    call condense(stiffness, retained_in_piece(foil%free, piece), 'super_', super)
+    call condense(stiffness, retained_in_piece(foil%free(:, piece%nodes), piece), 'super_', super)
     call interior_modes(super, mass, modes_kept, modes)
     kept = size(super%retained)
     allocate (basis(kept + size(super%interior), kept + size(modes%eigenvalue)), source=0.0_wp)

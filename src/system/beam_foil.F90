@@ -12,16 +12,20 @@ module gfb_beam_foil
   use gfb_bump_contacts, only: line_shares
   use gfb_contact_set, only: contact_set_type, contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_foil_structure, only: foil_structure_type
   use gfb_shell_foil, only: shell_foil_type
   implicit none (type, external)
   private
 
-  !> Both foils and this rank's part of their equations; the meshes are those that shells would
-  !> have, the numbers of unknowns those that a station's nodes share.
+  !> Both foils, all of them on the first rank; the meshes are those that shells would have, the
+  !> numbers of unknowns those that a station's nodes share.
   type, extends(shell_foil_type), public :: beam_foil_type
+    integer, allocatable :: top_number(:, :)  !! (5, stations) foil's own number of an unknown, 0: held
+    integer, allocatable :: bump_number(:, :) !! the same of the bump strip's
   contains
     procedure :: split_displacements => beam_displacements
     procedure :: nodal_contacts => beam_contacts
+    procedure :: own_unknown => beam_own_unknown
   end type beam_foil_type
 
 contains
@@ -33,10 +37,33 @@ contains
     real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) [m], [1]
 
     associate (owned => unknown(self%first + self%own_place))
-      top = moved(owned, self%top_number(:, self%top%part%mesh_node))
-      bumps = moved(owned, self%bump_number(:, self%bumps%part%mesh_node))
+      top = moved(owned, self%top_number(:, stations_of(self%top)))
+      bumps = moved(owned, self%bump_number(:, stations_of(self%bumps)))
     end associate
   end subroutine beam_displacements
+
+  !> Stations of this rank's nodes.
+  pure function stations_of(structure) result(station)
+    type(foil_structure_type), intent(in) :: structure
+    integer :: station(size(structure%part%mesh_node))
+    station = (structure%part%mesh_node - 1)/structure%mesh%rows + 1
+  end function stations_of
+
+  !> Local foil unknown of a component at one of this rank's own nodes; 0: held, or none of beams.
+  pure function beam_own_unknown(self, of_bumps, component, node) result(place)
+    class(beam_foil_type), intent(in) :: self
+    logical, intent(in) :: of_bumps  !! instead of the top foil
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node      !! of the whole mesh
+    integer :: place
+
+    if (of_bumps) then
+      place = self%bump_number(component, (node - 1)/self%bumps%mesh%rows + 1)
+    else
+      place = self%top_number(component, (node - 1)/self%top%mesh%rows + 1)
+    end if
+    if (place > 0) place = self%own_place(place)
+  end function beam_own_unknown
 
   !> Unknowns by their numbers, 0 where they are held.
   pure function moved(owned, number) result(value)

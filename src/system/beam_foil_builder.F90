@@ -6,20 +6,22 @@ module gfb_beam_foil_builder
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_bump_foil_case, only: fixed_edge_trailing
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: bump_strip_mesh
+  use gfb_foil_mesh, only: bump_strip_mesh, station_positions
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, linear_beam_stiffness, &
                              bent_beam_stiffness, beam_unknowns
   use gfb_shell_geometry, only: node_unknowns
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
-  use gfb_foil_builder, only: shape_on_pad, plate_fixed_edge, plate_section, section_of
+  use gfb_foil_builder, only: shape_on_pad, plate_section, section_of
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_places, only: top_mesh, set_laws, list_wanted, place_unknowns, &
-                             add_pressure, size_unknowns
+  use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type
   implicit none (type)
   private
@@ -41,66 +43,65 @@ contains
     integer, intent(in) :: element_nodes(:, :) !! (4, elements) its elements, local nodes
     type(beam_foil_type), intent(out) :: foil
 
-    logical, allocatable :: wanted(:)
-    integer :: rank, first
-    PetscErrorCode :: ierr
+    integer :: unknowns, window(2), i
+    logical :: mine
 
-    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
+    mine = this_rank() == 0
     foil%ambient_pressure = scene%gas%ambient_pressure
-    foil%top%mesh = top_mesh(scene, film)
-    foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half)
-    call number_unknowns(foil, plate_fixed_edge(scene))
-    first = foil%top%unknowns + foil%bumps%unknowns
-    foil%owned = merge(first, 0, rank == 0)
-    if (rank == 0) first = 0
+    window = [1, merge(film%stations(), 0, mine)]
+    foil%top%mesh = top_mesh(scene, film, window)
+    window = [1, merge(size(station_positions(shape_on_pad(scene))), 0, mine)]
+    foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, window)
+    unknowns = 0
+    call number_stations(foil%top%mesh%stations, scene%top_foil%fixed_edge == top_foil_leading, unknowns, foil%top_number)
+    foil%top%unknowns = unknowns
+    call number_stations(foil%bumps%mesh%stations, scene%bump_foil%fixed_edge /= fixed_edge_trailing, unknowns, &
+                         foil%bump_number)
+    foil%bumps%unknowns = unknowns - foil%top%unknowns
+    foil%owned = merge(unknowns, 0, mine)
     foil%top%section = plate_section(scene)
     foil%bumps%section = section_of(scene%bump_foil)
-    call own_nodes(rank == 0, foil%top)
-    call own_nodes(rank == 0, foil%bumps)
+    call own_nodes(mine, foil%top)
+    call own_nodes(mine, foil%bumps)
     call set_laws(scene, foil)
     call add_contacts(scene, foil)
     call create_stiffness(scene, foil)
-    call list_wanted(foil, mesh, first, wanted)
-    call place_unknowns(foil, mesh, first, wanted)
+    call place_unknowns(foil, merge(0, unknowns, mine), &
+                        [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
     call add_pressure(film, mesh, element_nodes, foil)
-    call size_unknowns(scene, film, foil, wanted)
+    call size_unknowns(scene, film, turning(foil), foil)
     foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
     call count_entries(foil, film)
   end subroutine create_beam_foil
 
-  !> Numbers the unknowns of both foils, the same for all nodes of a station.
-  pure subroutine number_unknowns(foil, fixed_edge)
-    type(beam_foil_type), intent(inout) :: foil
-    character(len=*), intent(in) :: fixed_edge !! name of the top foil's nodes that are clamped
-    integer :: last
-
-    last = 0
-    call number_stations(foil%top%mesh, fixed_edge, last, foil%top_number)
-    foil%top%unknowns = last
-    call number_stations(foil%bumps%mesh, 'fixed_edge', last, foil%bump_number)
-    foil%bumps%unknowns = last - foil%top%unknowns
-  end subroutine number_unknowns
-
   !> Numbers the unknowns of a foil, station by station.
-  pure subroutine number_stations(mesh, fixed_set, last, number)
-    type(quad_mesh_type), intent(in) :: mesh
-    character(len=*), intent(in) :: fixed_set         !! name of the nodes that are clamped
+  pure subroutine number_stations(stations, leading, last, number)
+    integer, intent(in) :: stations
+    logical, intent(in) :: leading                    !! clamped at the leading edge, else the trailing one
     integer, intent(inout) :: last                    !! number in use
-    integer, allocatable, intent(out) :: number(:, :) !! (5, nodes), from 1; 0: held
-    logical :: fixed(size(mesh%position, 2))
-    integer :: node, k
+    integer, allocatable, intent(out) :: number(:, :) !! (5, stations), from 1; 0: held
+    integer :: station, k
 
-    allocate (number(node_unknowns, size(fixed)), source=0)
-    fixed = .false.
-    fixed(node_set(mesh, fixed_set)) = .true.
-    do node = 1, size(fixed), mesh%rows
-      if (fixed(node)) cycle
+    allocate (number(node_unknowns, stations), source=0)
+    do station = 1, stations
+      if (station == merge(1, stations, leading)) cycle
       do k = 1, beam_unknowns
         last = last + 1
-        number(component(k), node:node + mesh%rows - 1) = last
+        number(component(k), station) = last
       end do
     end do
   end subroutine number_stations
+
+  !> Numbers of this rank's rotations.
+  pure function turning(foil) result(list)
+    type(beam_foil_type), intent(in) :: foil
+    integer, allocatable :: list(:)
+
+    list = [integer ::]
+    if (foil%owned == 0) return
+    list = [foil%top_number(about_axis, :), foil%bump_number(about_axis, :)]
+    list = pack(list, list > 0)
+  end function turning
 
   !> All nodes and elements of a foil, or none, are this rank's.
   pure subroutine own_nodes(mine, structure)
@@ -109,10 +110,10 @@ contains
     integer :: i
 
     associate (mesh => structure%mesh)
-      structure%local_node = [(merge(i, 0, mine), i=1, size(mesh%position, 2))]
-      structure%part%mesh_node = pack(structure%local_node, structure%local_node > 0)
+      structure%local_node = [(i, i=1, merge(mesh%nodes(), 0, mine))]
+      structure%part%mesh_node = structure%local_node
       allocate (structure%part%owned(size(structure%part%mesh_node)), source=.true.)
-      structure%my_elements = [(i, i=1, merge(size(mesh%element_nodes, 2), 0, mine))]
+      structure%my_elements = [(i, i=1, merge(mesh%elements(), 0, mine))]
     end associate
   end subroutine own_nodes
 
@@ -152,22 +153,23 @@ contains
     type(quad_mesh_type), intent(in) :: mesh
     type(beam_section_type), intent(in) :: section
     logical, intent(in) :: bent         !! elements bend between their ends
-    integer, intent(in) :: number(:, :) !! (5, nodes)
+    integer, intent(in) :: number(:, :) !! (5, stations)
     Mat, intent(in) :: matrix
 
     real(wp) :: stiffness(ends*beam_unknowns, ends*beam_unknowns)
     PetscInt :: row(ends*beam_unknowns)
     PetscErrorCode :: ierr
-    integer :: here, next
+    integer :: station, here, next
 
-    do here = 1, size(mesh%position, 2) - mesh%rows, mesh%rows
+    do station = 1, mesh%stations - 1
+      here = (station - 1)*mesh%rows + 1
       next = here + mesh%rows
       if (bent) then
         stiffness = bent_beam_stiffness(section, mesh%position(:radial, [here, next]))
       else
         stiffness = linear_beam_stiffness(section, mesh%position(:radial, [here, next]))
       end if
-      row = int([number(component, here), number(component, next)] - 1, pint)
+      row = int([number(component, station), number(component, station + 1)] - 1, pint)
       PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness], ADD_VALUES, ierr))
     end do
   end subroutine add_beam
@@ -211,9 +213,12 @@ contains
 
     type(contact_point_type) :: point
 
-    if (.not. any(foil%bump_number(:, node) > 0)) return
+    integer :: station
+
+    station = (node - 1)/foil%bumps%mesh%rows + 1
+    if (.not. any(foil%bump_number(:, station) > 0)) return
     point = bump_contact(law, node, number, width_of(foil%bumps%mesh))
-    point%slave = foil%bump_number(:axial, node)
+    point%slave = foil%bump_number(:axial, station)
     if (law == contact_top) then
       call find_master(foil, overhang, point)
       if (size(point%share) == 0) return
@@ -227,18 +232,19 @@ contains
     real(wp), intent(in) :: overhang !! [m]
     type(contact_point_type), intent(inout) :: point
     real(wp) :: along
-    integer :: here, next
+    integer :: station, here, next
 
     associate (mesh => foil%top%mesh, x => foil%bumps%mesh%position(tangential, point%node))
       if (x < mesh%position(tangential, 1) - overhang) return
-      do here = 1, size(mesh%position, 2) - mesh%rows, mesh%rows
+      do station = 1, mesh%stations - 1
+        here = (station - 1)*mesh%rows + 1
         next = here + mesh%rows
         if (x > mesh%position(tangential, next) + overhang) cycle
         along = (x - mesh%position(tangential, here))/ &
                 (mesh%position(tangential, next) - mesh%position(tangential, here))
         along = min(1.0_wp, max(0.0_wp, along))
         point%share = [1.0_wp - along, along]
-        point%master = foil%top_number(:axial, [here, next])
+        point%master = foil%top_number(:axial, [station, station + 1])
         return
       end do
     end associate

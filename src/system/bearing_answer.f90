@@ -1,9 +1,9 @@
 !> What an engineer reads off the bearing's state, over all ranks.
 module gfb_bearing_answer
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, fetch_entries
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, film_values
   implicit none (type, external)
   private
   public :: bearing_answer, film_block, full_rows
@@ -132,7 +132,6 @@ contains
     real(wp), allocatable, intent(out) :: block(:)
 
     integer, allocatable :: wanted(:)
-    real(wp), allocatable :: column(:, :)
     integer :: i, rows, row, station
 
     rows = size(full_rows(bearing))
@@ -143,10 +142,6 @@ contains
       if (bearing%whole%half) row = abs(row - bearing%whole%rows()) + 1
       wanted(i - first + 1) = station*bearing%whole%rows() + row
     end do
-    column = reshape(pack(value, bearing%mesh%owned), [1, count(bearing%mesh%owned)])
-    column = fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, &
-      bearing%mesh%owned), &
-                           column, wanted)
-    block = column(1, :)
+    block = film_values(bearing, value, wanted)
   end subroutine film_block
 end module gfb_bearing_answer

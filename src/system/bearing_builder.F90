@@ -12,7 +12,10 @@ module gfb_bearing_builder
                             foil_beam, meshes_foils, foundation_pressure_axial_mean, reduction_guyan
   use gfb_bump_stiffness, only: walowit_anno_stiffness
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
-  use gfb_foil_builder, only: plate_stations
+  use gfb_foil_builder, only: plate_stations, shape_on_pad
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_part_chains, only: film_chain, strip_chain
+  use gfb_petsc_session, only: rank_count
   use gfb_shell_foil, only: shell_foil_type
   use gfb_shell_foil_builder, only: create_shell_foil
   use gfb_beam_foil, only: beam_foil_type
@@ -26,7 +29,7 @@ module gfb_bearing_builder
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, operating_point, foundation_stiffness
+  public :: build_bearing, divide_bearing, film_mesh_of, operating_point, foundation_stiffness
 
   !> What the program decided about a scene, and the mesh it asks for.
   type, public :: bearing_plan_type
@@ -51,17 +54,38 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     class(foil_model_type), allocatable :: foil
+    type(division_type) :: division
 
     call enter_stage('set-up')
+    call divide_bearing(scene, film_mesh_of(scene, plan), rank_count(), division, error)
+    if (allocated(error)) return
     call create_film_part(film_mesh_of(scene, plan), scene%bearing%clearance, scene%gas%ambient_pressure, &
-                          scene%gas%viscosity, plan%upwind, bearing, error)
+                          scene%gas%viscosity, plan%upwind, bearing, error, division%film)
     if (allocated(error)) return
     bearing%point = operating_point(scene%operation)
-    call create_foil(scene, bearing, foil, error)
+    call create_foil(scene, bearing, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)
     call leave_stage()
   end subroutine build_bearing
+
+  !> The parts of film and foils: what touches belongs to one part.
+  !>
+  !> Fails when METIS does.
+  subroutine divide_bearing(scene, film, parts, division, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    integer, intent(in) :: parts
+    type(division_type), intent(out) :: division
+    type(error_type), allocatable, intent(out) :: error
+
+    if (scene%model%foil == foil_shell) then
+      call divide(film_chain(film, .true.), strip_chain(shape_on_pad(scene), film%rows(), &
+                                                        scene%model%reduction == reduction_guyan), parts, division, error)
+    else
+      call divide(film_chain(film, .false.), no_chain(), parts, division, error)
+    end if
+  end subroutine divide_bearing
 
   !> The film's mesh: equal elements, or stations above the crests.
   function film_mesh_of(scene, plan) result(mesh)
@@ -84,9 +108,10 @@ contains
   !> The foil model the scene asks for.
   !>
   !> Fails where an element of a foil is degenerate.
-  subroutine create_foil(scene, bearing, foil, error)
+  subroutine create_foil(scene, bearing, division, foil, error)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(in) :: bearing !! with its film
+    type(division_type), intent(in) :: division      !! of film and bumps
     class(foil_model_type), allocatable, intent(out) :: foil
     type(error_type), allocatable, intent(out) :: error
 
@@ -118,7 +143,7 @@ contains
       call move_alloc(foundation, foil)
     case (foil_shell)
       allocate (shells)
-      call create_shell_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, &
+      call create_shell_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, division, &
                              scene%model%reduction == reduction_guyan, shells, error)
       if (allocated(error)) return
       call move_alloc(shells, foil)

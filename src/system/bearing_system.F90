@@ -10,13 +10,14 @@ module gfb_bearing_system
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
-  use gfb_film_mesh, only: film_mesh_type, film_elements
+  use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
   use gfb_gas_film, only: gas_film_type, create_gas_film
   use gfb_film_matrix, only: no_shaft, make_film_room, add_film_rows, add_shaft_rows
   use gfb_film_load, only: film_forces
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, share_failure, any_rank
-  use gfb_partition, only: partition_elements
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank, rank_count, fetch_entries
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_part_chains, only: film_chain
   use gfb_foil_model, only: foil_model_type
   use gfb_free_edge, only: free_edge_type, find_free_edge
   use gfb_cost_events, only: cost_events_type, register_cost_events
@@ -27,7 +28,7 @@ module gfb_bearing_system
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   implicit none (type)
   private
-  public :: create_film_part, create_bearing_system, film_on_all_ranks
+  public :: create_film_part, create_bearing_system, film_values
 
   !> The bearing at one operating point.
   type, extends(nonlinear_system_type), public :: bearing_system_type
@@ -74,7 +75,7 @@ contains
   !> Distributes the film's mesh and sets up this rank's part of the film.
   !>
   !> Fails when the mesh cannot be cut, or an element is folded over.
-  subroutine create_film_part(whole, clearance, ambient_pressure, viscosity, upwind, bearing, error)
+  subroutine create_film_part(whole, clearance, ambient_pressure, viscosity, upwind, bearing, error, column_part)
     type(film_mesh_type), intent(in) :: whole
     real(wp), intent(in) :: clearance        !! C [m]
     real(wp), intent(in) :: ambient_pressure !! p_a [Pa]
@@ -82,27 +83,19 @@ contains
     logical, intent(in) :: upwind            !! SUPG instead of Galerkin
     type(bearing_system_type), intent(out) :: bearing
     type(error_type), allocatable, intent(out) :: error
+    !> rank, from 1, of every column of elements; default: the film is cut by itself
+    integer, intent(in), optional :: column_part(:)
 
-    real(wp), allocatable :: position(:, :)
-    integer, allocatable :: element_nodes(:, :), part(:)
-    integer :: rank, ranks, i, j
-    PetscErrorCode :: ierr
+    type(division_type) :: division
 
     bearing%whole = whole
-    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
-    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
-    if (rank == 0) then
-      element_nodes = film_elements(whole)
-      call partition_elements(element_nodes, whole%nodes(), ranks, part, error)
-      position = reshape([((whole%radius*whole%station_angle(i), whole%row_axial(j), &
-                            j=1, whole%rows()), i=1, whole%stations())], [2, whole%nodes()])
+    if (present(column_part)) then
+      division%film = column_part
     else
-      allocate (element_nodes(4, 0), part(0), position(2, 0))
+      call divide(film_chain(whole, .false.), no_chain(), rank_count(), division, error)
+      if (allocated(error)) return
     end if
-    call share_failure(error)
-    if (allocated(error)) return
-    call distribute_mesh(PETSC_COMM_WORLD, element_nodes, part, position, [(1, i=1, whole%nodes())], &
-                         bearing%mesh)
+    call distribute_mesh(PETSC_COMM_WORLD, whole%stations(), whole%rows(), whole%periodic, division%film, bearing%mesh)
     call create_gas_film(whole, bearing%mesh%mesh_node, bearing%mesh%element_nodes, clearance, &
                          ambient_pressure, viscosity, upwind, bearing%film, error)
   end subroutine create_film_part
@@ -141,9 +134,9 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     type(unknown_layout_type), intent(in) :: layout
 
-    PetscInt :: first, last, row, entries, number(bearing%unknowns)
+    PetscInt :: first, last, row, entries, number(maxval([0, bearing%foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
-    PetscScalar :: value(bearing%unknowns)
+    PetscScalar :: value(size(number))
     PetscErrorCode :: ierr
     integer :: i
 
@@ -434,19 +427,17 @@ contains
     force = sum_over_ranks(self%film%force(unknown(:size(self%mesh%mesh_node))))
   end function reaction
 
-  !> A film field, known at each rank's nodes, by the whole mesh's numbers on all ranks.
-  function film_on_all_ranks(bearing, value) result(whole)
+  !> A film field, known at each rank's nodes, at any nodes of the whole mesh.
+  function film_values(bearing, value, wanted) result(found)
     type(bearing_system_type), intent(in) :: bearing
-    real(wp), intent(in) :: value(:) !! at the local nodes
-    real(wp) :: whole(bearing%whole%nodes())
-    integer :: node
+    real(wp), intent(in) :: value(:)     !! at the local nodes
+    integer, intent(in) :: wanted(:)     !! nodes of the whole mesh
+    real(wp) :: found(size(wanted))
+    real(wp) :: own(1, count(bearing%mesh%owned))
 
-    whole = 0.0_wp
-    do node = 1, size(bearing%mesh%mesh_node)
-      if (bearing%mesh%owned(node)) whole(bearing%mesh%mesh_node(node)) = value(node)
-    end do
-    whole = sum_over_ranks(whole)
-  end function film_on_all_ranks
+    own(1, :) = pack(value, bearing%mesh%owned)
+    found = pack(fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, bearing%mesh%owned), own, wanted), .true.)
+  end function film_values
 
   !> Local unknowns at the present state, in SI.
   subroutine get_unknowns(self, unknown)

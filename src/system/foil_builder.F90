@@ -21,7 +21,7 @@ module gfb_foil_builder
   implicit none (type)
   private
   public :: build_part, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
-            plate_fixed_edge, symmetry_supports
+            plate_fixed_edge, find_symmetry_supports
 
   integer, parameter, public :: axial = 3         !! component of a displacement
   integer, parameter, public :: about_tangent = 5 !! rotation about the second axis
@@ -60,7 +60,7 @@ contains
       mesh = bump_strip_mesh(shape, axial_rows(scene%bump_foil%width, scene%mesh%axial_elements, plan%half), &
                              plan%half)
       pieces = strip_substructures(shape, mesh)
-      fixed = symmetry_supports(mesh)
+      call find_symmetry_supports(mesh, fixed)
       if (scene%bump_foil%fixed_edge /= fixed_edge_none) fixed(:, node_set(mesh, 'fixed_edge')) = .true.
       call find_kinds(mesh, fixed, pieces)
     else
@@ -99,7 +99,7 @@ contains
     case default
       error stop 'not a part of a bump'
     end select
-    fixed = symmetry_supports(mesh)
+    call find_symmetry_supports(mesh, fixed)
     nodes = size(mesh%position, 2)
     fixed(:, :mesh%rows) = .true.
     fixed(:, nodes - mesh%rows + 1:) = .true.
@@ -114,7 +114,7 @@ contains
 
     mesh = top_foil_mesh(plate_stations(scene), 0.0_wp, &
                          axial_rows(scene%bearing%length, scene%mesh%axial_elements, plan%half), plan%half)
-    fixed = symmetry_supports(mesh)
+    call find_symmetry_supports(mesh, fixed)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
   end subroutine plate
 
@@ -158,17 +158,17 @@ contains
   end function whole
 
   !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent.
-  pure function symmetry_supports(mesh) result(fixed)
+  pure subroutine find_symmetry_supports(mesh, fixed)
     type(quad_mesh_type), intent(in) :: mesh
-    logical, allocatable :: fixed(:, :) !! (5, nodes)
+    logical, allocatable, intent(out) :: fixed(:, :) !! (5, nodes), under the mesh's numbers
     integer :: node
 
-    allocate (fixed(node_unknowns, size(mesh%position, 2)), source=.false.)
+    allocate (fixed(node_unknowns, lbound(mesh%position, 2):ubound(mesh%position, 2)), source=.false.)
     if (.not. mesh%half) return
-    do node = 1, size(fixed, 2)
+    do node = lbound(fixed, 2), ubound(fixed, 2)
       if (abs(mesh%position(3, node)) <= 0.0_wp) fixed([axial, about_tangent], node) = .true.
     end do
-  end function symmetry_supports
+  end subroutine find_symmetry_supports
 
   !> Shape of a bearing's strip, laid from its fixed edge.
   function shape_on_pad(scene) result(shape)

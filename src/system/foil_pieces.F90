@@ -10,8 +10,8 @@ module gfb_foil_pieces
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_substructures, only: substructure_type
-  use gfb_super_element, only: super_element_type, condense
+  use gfb_substructures, only: substructure_type, places_in
+  use gfb_super_element, only: super_element_type, hold_blocks, form_explicitly
   implicit none (type)
   private
   public :: number_slots, condense_piece, assemble_piece, retained_in_piece, piece_unknowns, &
@@ -23,11 +23,11 @@ contains
 
   !> Place of each free unknown of a kept node at its node, 0 for all others.
   pure subroutine number_slots(free, substructure, reduced, slot)
-    logical, intent(in) :: free(:, :)                 !! (5, nodes) not held by a support
+    logical, allocatable, intent(in) :: free(:, :)    !! (5, nodes) not held by a support
     type(substructure_type), intent(in) :: substructure(:)
     logical, intent(in) :: reduced                    !! only retained nodes are kept
     integer, allocatable, intent(out) :: slot(:, :)   !! (5, nodes)
-    logical :: kept(size(free, 2))
+    logical :: kept(lbound(free, 2):ubound(free, 2))
     integer :: node, i, component, slots
 
     kept = .not. reduced
@@ -36,8 +36,8 @@ contains
         kept(pack(substructure(i)%nodes, substructure(i)%retained)) = .true.
       end do
     end if
-    allocate (slot(node_unknowns, size(kept)), source=0)
-    do node = 1, size(kept)
+    allocate (slot(node_unknowns, lbound(kept, 1):ubound(kept, 1)), source=0)
+    do node = lbound(kept, 1), ubound(kept, 1)
       if (.not. kept(node)) cycle
       slots = 0
       do component = 1, node_unknowns
@@ -48,20 +48,26 @@ contains
     end do
   end subroutine number_slots
 
-  !> Assembles a substructure on its own and condenses it.
-  subroutine condense_piece(mesh, section, free, substructure, super, error)
+  !> Assembles a substructure on its own and condenses it, or only holds what recovers its interior.
+  !>
+  !> Fails where an element is clockwise or degenerate.
+  subroutine condense_piece(mesh, section, free, substructure, explicitly, super, error)
     type(quad_mesh_type), intent(in) :: mesh
     type(shell_section_type), intent(in) :: section
-    logical, intent(in) :: free(:, :) !! (5, nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
     type(substructure_type), intent(in) :: substructure
+    logical, intent(in) :: explicitly !! the condensed matrix too
     type(super_element_type), intent(out) :: super
     type(error_type), allocatable, intent(out) :: error
+    logical, allocatable :: is_retained(:)
     Mat :: stiffness
     PetscErrorCode :: ierr
 
     call assemble_piece(mesh, section, free, substructure, .false., stiffness, error)
     if (allocated(error)) return
-    call condense(stiffness, retained_in_piece(free, substructure), 'super_', super)
+    is_retained = retained_in_piece(free, substructure)
+    call hold_blocks(stiffness, is_retained, 'super_', super)
+    if (explicitly) call form_explicitly(stiffness, is_retained, super)
     PetscCallA(MatDestroy(stiffness, ierr))
   end subroutine condense_piece
 
@@ -71,31 +77,31 @@ contains
   subroutine assemble_piece(mesh, section, free, substructure, mass, matrix, error)
     type(quad_mesh_type), intent(in) :: mesh
     type(shell_section_type), intent(in) :: section
-    logical, intent(in) :: free(:, :) !! (5, nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
     type(substructure_type), intent(in) :: substructure
     logical, intent(in) :: mass       !! instead of stiffness
     Mat, intent(out) :: matrix
     type(error_type), allocatable, intent(out) :: error
 
-    integer, allocatable :: number(:, :)
-    logical, allocatable :: has(:, :)
+    integer :: number(node_unknowns, size(substructure%nodes))
+    logical :: has(node_unknowns, size(substructure%nodes))
     real(wp) :: block(shell_unknowns, shell_unknowns)
     PetscErrorCode :: ierr
     integer :: i, component, unknowns
 
     unknowns = 0
-    allocate (number(node_unknowns, size(mesh%position, 2)), source=0)
+    number = 0
     has = piece_unknowns(free, substructure)
     do i = 1, size(substructure%nodes)
       do component = 1, node_unknowns
         if (.not. has(component, i)) cycle
         unknowns = unknowns + 1
-        number(component, substructure%nodes(i)) = unknowns
+        number(component, i) = unknowns
       end do
     end do
     PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER, matrix, ierr))
     do i = 1, size(substructure%elements)
-      associate (nodes => mesh%element_nodes(:, substructure%elements(i)), &
+      associate (places => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
                  geometry => element_geometry(mesh, substructure%elements(i)))
         if (mass) then
           call shell_mass(geometry, section, block, error)
@@ -103,7 +109,7 @@ contains
           call shell_stiffness(geometry, section, block, error)
         end if
         if (allocated(error)) return
-        call add_symmetric_block(matrix, reshape(number(:, nodes), [shell_unknowns]) - 1, block)
+        call add_symmetric_block(matrix, reshape(number(:, places), [shell_unknowns]) - 1, block)
       end associate
     end do
     PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
@@ -112,7 +118,7 @@ contains
 
   !> Which of a substructure's unknowns are kept.
   pure function retained_in_piece(free, substructure) result(is_retained)
-    logical, intent(in) :: free(:, :) !! (5, nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
     type(substructure_type), intent(in) :: substructure
     logical, allocatable :: is_retained(:)
 
@@ -122,11 +128,11 @@ contains
   !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there
   !> does not make it another kind, and the free ones inside.
   pure function piece_unknowns(free, substructure) result(has)
-    logical, intent(in) :: free(:, :) !! (5, nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
     type(substructure_type), intent(in) :: substructure
     logical :: has(node_unknowns, size(substructure%nodes))
 
-    has = free(:, substructure%nodes) .or. spread(substructure%retained, 1, node_unknowns)
+    has = free .or. spread(substructure%retained, 1, node_unknowns)
   end function piece_unknowns
 
   !> Where an element of a mesh is.
@@ -156,20 +162,21 @@ contains
   end subroutine add_symmetric_block
 
   !> An empty matrix over all ranks with room for what a row couples.
-  subroutine create_foil_matrix(owned, unknowns, entries, matrix)
-    PetscInt, intent(in) :: owned   !! unknowns of this rank
-    integer, intent(in) :: unknowns !! of all ranks
-    integer, intent(in) :: entries  !! of a row, at most
+  subroutine create_foil_matrix(entries, at_seam, unknowns, matrix)
+    integer, intent(in) :: entries     !! of a row, at most
+    logical, intent(in) :: at_seam(:)  !! (unknowns of this rank) coupled to other ranks' unknowns
+    integer, intent(in) :: unknowns    !! of all ranks
     Mat, intent(out) :: matrix
-    PetscInt :: inside, outside
+    PetscInt :: inside(size(at_seam)), outside(size(at_seam)), owned
     PetscErrorCode :: ierr
 
+    owned = size(at_seam)
     inside = min(int(entries, pint), owned)
-    outside = min(int(entries, pint), int(unknowns, pint) - owned)
+    outside = merge(min(int(entries, pint), int(unknowns, pint) - owned), 0_pint, at_seam)
     PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
     PetscCallA(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(matrix, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(matrix, inside, PETSC_NULL_INTEGER, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(matrix, inside, PETSC_NULL_INTEGER, outside, PETSC_NULL_INTEGER, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(matrix, 0_pint, inside, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(matrix, 0_pint, inside, 0_pint, outside, ierr))
   end subroutine create_foil_matrix
 end module gfb_foil_pieces

@@ -1,6 +1,9 @@
+#include "gfb_petsc.h"
 !> What shells and beams under a film have in common when they are built: meshes, laws of the
 !> contacts, places of the unknowns, pressure, sizes.
 module gfb_foil_places
+  use petscsys
+  use gfb_petsc_kinds, only: pint
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_strip_load_case, only: bump_stiffness
@@ -11,11 +14,10 @@ module gfb_foil_places
   use gfb_foil_mesh, only: top_foil_mesh
   use gfb_bump_contacts, only: set_contact_laws
   use gfb_shell_foil, only: shell_foil_type
-  implicit none (type, external)
+  implicit none (type)
   private
-  public :: top_mesh, set_laws, list_wanted, place_unknowns, add_pressure, size_unknowns
+  public :: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
 
-  integer, parameter :: radial = 2, axial = 3 !! components of a displacement
   integer, parameter :: corners = 4
   real(wp), parameter :: soft_contact = 20.0_wp !! stiffness to begin with, over a bump's
 
@@ -23,13 +25,14 @@ contains
 
   !> The top foil on the film's nodes; its mid-surface lies above the crests' by half of both
   !> thicknesses.
-  pure function top_mesh(scene, film) result(mesh)
+  pure function top_mesh(scene, film, window) result(mesh)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
+    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
     type(quad_mesh_type) :: mesh
 
     mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), scene%bump_foil%height + &
-                         0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half)
+                         0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half, window)
   end function top_mesh
 
   !> Laws of the contacts, and how soft they begin.
@@ -44,61 +47,73 @@ contains
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
   end subroutine set_laws
 
-  !> Marks the foil's unknowns that this rank needs.
-  subroutine list_wanted(foil, mesh, first, wanted)
-    class(shell_foil_type), intent(in) :: foil
-    type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: first !! foil's unknowns of the ranks before this one
-    logical, allocatable, intent(out) :: wanted(:) !! by the foil's own numbers
-    integer :: i
-
-    allocate (wanted(0:foil%top%unknowns + foil%bumps%unknowns), source=.false.)
-    wanted(first + 1:first + foil%owned) = .true.
-    call mark(foil%top_number(radial, mesh%mesh_node), wanted)
-    do i = 1, size(foil%contacts%point)
-      call mark(foil%contacts%point_unknowns(i), wanted)
-    end do
-    wanted(0) = .false.
-  end subroutine list_wanted
-
-  !> Marks numbers in a list.
-  pure subroutine mark(number, marked)
-    integer, intent(in) :: number(:)
-    logical, intent(inout) :: marked(0:)
-    integer :: i
-
-    do i = 1, size(number)
-      marked(number(i)) = .true.
-    end do
-  end subroutine mark
-
-  !> Gives the needed unknowns their places, and the contacts and film nodes theirs.
-  subroutine place_unknowns(foil, mesh, first, wanted)
+  !> Gives the unknowns that this rank needs their places, and the contacts and film nodes theirs.
+  subroutine place_unknowns(foil, first, sunk)
     class(shell_foil_type), intent(inout) :: foil
-    type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: first
-    logical, intent(in) :: wanted(0:)
-    integer :: place(0:ubound(wanted, 1)), i, k
+    integer, intent(in) :: first   !! foil's unknowns of the ranks before this one
+    integer, intent(in) :: sunk(:) !! (film nodes of this rank) foil's number of v there, from 1; 0: held
 
-    foil%global_unknown = pack([(i, i=0, ubound(wanted, 1))], wanted)
-    place = 0
-    do i = 1, size(foil%global_unknown)
-      place(foil%global_unknown(i)) = i
+    integer, allocatable :: needed(:)
+    integer :: i, k
+
+    needed = sunk
+    do i = 1, size(foil%contacts%point)
+      needed = [needed, foil%contacts%point_unknowns(i)]
     end do
-    foil%own_place = place(first + 1:first + foil%owned)
-    foil%source = -place(foil%top_number(radial, mesh%mesh_node))
+    needed = pack(needed, needed > 0 .and. (needed <= first .or. needed > first + foil%owned))
+    call sort_once(needed)
+    foil%global_unknown = [pack(needed, needed <= first), [(first + i, i=1, foil%owned)], pack(needed, needed > first)]
+    k = count(needed <= first)
+    foil%own_place = [(k + i, i=1, foil%owned)]
+    foil%source = -place_of(foil%global_unknown, sunk)
     allocate (foil%rate(size(foil%source)), source=-1.0_wp)
     allocate (foil%origin(size(foil%source)), source=0.0_wp)
     do i = 1, size(foil%contacts%point)
       associate (point => foil%contacts%point(i))
-        point%slave = place(point%slave)
+        point%slave = place_of(foil%global_unknown, point%slave)
         do k = 1, size(point%share)
-          point%master(:, k) = place(point%master(:, k))
+          point%master(:, k) = place_of(foil%global_unknown, point%master(:, k))
         end do
       end associate
     end do
     foil%contacts%global = foil%global_unknown
   end subroutine place_unknowns
+
+  !> Sorts numbers and keeps each once.
+  subroutine sort_once(numbers)
+    integer, allocatable, intent(inout) :: numbers(:)
+    PetscInt :: kept, list(size(numbers))
+    PetscErrorCode :: ierr
+
+    list = int(numbers, pint)
+    kept = size(list)
+    PetscCallA(PetscSortRemoveDupsInt(kept, list, ierr))
+    numbers = int(list(:kept))
+  end subroutine sort_once
+
+  !> Places of numbers in a rising list, 0 where they are not in it.
+  pure function place_of(list, numbers) result(place)
+    integer, intent(in) :: list(:)
+    integer, intent(in) :: numbers(:)
+    integer :: place(size(numbers))
+    integer :: i, low, high, middle
+
+    place = 0
+    do i = 1, size(numbers)
+      low = 1
+      high = size(list)
+      do while (low < high)
+        middle = (low + high)/2
+        if (list(middle) < numbers(i)) then
+          low = middle + 1
+        else
+          high = middle
+        end if
+      end do
+      if (low > size(list)) cycle
+      if (list(low) == numbers(i)) place(i) = low
+    end do
+  end function place_of
 
   !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
   subroutine add_pressure(film, mesh, element_nodes, foil)
@@ -127,21 +142,18 @@ contains
   end subroutine add_pressure
 
   !> Sizes of displacements and forces.
-  subroutine size_unknowns(scene, film, foil, wanted)
+  subroutine size_unknowns(scene, film, turning, foil)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
+    integer, intent(in) :: turning(:) !! foil's numbers of this rank's rotations; it needs no others
     class(shell_foil_type), intent(inout) :: foil
-    logical, intent(in) :: wanted(0:)
-    logical :: turns(0:ubound(wanted, 1))
-    real(wp) :: force, scale(0:ubound(wanted, 1))
+    real(wp) :: force, scale(size(foil%global_unknown))
 
-    turns = .false.
-    call mark(pack(foil%top_number(axial + 1:, :), .true.), turns)
-    call mark(pack(foil%bump_number(axial + 1:, :), .true.), turns)
-    scale = merge(scene%bump_foil%half_length, 1.0_wp, turns)
+    scale = 1.0_wp
+    scale(place_of(foil%global_unknown, turning)) = scene%bump_foil%half_length
     force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
             scene%bearing%length/scene%mesh%axial_elements
-    foil%unknown_scale = scene%bearing%clearance/scale(foil%global_unknown)
-    foil%equation_scale = force*scale(foil%global_unknown)
+    foil%unknown_scale = scene%bearing%clearance/scale
+    foil%equation_scale = force*scale
   end subroutine size_unknowns
 end module gfb_foil_places

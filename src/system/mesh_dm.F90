@@ -1,5 +1,9 @@
 #include "gfb_petsc.h"
-!> Distributes a mesh of quadrilaterals over the ranks, by DMPlex.
+!> Distributes a mesh of stations and rows over the ranks, by DMPlex.
+!>
+!> Every rank gives an equal share of the columns of elements, none the whole mesh; DMPlex carries the
+!> columns to the ranks that the partition says. A vertex is known by its station and row, which are
+!> its coordinates there.
 !>
 !> Here, and nowhere else, PETSc's points and offsets (from 0) become our nodes and elements (from
 !> 1).
@@ -9,9 +13,10 @@ module gfb_mesh_dm
   use petscvec
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint, preal
+  use gfb_film_mesh, only: cell_nodes
   implicit none (type)
   private
-  public :: distribute_mesh
+  public :: distribute_mesh, columns_window
 
   !> One rank's part of a mesh: its elements, and all their nodes.
   type, public :: local_mesh_type
@@ -22,7 +27,18 @@ module gfb_mesh_dm
     logical, allocatable :: owned(:)            !! whether this rank owns the local node
   end type local_mesh_type
 
+  integer, parameter :: corners = 4
+
   interface
+    function gfb_create_plex(communicator, cells, vertices, all_vertices, cell, coordinate, dm) result(status) bind(c)
+      import :: c_intptr_t, c_int, pint, preal
+      integer, value :: communicator
+      integer(pint), value :: cells, vertices, all_vertices
+      integer(pint), intent(in) :: cell(*)
+      real(preal), intent(in) :: coordinate(*)
+      integer(c_intptr_t), intent(out) :: dm
+      integer(c_int) :: status
+    end function gfb_create_plex
     function gfb_set_shell_partition(dm, parts, sizes, cells) result(status) bind(c)
       import :: c_intptr_t, c_int, pint
       integer(c_intptr_t), value :: dm
@@ -36,35 +52,38 @@ contains
 
   !> Gives each rank its part of a mesh, and numbers the unknowns of its nodes.
   !>
-  !> Elements, their parts and positions count on rank 0 only, the nodes' unknowns on all ranks.
-  subroutine distribute_mesh(communicator, element_nodes, element_part, position, node_unknowns, mesh)
-    integer, intent(in) :: communicator         !! MPI's
-    integer, intent(in) :: element_nodes(:, :)  !! (4, elements) of the whole mesh, from 1
-    integer, intent(in) :: element_part(:)      !! rank of every element, from 1
-    real(wp), intent(in) :: position(:, :)      !! (2 or 3, nodes) [m]
-    integer, intent(in) :: node_unknowns(:)     !! unknowns at every node of the whole mesh
+  !> Node (station i, row j) is number (i - 1)*rows + j.
+  subroutine distribute_mesh(communicator, stations, rows, periodic, column_part, mesh, node_unknowns)
+    integer, intent(in) :: communicator    !! MPI's
+    integer, intent(in) :: stations, rows  !! of the whole mesh
+    logical, intent(in) :: periodic        !! the last station's neighbour is the first
+    integer, intent(in) :: column_part(:)  !! rank, from 1, of every column of elements
     type(local_mesh_type), intent(out) :: mesh
+    !> unknowns at the nodes, under their numbers in the whole mesh, at least of this rank's columns;
+    !> default: one each
+    integer, allocatable, intent(in), optional :: node_unknowns(:)
 
     DM :: whole, part
     PetscSF :: migration
     PetscErrorCode :: ierr
-    integer :: ranks
+    integer :: ranks, i
 
     call MPI_Comm_size(communicator, ranks, ierr)
-    call create_whole(communicator, element_nodes, position, whole)
+    call create_whole(communicator, stations, rows, periodic, whole)
     if (ranks == 1) then
       part = whole
     else
-      call set_partition(whole, element_part, ranks)
-      call set_section(whole)
-      PetscCallA(DMSetUseNatural(whole, PETSC_TRUE, ierr))
+      call set_partition(communicator, whole, column_part, rows - 1)
       PetscCallA(DMPlexDistribute(whole, 0_pint, migration, part, ierr))
       PetscCallA(PetscSFDestroy(migration, ierr))
-      call set_section(part)
     end if
     call read_elements(part, mesh)
-    call number_nodes(part, ranks > 1, mesh)
-    call set_section(part, node_unknowns(mesh%mesh_node))
+    call number_nodes(part, rows, mesh)
+    if (present(node_unknowns)) then
+      call set_section(part, node_unknowns(mesh%mesh_node))
+    else
+      call set_section(part, [(1, i=1, size(mesh%mesh_node))])
+    end if
     call number_unknowns(part, mesh)
     PetscCallA(DMDestroy(part, ierr))
     if (ranks > 1) then
@@ -72,53 +91,89 @@ contains
     end if
   end subroutine distribute_mesh
 
-  !> A DMPlex that holds the whole mesh on rank 0: cells and vertices, no edges, as none has
-  !> unknowns.
-  subroutine create_whole(communicator, element_nodes, position, whole)
-    integer, intent(in) :: communicator
-    integer, intent(in) :: element_nodes(:, :)
-    real(wp), intent(in) :: position(:, :)
-    DM, intent(out) :: whole
+  !> First and last station of a rank's columns; the last before the first where it has none.
+  pure function columns_window(column_part, part) result(window)
+    integer, intent(in) :: column_part(:) !! rank, from 1, of every column of elements
+    integer, intent(in) :: part           !! rank, from 1
+    integer :: window(2)
 
-    PetscInt, allocatable :: cells(:)
-    PetscReal, allocatable :: coordinates(:)
-    PetscInt :: cell_count, vertex_count
+    window = [1, 0]
+    if (any(column_part == part)) then
+      window = [findloc(column_part, part, 1), findloc(column_part, part, 1, back=.true.) + 1]
+    end if
+  end function columns_window
+
+  !> This rank's share of the columns before the mesh is distributed: those after the first, up to the
+  !> second number.
+  subroutine starting_share(communicator, columns, share)
+    integer, intent(in) :: communicator, columns
+    integer, intent(out) :: share(2)
     PetscErrorCode :: ierr
-    integer :: rank
+    integer :: rank, ranks
 
     call MPI_Comm_rank(communicator, rank, ierr)
-    if (rank == 0) then
-      cells = int(reshape(element_nodes, [size(element_nodes)]) - 1, pint)
-      coordinates = reshape(position, [size(position)])
-      cell_count = size(element_nodes, 2)
-      vertex_count = size(position, 2)
-    else
-      allocate (cells(1), source=0_pint)
-      allocate (coordinates(2), source=0.0_preal)
-      cell_count = 0
-      vertex_count = 0
-    end if
-    PetscCallA(DMPlexCreateFromCellListPetsc(communicator, 2_pint, cell_count, vertex_count, 4_pint, PETSC_FALSE, cells, int(size(position, 1), pint), coordinates, whole, ierr))
+    call MPI_Comm_size(communicator, ranks, ierr)
+    share = [rank, rank + 1]*columns/ranks
+  end subroutine starting_share
+
+  !> A DMPlex of which every rank holds a share: cells and vertices, no edges, as none has unknowns.
+  subroutine create_whole(communicator, stations, rows, periodic, whole)
+    integer, intent(in) :: communicator
+    integer, intent(in) :: stations, rows
+    logical, intent(in) :: periodic
+    DM, intent(out) :: whole
+
+    PetscInt, allocatable :: cells(:, :)
+    PetscReal, allocatable :: coordinates(:, :)
+    integer(c_intptr_t) :: handle
+    integer :: columns, share(2), last, column, station, row, cell
+
+    columns = merge(stations, stations - 1, periodic)
+    call starting_share(communicator, columns, share)
+    last = share(2) ! stations too are shared out, each once
+    if (share(2) == columns) last = stations
+    allocate (cells(corners, max(1, (share(2) - share(1))*(rows - 1))), source=0_pint)
+    cell = 0
+    do column = share(1) + 1, share(2)
+      do row = 1, rows - 1
+        cell = cell + 1
+        cells(:, cell) = int(cell_nodes(column, row, stations, rows) - 1, pint)
+      end do
+    end do
+    allocate (coordinates(2, max(1, (last - share(1))*rows)), source=0.0_preal)
+    do station = share(1) + 1, last
+      do row = 1, rows
+        coordinates(:, (station - share(1) - 1)*rows + row) = real([station, row], preal)
+      end do
+    end do
+    if (gfb_create_plex(communicator, int(cell, pint), int((last - share(1))*rows, pint), int(stations*rows, pint), &
+                        cells, coordinates, handle) /= 0) error stop 'PETSc refused the mesh'
+    whole%v = handle
   end subroutine create_whole
 
-  !> Tells the DMPlex which rank each element goes to.
-  subroutine set_partition(whole, element_part, ranks)
+  !> Tells the DMPlex which rank each of this rank's cells goes to.
+  subroutine set_partition(communicator, whole, column_part, cells_a_column)
+    integer, intent(in) :: communicator
     DM, intent(in) :: whole
-    integer, intent(in) :: element_part(:)
-    integer, intent(in) :: ranks
+    integer, intent(in) :: column_part(:)
+    integer, intent(in) :: cells_a_column
 
     PetscInt, allocatable :: sizes(:), cells(:)
-    integer :: part, element, filled
+    integer :: part, column, filled, share(2), ranks, i
+    PetscErrorCode :: ierr
 
+    call MPI_Comm_size(communicator, ranks, ierr)
+    call starting_share(communicator, size(column_part), share)
     allocate (sizes(ranks), source=0_pint)
-    allocate (cells(max(1, size(element_part))), source=0_pint)
+    allocate (cells(max(1, (share(2) - share(1))*cells_a_column)), source=0_pint)
     filled = 0
     do part = 1, ranks
-      sizes(part) = count(element_part == part)
-      do element = 1, size(element_part)
-        if (element_part(element) /= part) cycle
-        filled = filled + 1
-        cells(filled) = element - 1
+      sizes(part) = count(column_part(share(1) + 1:share(2)) == part)*cells_a_column
+      do column = share(1) + 1, share(2)
+        if (column_part(column) /= part) cycle
+        cells(filled + 1:filled + cells_a_column) = &
+          [(int((column - share(1) - 1)*cells_a_column + i - 1, pint), i=1, cells_a_column)]
+        filled = filled + cells_a_column
       end do
     end do
     if (gfb_set_shell_partition(int(whole%v, c_intptr_t), int(ranks, pint), sizes, cells) /= 0) then
@@ -126,10 +181,10 @@ contains
     end if
   end subroutine set_partition
 
-  !> Unknowns at every vertex, one where not said.
+  !> Unknowns at every vertex.
   subroutine set_section(plex, unknowns)
     DM, intent(in) :: plex
-    integer, intent(in), optional :: unknowns(:) !! of the local nodes
+    integer, intent(in) :: unknowns(:) !! of the local nodes
     PetscSection :: section
     PetscInt :: first, last, first_vertex, end_vertex, vertex
     PetscErrorCode :: ierr
@@ -139,11 +194,7 @@ contains
     PetscCallA(PetscSectionSetChart(section, first, last, ierr))
     PetscCallA(DMPlexGetDepthStratum(plex, 0_pint, first_vertex, end_vertex, ierr))
     do vertex = first_vertex, end_vertex - 1
-      if (present(unknowns)) then
-        PetscCallA(PetscSectionSetDof(section, vertex, int(unknowns(vertex - first_vertex + 1), pint), ierr))
-      else
-        PetscCallA(PetscSectionSetDof(section, vertex, 1_pint, ierr))
-      end if
+      PetscCallA(PetscSectionSetDof(section, vertex, int(unknowns(vertex - first_vertex + 1), pint), ierr))
     end do
     PetscCallA(PetscSectionSetUp(section, ierr))
     PetscCallA(DMSetLocalSection(plex, section, ierr))
@@ -195,38 +246,22 @@ contains
     end do
   end subroutine number_unknowns
 
-  !> The whole mesh's number of every local node: the numbers travel as a field of the whole mesh.
-  subroutine number_nodes(part, distributed, mesh)
+  !> The whole mesh's number of every local node, from its station and row.
+  subroutine number_nodes(part, rows, mesh)
     DM, intent(in) :: part
-    logical, intent(in) :: distributed
+    integer, intent(in) :: rows
     type(local_mesh_type), intent(inout) :: mesh
 
-    Vec :: natural, global, local
-    PetscScalar, pointer :: numbers(:)
-    PetscInt :: first, last
+    Vec :: places
+    PetscScalar, pointer :: place(:)
     PetscErrorCode :: ierr
     integer :: i
 
-    if (.not. distributed) then
-      mesh%mesh_node = [(i, i=1, size(mesh%mesh_node))]
-      return
-    end if
-    PetscCallA(DMPlexCreateNaturalVector(part, natural, ierr))
-    PetscCallA(VecGetOwnershipRange(natural, first, last, ierr))
-    PetscCallA(GFB_VecGetArray(natural, numbers, ierr))
-    numbers = [(real(first + i, wp), i=1, int(last - first))]
-    PetscCallA(GFB_VecRestoreArray(natural, numbers, ierr))
-    PetscCallA(DMGetGlobalVector(part, global, ierr))
-    PetscCallA(DMPlexNaturalToGlobalBegin(part, natural, global, ierr))
-    PetscCallA(DMPlexNaturalToGlobalEnd(part, natural, global, ierr))
-    PetscCallA(DMGetLocalVector(part, local, ierr))
-    PetscCallA(DMGlobalToLocalBegin(part, global, INSERT_VALUES, local, ierr))
-    PetscCallA(DMGlobalToLocalEnd(part, global, INSERT_VALUES, local, ierr))
-    PetscCallA(GFB_VecGetArrayRead(local, numbers, ierr))
-    mesh%mesh_node = nint(numbers)
-    PetscCallA(GFB_VecRestoreArrayRead(local, numbers, ierr))
-    PetscCallA(DMRestoreLocalVector(part, local, ierr))
-    PetscCallA(DMRestoreGlobalVector(part, global, ierr))
-    PetscCallA(VecDestroy(natural, ierr))
+    PetscCallA(DMGetCoordinatesLocal(part, places, ierr))
+    PetscCallA(GFB_VecGetArrayRead(places, place, ierr))
+    do i = 1, size(mesh%mesh_node)
+      mesh%mesh_node(i) = (nint(place(2*i - 1)) - 1)*rows + nint(place(2*i))
+    end do
+    PetscCallA(GFB_VecRestoreArrayRead(places, place, ierr))
   end subroutine number_nodes
 end module gfb_mesh_dm

@@ -21,8 +21,6 @@ module gfb_shell_foil
   !> Both foils and this rank's part of their equations.
   type, extends(foil_model_type), public :: shell_foil_type
     type(foil_structure_type) :: top, bumps
-    integer, allocatable :: top_number(:, :)  !! (5, nodes) foil's own number of an unknown, 0: held
-    integer, allocatable :: bump_number(:, :) !! the same of the bump strip's; 0: held or condensed
     type(contact_set_type) :: contacts        !! its unknowns are the local foil unknowns
     real(wp) :: ambient_pressure = 0.0_wp     !! p_a [Pa]
     integer, allocatable :: pressed(:, :)     !! (4, elements) film nodes of an element, local
@@ -46,6 +44,7 @@ module gfb_shell_foil
     procedure :: add_penetration_rates => shell_penetration_rates
     procedure :: split_displacements => shell_displacements
     procedure :: nodal_contacts => shell_contacts
+    procedure :: own_unknown => shell_own_unknown
     procedure :: commit => shell_commit
     procedure :: destroy => shell_destroy
   end type shell_foil_type
@@ -258,6 +257,23 @@ contains
     type(contact_set_type) :: contacts
     contacts = self%contacts
   end function shell_contacts
+
+  !> Local foil unknown of a component at one of this rank's own nodes; 0: held or condensed.
+  pure function shell_own_unknown(self, of_bumps, component, node) result(place)
+    class(shell_foil_type), intent(in) :: self
+    logical, intent(in) :: of_bumps  !! instead of the top foil
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node      !! of the whole mesh
+    integer :: place
+
+    if (of_bumps) then
+      place = self%bumps%unknown(component, node) + 1
+      if (place > 0) place = self%own_place(self%top%part%owned_unknowns + place - self%bumps%first)
+    else
+      place = self%top%unknown(component, node) + 1
+      if (place > 0) place = self%own_place(place - self%top%first)
+    end if
+  end function shell_own_unknown
 
   !> Displacements of one structure's nodes from its owned unknowns.
   subroutine expand(structure, owned, moved)

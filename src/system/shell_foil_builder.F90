@@ -4,25 +4,28 @@ module gfb_shell_foil_builder
   use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_mesh_dm, only: local_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_partition, only: division_type
+  use gfb_part_chains, only: strip_columns, strip_kinds
+  use gfb_mesh_dm, only: local_mesh_type, columns_window
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
-  use gfb_substructures, only: substructure_type, substructure, find_kinds
+  use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
   use gfb_foil_builder, only: shape_on_pad, section_of, plate_section, plate_fixed_edge, &
-                              symmetry_supports
+                              find_symmetry_supports
   use gfb_contact_set, only: contact_point_type
-  use gfb_bump_contacts, only: bump_contact, line_shares, line_length, crest_name, contact_sleeve, &
-                               contact_top
+  use gfb_bump_contacts, only: bump_contact, line_shares, line_length, crest_name, corner_name, &
+                               contact_sleeve, contact_top
   use gfb_master_search, only: find_masters
   use gfb_projection, only: projection_type, project
   use gfb_shell_geometry, only: node_unknowns
   use gfb_shell_foil, only: shell_foil_type
-  use gfb_foil_places, only: top_mesh, set_laws, list_wanted, place_unknowns, &
-                             add_pressure, size_unknowns
+  use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
   public :: create_shell_foil
@@ -30,69 +33,73 @@ module gfb_shell_foil_builder
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
   integer, parameter :: corners = 4
 
+  !> Unknowns of the ranks, and how a structure's numbers become the foil's.
+  type :: foil_ranges_type
+    integer, allocatable :: top_end(:), bump_end(:) !! (ranks) unknowns of the ranks so far
+    integer :: top_shift = 0, bump_shift = 0 !! from this rank's own numbers, from 0, to the foil's, from 1
+  contains
+    procedure :: of_top => number_of_top
+    procedure :: of_bumps => number_of_bumps
+  end type foil_ranges_type
+
 contains
 
   !> Both foils under a film.
   !>
   !> Fails where an element is degenerate.
-  subroutine create_shell_foil(scene, film, mesh, element_nodes, reduced, foil, error)
+  subroutine create_shell_foil(scene, film, mesh, element_nodes, division, reduced, foil, error)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :)       !! (4, elements) its elements, local nodes
+    type(division_type), intent(in) :: division      !! of film and bumps
     logical, intent(in) :: reduced                   !! bumps are condensed
     type(shell_foil_type), intent(out) :: foil
     type(error_type), allocatable, intent(out) :: error
 
-    logical, allocatable :: wanted(:)
-    integer, allocatable :: top_shift(:), bump_shift(:)
-    integer :: first
+    type(foil_ranges_type) :: ranges
+    integer :: v(node_unknowns, size(mesh%mesh_node))
 
     foil%ambient_pressure = scene%gas%ambient_pressure
-    call build_top(scene, film, foil%top, error)
+    call build_top(scene, film, division, foil%top, error)
     if (allocated(error)) return
-    call build_bumps(scene, film, reduced, foil%bumps, error)
+    call build_bumps(scene, film, division, reduced, foil%bumps, error)
     if (allocated(error)) return
-    call number_unknowns(foil, first, top_shift, bump_shift)
-    call join_stiffnesses(foil, top_shift, bump_shift)
+    ranges = ranges_of(foil)
+    foil%owned = foil%top%part%owned_unknowns + foil%bumps%part%owned_unknowns
+    call join_stiffnesses(foil, ranges)
     call set_laws(scene, foil)
-    call add_contacts(scene, foil)
-    call list_wanted(foil, mesh, first, wanted)
-    call place_unknowns(foil, mesh, first, wanted)
+    call add_contacts(scene, film, ranges, foil)
+    v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
+    call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
     call add_pressure(film, mesh, element_nodes, foil)
-    call size_unknowns(scene, film, foil, wanted)
-    call count_entries(foil, film)
+    call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
+    call count_entries(foil)
   end subroutine create_shell_foil
 
   !> The top foil on the film's nodes.
-  subroutine build_top(scene, film, top, error)
+  subroutine build_top(scene, film, division, top, error)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
+    type(division_type), intent(in) :: division
     type(foil_structure_type), intent(out) :: top
     type(error_type), allocatable, intent(out) :: error
 
     type(quad_mesh_type) :: mesh
-    type(substructure_type), allocatable :: piece(:)
+    type(substructure_type) :: none(0)
     logical, allocatable :: fixed(:, :)
-    logical :: none(film%nodes())
-    integer :: i, k
 
-    none = .false.
-    mesh = top_mesh(scene, film)
-    fixed = symmetry_supports(mesh)
+    mesh = top_mesh(scene, film, columns_window(division%film, this_rank() + 1))
+    call find_symmetry_supports(mesh, fixed)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
-    allocate (piece(film%circumferential()))
-    do i = 1, size(piece)
-      piece(i) = substructure(mesh, [((i - 1)*film%axial() + k, k=1, film%axial())], none)
-      piece(i)%kind = 1
-    end do
-    call create_foil_structure(mesh, plate_section(scene), fixed, piece, .false., top, error)
+    call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
   end subroutine build_top
 
   !> The bump strip on the sleeve, from its fixed edge.
-  subroutine build_bumps(scene, film, reduced, bumps, error)
+  subroutine build_bumps(scene, film, division, reduced, bumps, error)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
+    type(division_type), intent(in) :: division
     logical, intent(in) :: reduced
     type(foil_structure_type), intent(out) :: bumps
     type(error_type), allocatable, intent(out) :: error
@@ -100,151 +107,176 @@ contains
     type(quad_mesh_type) :: mesh
     type(strip_shape_type) :: shape
     type(substructure_type), allocatable :: piece(:)
+    integer, allocatable :: column_part(:)
     logical, allocatable :: fixed(:, :)
 
     shape = shape_on_pad(scene)
-    mesh = bump_strip_mesh(shape, film%row_axial, film%half)
+    column_part = strip_columns(shape, reduced, division%bumps)
+    mesh = bump_strip_mesh(shape, film%row_axial, film%half, columns_window(column_part, this_rank() + 1))
     piece = strip_substructures(shape, mesh)
-    fixed = symmetry_supports(mesh)
+    piece%kind = strip_kinds(shape, film%row_axial, film%half)
+    call find_symmetry_supports(mesh, fixed)
     fixed(:, node_set(mesh, 'fixed_edge')) = .true.
-    call find_kinds(mesh, fixed, piece)
-    call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error)
+    call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)
   end subroutine build_bumps
 
   !> Numbers of both foils' unknowns, rank by rank: top foil, then bumps.
-  subroutine number_unknowns(foil, first, top_shift, bump_shift)
-    type(shell_foil_type), intent(inout) :: foil
-    integer, intent(out) :: first !! unknowns of the ranks before this one
-    !> (from 0) foil's number of every unknown of the structures less its own
-    integer, allocatable, intent(out) :: top_shift(:), bump_shift(:)
-
+  function ranges_of(foil) result(ranges)
+    type(shell_foil_type), intent(in) :: foil
+    type(foil_ranges_type) :: ranges
     integer, allocatable :: both(:, :)
-    integer :: rank, ranks, i
+    integer :: i
     PetscErrorCode :: ierr
 
-    call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
-    call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
-    allocate (both(2, ranks))
+    allocate (both(2, rank_count()))
     call MPI_Allgather([foil%top%part%owned_unknowns, foil%bumps%part%owned_unknowns], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
-    first = sum(both(:, :rank))
-    foil%owned = sum(both(:, rank + 1))
-    allocate (top_shift(0:foil%top%unknowns - 1), bump_shift(0:foil%bumps%unknowns - 1))
-    do i = 1, ranks
-      top_shift(sum(both(1, :i - 1)):sum(both(1, :i)) - 1) = sum(both(2, :i - 1))
-      bump_shift(sum(both(2, :i - 1)):sum(both(2, :i)) - 1) = sum(both(1, :i))
-    end do
-    foil%top_number = numbers_of(foil%top, top_shift)
-    foil%bump_number = numbers_of(foil%bumps, bump_shift)
-  end subroutine number_unknowns
+    ranges%top_end = [(sum(both(1, :i)), i=1, size(both, 2))]
+    ranges%bump_end = [(sum(both(2, :i)), i=1, size(both, 2))]
+    ranges%top_shift = foil%bumps%first + 1
+    ranges%bump_shift = foil%top%first + foil%top%part%owned_unknowns + 1
+  end function ranges_of
 
-  !> The foil's own numbers of a structure's unknowns, known on all ranks.
-  function numbers_of(structure, shift) result(number)
+  !> Foil's number, from 1, of an unknown of the top foil, from 0; 0 where there is none.
+  elemental function number_of_top(self, number) result(of_foil)
+    class(foil_ranges_type), intent(in) :: self
+    integer, intent(in) :: number
+    integer :: of_foil
+    integer :: owner
+
+    of_foil = 0
+    if (number < 0) return
+    owner = findloc(self%top_end > number, .true., 1)
+    of_foil = number + 1
+    if (owner > 1) of_foil = of_foil + self%bump_end(owner - 1)
+  end function number_of_top
+
+  !> The same of an unknown of the bumps.
+  elemental function number_of_bumps(self, number) result(of_foil)
+    class(foil_ranges_type), intent(in) :: self
+    integer, intent(in) :: number
+    integer :: of_foil
+
+    of_foil = 0
+    if (number < 0) return
+    of_foil = number + 1 + self%top_end(findloc(self%bump_end > number, .true., 1))
+  end function number_of_bumps
+
+  !> Foil's numbers of this rank's own rotations.
+  function turning(structure, shift) result(list)
     type(foil_structure_type), intent(in) :: structure
-    integer, intent(in) :: shift(0:)     !! of the structure's unknowns
-    integer, allocatable :: number(:, :) !! (5, nodes), from 1; 0: none
-    integer, allocatable :: mine(:, :)
-    PetscErrorCode :: ierr
-    integer :: node, component, unknown
+    integer, intent(in) :: shift !! from a number of the structure, from 0, to the foil's
+    integer, allocatable :: list(:)
+    integer :: own(node_unknowns - axial, count(structure%part%owned)), i, k, component
 
-    allocate (mine(node_unknowns, size(structure%mesh%position, 2)), source=0)
-    do node = 1, size(mine, 2)
-      if (.not. structure%owns(node)) cycle
-      do component = 1, node_unknowns
-        unknown = structure%unknown(component, node)
-        if (unknown >= 0) mine(component, node) = unknown + shift(unknown) + 1
+    k = 0
+    do i = 1, size(structure%part%mesh_node)
+      if (.not. structure%part%owned(i)) cycle
+      k = k + 1
+      do component = axial + 1, node_unknowns
+        own(component - axial, k) = structure%unknown(component, structure%part%mesh_node(i))
       end do
     end do
-    allocate (number, mold=mine)
-    call MPI_Allreduce(mine, number, size(mine), MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
-  end function numbers_of
+    list = pack(own, own >= 0) + shift
+  end function turning
 
   !> One matrix of both foils' stiffness.
-  subroutine join_stiffnesses(foil, top_shift, bump_shift)
+  subroutine join_stiffnesses(foil, ranges)
     type(shell_foil_type), intent(inout) :: foil
-    integer, intent(in) :: top_shift(0:), bump_shift(0:) !! of the structures' unknowns
-    PetscInt, allocatable :: entries(:)
+    type(foil_ranges_type), intent(in) :: ranges
+
+    PetscInt, allocatable :: inside(:), outside(:)
     PetscErrorCode :: ierr
 
-    allocate (entries(foil%owned))
-    call count_rows(foil%top, entries(:foil%top%part%owned_unknowns))
-    call count_rows(foil%bumps, entries(foil%top%part%owned_unknowns + 1:))
+    allocate (inside(foil%owned), outside(foil%owned))
+    associate (top => foil%top%part%owned_unknowns)
+      call count_rows(foil%top, inside(:top), outside(:top))
+      call count_rows(foil%bumps, inside(top + 1:), outside(top + 1:))
+    end associate
     PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
     PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, 0_pint, entries, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, 0_pint, min(entries, int(foil%owned, pint)), 0_pint, entries, ierr))
-    call copy_rows(foil%top, top_shift, foil%elastic)
-    call copy_rows(foil%bumps, bump_shift, foil%elastic)
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, 0_pint, inside, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, 0_pint, inside, 0_pint, outside, ierr))
+    foil%row_entries = int(inside + outside)
+    call copy_rows(foil%top, ranges, .false., foil%row_entries, foil%elastic)
+    call copy_rows(foil%bumps, ranges, .true., foil%row_entries, foil%elastic)
     PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
     PetscCallA(MatDestroy(foil%top%stiffness, ierr))
     PetscCallA(MatDestroy(foil%bumps%stiffness, ierr))
     foil%has_elastic = .true.
-    foil%row_entries = int(entries)
   end subroutine join_stiffnesses
 
-  !> Entries of a structure's own rows.
-  subroutine count_rows(structure, entries)
+  !> Entries of a structure's own rows, in this rank's columns and in others.
+  subroutine count_rows(structure, inside, outside)
     type(foil_structure_type), intent(in) :: structure
-    PetscInt, intent(out) :: entries(:)
-    PetscInt :: first, last, row, found, column(structure%unknowns)
+    PetscInt, intent(out) :: inside(:), outside(:)
+    PetscInt :: first, last, row, found, column(structure%row_entries())
     PetscErrorCode :: ierr
 
     PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
     do row = first, last - 1
       PetscCallA(MatGetRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
-      entries(row - first + 1) = found
+      inside(row - first + 1) = count(column(:found) >= first .and. column(:found) < last)
+      outside(row - first + 1) = found - inside(row - first + 1)
       PetscCallA(MatRestoreRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
     end do
   end subroutine count_rows
 
   !> A structure's rows with the foil's own numbers.
-  subroutine copy_rows(structure, shift, matrix)
+  subroutine copy_rows(structure, ranges, of_bumps, entries_of_rows, matrix)
     type(foil_structure_type), intent(in) :: structure
-    integer, intent(in) :: shift(0:) !! of the structure's unknowns
+    type(foil_ranges_type), intent(in) :: ranges
+    logical, intent(in) :: of_bumps
+    integer, intent(in) :: entries_of_rows(:)
     Mat, intent(in) :: matrix
 
-    PetscInt :: first, last, row, entries, column(structure%unknowns)
-    PetscScalar :: value(structure%unknowns)
+    PetscInt :: first, last, row, shifted, entries, column(maxval([0, entries_of_rows]))
+    PetscScalar :: value(size(column))
     PetscErrorCode :: ierr
 
     PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
     do row = first, last - 1
       PetscCallA(MatGetRow(structure%stiffness, row, entries, column, value, ierr))
-      PetscCallA(MatSetValues(matrix, 1_pint, [row + int(shift(row), pint)], entries, column(:entries) + int(shift(column(:entries)), pint), value, INSERT_VALUES, ierr))
+      shifted = row + int(merge(ranges%bump_shift, ranges%top_shift, of_bumps), pint) - 1_pint
+      if (of_bumps) then
+        PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_bumps(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
+      else
+        PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_top(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
+      end if
       PetscCallA(MatRestoreRow(structure%stiffness, row, entries, column, value, ierr))
     end do
   end subroutine copy_rows
 
   !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
-  subroutine add_contacts(scene, foil)
+  subroutine add_contacts(scene, film, ranges, foil)
     type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(foil_ranges_type), intent(in) :: ranges
     type(shell_foil_type), intent(inout) :: foil
 
     type(contact_point_type), allocatable :: point(:)
-    integer, allocatable :: line(:)
-    integer :: bump, i, rows, found
+    integer :: i, found
 
     associate (mesh => foil%bumps%mesh)
-      rows = mesh%rows
-      line = node_set(mesh, 'corners')
-      allocate (point(size(line) + size(node_set(mesh, 'crests'))))
+      allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
       found = 0
-      do i = 1, size(line)/rows
-        call add_line(foil, line((i - 1)*rows + 1:i*rows), contact_sleeve, i, point, found)
+      do i = 1, set_count(mesh, corner_name)
+        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
       end do
-      do bump = 1, scene%bump_foil%bumps
-        call add_line(foil, node_set(mesh, crest_name(bump)), contact_top, bump, point, found)
+      do i = 1, scene%bump_foil%bumps
+        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
       end do
       foil%contacts%point = point(:found)
     end associate
-    call find_masters_of_crests(scene, foil)
+    call find_masters_of_crests(scene, film, ranges, foil)
   end subroutine add_contacts
 
   !> Contacts of a line's own nodes that are not held everywhere.
-  subroutine add_line(foil, line, law, number, point, found)
+  subroutine add_line(foil, ranges, line, law, number, point, found)
     type(shell_foil_type), intent(in) :: foil
+    type(foil_ranges_type), intent(in) :: ranges
     integer, intent(in) :: line(:)
     integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number !! of the line
@@ -252,46 +284,72 @@ contains
     integer, intent(inout) :: found
 
     real(wp), allocatable :: length(:)
-    integer :: i
+    integer :: i, k, slave(axial)
 
+    if (size(line) == 0) return
     length = line_shares(foil%bumps%mesh, line)*line_length(foil%bumps%mesh, line)
     do i = 1, size(line)
-      if (.not. foil%bumps%owns(line(i)) .or. .not. any(foil%bump_number(:axial, line(i)) > 0)) cycle
+      if (.not. foil%bumps%owns(line(i))) cycle
+      slave = [(ranges%of_bumps(foil%bumps%unknown(k, line(i))), k=1, axial)]
+      if (.not. any(slave > 0)) cycle
       found = found + 1
       point(found) = bump_contact(law, line(i), number, length(i))
-      point(found)%slave = foil%bump_number(:axial, line(i))
+      point(found)%slave = slave
     end do
   end subroutine add_line
 
   !> The top foil's elements above the crests.
-  subroutine find_masters_of_crests(scene, foil)
+  subroutine find_masters_of_crests(scene, film, ranges, foil)
     type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(foil_ranges_type), intent(in) :: ranges
     type(shell_foil_type), intent(inout) :: foil
 
     type(projection_type) :: foot
+    type(quad_mesh_type) :: above
     real(wp), allocatable :: place(:, :), coordinates(:, :)
-    integer, allocatable :: crest(:), element(:), kept(:)
-    integer :: i, k
+    integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :)
+    integer :: i, before
 
     crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
-    allocate (element(size(crest)), coordinates(2, size(crest)))
-    associate (mesh => foil%top%mesh)
-      place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
-      call find_masters(place, mesh%position, mesh%element_nodes, scene%bump_foil%height, element, coordinates)
-      do i = 1, size(crest)
-        if (element(i) == 0) cycle
-        associate (point => foil%contacts%point(crest(i)), nodes => mesh%element_nodes(:, element(i)))
-          foot = project(mesh%position(:, nodes), place(:, i))
-          point%share = foot%shape
-          point%master = reshape([(foil%top_number(:axial, nodes(k)), k=1, corners)], [axial, corners])
-        end associate
-      end do
-    end associate
+    allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
+    place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
+    above = top_mesh(scene, film, stations_above(film, place(tangential, :)))
+    before = lbound(above%position, 2) - 1
+    call find_masters(place, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
+    do i = 1, size(crest)
+      nodes(:, i) = 1
+      if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)
+    end do
+    number = ranges%of_top(foil%top%numbers_at([nodes]))
+    do i = 1, size(crest)
+      if (element(i) == 0) cycle
+      associate (point => foil%contacts%point(crest(i)))
+        foot = project(above%position(:, nodes(:, i)), place(:, i))
+        point%share = foot%shape
+        point%master = number(:axial, (i - 1)*corners + 1:i*corners)
+      end associate
+    end do
     ! A crest beyond the top foil's edge touches nothing.
     kept = [(i, i=1, size(foil%contacts%point))]
     kept = pack(kept, foil%contacts%point%law == contact_sleeve .or. has_master(foil%contacts%point))
     foil%contacts%point = foil%contacts%point(kept)
   end subroutine find_masters_of_crests
+
+  !> The stretch of the film's stations above some places, with a column to spare on both sides.
+  pure function stations_above(film, x) result(window)
+    type(film_mesh_type), intent(in) :: film
+    real(wp), intent(in) :: x(:) !! from the leading edge on [m]
+    integer :: window(2)
+    real(wp) :: station(film%stations())
+
+    window = [1, 0]
+    if (size(x) == 0) return
+    station = film%radius*(film%station_angle - film%station_angle(1))
+    window(1) = max(1, count(station <= minval(x)) - 1)
+    window(2) = min(size(station), max(2, count(station < maxval(x)) + 2))
+    window(1) = min(window(1), window(2) - 1)
+  end function stations_above
 
   !> Whether a contact has a master of its own.
   elemental function has_master(point) result(has)
@@ -301,9 +359,8 @@ contains
   end function has_master
 
   !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
-  subroutine count_entries(foil, film)
+  subroutine count_entries(foil)
     type(shell_foil_type), intent(inout) :: foil
-    type(film_mesh_type), intent(in) :: film
     integer, parameter :: around = 9    !! a node and its neighbours
     integer, parameter :: per_crest = 15 !! unknowns of a contact
     integer :: crests

@@ -4,19 +4,24 @@ module gfb_strip_builder
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
-  use gfb_bump_contacts, only: set_contact_laws, bump_contact, crest_name, line_shares, line_length, &
-                               contact_sleeve, contact_top
+  use gfb_bump_contacts, only: set_contact_laws, bump_contact, crest_name, corner_name, line_shares, &
+                               line_length, contact_sleeve, contact_top
   use gfb_contact_set, only: contact_point_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_part_chains, only: strip_chain, strip_columns, strip_kinds
+  use gfb_mesh_dm, only: columns_window
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
-  use gfb_substructures, only: substructure_type, find_kinds
+  use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure
-  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, symmetry_supports
+  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports
   use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
                               plate_moved
   implicit none (type)
@@ -75,24 +80,30 @@ contains
     type(quad_mesh_type) :: mesh
     type(substructure_type), allocatable :: pieces(:)
     type(strip_shape_type) :: shape
+    type(division_type) :: division
     logical, allocatable :: fixed(:, :)
-    integer, allocatable :: line(:)
+    integer, allocatable :: line(:), column_part(:)
+    real(wp), allocatable :: rows(:)
 
     shape = strip_shape(scene)
     associate (foil => scene%bump_foil)
-      mesh = bump_strip_mesh(shape, axial_rows(foil%width, scene%mesh%axial_elements, plan%half), plan%half)
+      rows = axial_rows(foil%width, scene%mesh%axial_elements, plan%half)
+      call divide(no_chain(), strip_chain(shape, size(rows), plan%reduced), rank_count(), division, error)
+      if (allocated(error)) return
+      column_part = strip_columns(shape, plan%reduced, division%bumps)
+      mesh = bump_strip_mesh(shape, rows, plan%half, columns_window(column_part, this_rank() + 1))
       pieces = strip_substructures(shape, mesh)
-      fixed = symmetry_supports(mesh)
+      pieces%kind = strip_kinds(shape, rows, plan%half)
+      call find_symmetry_supports(mesh, fixed)
       if (scene%strip_load%support == support_held) fixed(radial, node_set(mesh, 'corners')) = .true.
       line = node_set(mesh, 'fixed_edge')
       if (foil%fixed_edge /= fixed_edge_none) then
         fixed(:, line) = .true.
-      else if (plan%pinned) then
+      else if (plan%pinned .and. size(line) > 0) then
         fixed([tangential, axial], line(1)) = .true.
         fixed(tangential, line(size(line))) = .not. plan%half
       end if
-      call find_kinds(mesh, fixed, pieces)
-      call create_foil_structure(mesh, section_of(foil), fixed, pieces, plan%reduced, structure, error)
+      call create_foil_structure(mesh, section_of(foil), fixed, pieces, plan%reduced, structure, error, column_part)
     end associate
   end subroutine build_structure
 
@@ -101,18 +112,15 @@ contains
     type(scene_type), intent(in) :: scene
     type(strip_system_type), intent(inout) :: strip
 
-    integer, allocatable :: corners(:)
     real(wp), allocatable :: force(:)
-    integer :: i, rows
+    integer :: i
     logical :: pressed
 
     allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0))
     associate (mesh => strip%foil%mesh)
-      rows = mesh%rows
       if (scene%strip_load%support /= support_held) then
-        corners = node_set(mesh, 'corners')
-        do i = 1, size(corners)/rows
-          call add_line(strip, corners((i - 1)*rows + 1:i*rows), contact_sleeve, i, .false., 0.0_wp)
+        do i = 1, set_count(mesh, corner_name)
+          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp)
         end do
       end if
       pressed = strip%plate == plate_none
@@ -140,6 +148,7 @@ contains
     real(wp), allocatable :: length(:)
     integer :: i, k, found, plate
 
+    if (size(line) == 0) return
     length = line_shares(strip%foil%mesh, line)*line_length(strip%foil%mesh, line)
     allocate (point(size(line)))
     allocate (global(0))

@@ -15,7 +15,7 @@ module gfb_super_element
   use gfb_schur_complement, only: form_schur_complement
   implicit none (type)
   private
-  public :: condense, destroy_super_element
+  public :: condense, hold_blocks, form_explicitly, destroy_super_element
 
   !> A condensed substructure.
   type, public :: super_element_type
@@ -40,6 +40,17 @@ contains
     character(len=*), intent(in) :: prefix    !! of PETSc's options
     type(super_element_type), intent(out) :: super
 
+    call hold_blocks(stiffness, is_retained, prefix, super)
+    call form_explicitly(stiffness, is_retained, super)
+  end subroutine condense
+
+  !> Keeps what recovers interior displacements; nothing is factored until they are asked for.
+  subroutine hold_blocks(stiffness, is_retained, prefix, super)
+    Mat, intent(in) :: stiffness              !! of the substructure, on this rank alone
+    logical, intent(in) :: is_retained(:)     !! one an unknown
+    character(len=*), intent(in) :: prefix    !! of PETSc's options
+    type(super_element_type), intent(out) :: super
+
     IS :: retained, interior
     PetscErrorCode :: ierr
     integer :: i
@@ -58,8 +69,7 @@ contains
     PetscCallA(MatCreateSchurComplement(super%block_ii, super%block_ii, super%block_ib, super%block_bi, super%block_bb, super%schur, ierr))
     super%created = .true.
     call set_inner_solver(super, prefix)
-    call form_explicitly(stiffness, is_retained, super)
-  end subroutine condense
+  end subroutine hold_blocks
 
   !> Makes the complement's inner solver exact.
   subroutine set_inner_solver(super, prefix)

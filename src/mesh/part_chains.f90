@@ -1,0 +1,83 @@
+!> What film and bump foil are made of when they are cut into parts, and what the parts mean for their
+!> columns of elements.
+module gfb_part_chains
+  use gfb_kinds, only: wp
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_foil_mesh, only: strip_shape_type, dividing_stations, station_positions, bump_strip_mesh, &
+                           strip_substructures
+  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_substructures, only: substructure_type, find_kinds
+  use gfb_partition, only: chain_type, chain
+  implicit none (type, external)
+  private
+  public :: film_chain, strip_chain, strip_columns, strip_kinds
+
+  integer, parameter :: shell_unknowns = 5 !! of a node
+
+contains
+
+  !> Columns of the film, and of the top foil of shells below it where there is one.
+  pure function film_chain(film, shells) result(columns)
+    type(film_mesh_type), intent(in) :: film
+    logical, intent(in) :: shells !! on a top foil of shells
+    type(chain_type) :: columns
+    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+    real(wp), allocatable :: bound(:)
+    real(wp) :: weight(film%circumferential())
+
+    bound = film%radius*(film%station_angle - film%station_angle(1))
+    if (film%periodic) bound = [bound, film%radius*turn]
+    weight = real(film%rows()*merge(1 + shell_unknowns, 1, shells), wp)
+    columns = chain(bound, weight, film%periodic)
+  end function film_chain
+
+  !> Substructures of a bump foil, or its columns where it is not condensed.
+  pure function strip_chain(shape, rows, reduced) result(pieces)
+    type(strip_shape_type), intent(in) :: shape
+    integer, intent(in) :: rows    !! nodes of a station
+    logical, intent(in) :: reduced !! substructures are condensed
+    type(chain_type) :: pieces
+    real(wp), allocatable :: x(:)
+
+    x = station_positions(shape)
+    if (reduced) x = x(dividing_stations(shape))
+    pieces = chain(x, spread(real(shell_unknowns*rows, wp), 1, size(x) - 1), .false.)
+  end function strip_chain
+
+  !> Part of every column of a bump foil from the parts of its chain.
+  pure function strip_columns(shape, reduced, part) result(column_part)
+    type(strip_shape_type), intent(in) :: shape
+    logical, intent(in) :: reduced
+    integer, intent(in) :: part(:) !! of the chain's pieces
+    integer, allocatable :: column_part(:)
+    integer, allocatable :: divide(:)
+    integer :: i
+
+    column_part = part
+    if (.not. reduced) return
+    divide = dividing_stations(shape)
+    deallocate (column_part)
+    allocate (column_part(divide(size(divide)) - 1))
+    do i = 1, size(part)
+      column_part(divide(i):divide(i + 1) - 1) = part(i)
+    end do
+  end function strip_columns
+
+  !> Kinds of a strip's substructures, seen on two of its rows: along the axis all rows are alike.
+  pure function strip_kinds(shape, rows, half) result(kind)
+    type(strip_shape_type), intent(in) :: shape
+    real(wp), intent(in) :: rows(:) !! z [m]
+    logical, intent(in) :: half     !! rows begin at z = 0
+    integer, allocatable :: kind(:)
+    type(quad_mesh_type) :: spine
+    type(substructure_type), allocatable :: piece(:)
+    logical, allocatable :: fixed(:, :)
+
+    spine = bump_strip_mesh(shape, rows(:2), half)
+    piece = strip_substructures(shape, spine)
+    ! Supports inside are those of the symmetry, the same for all.
+    allocate (fixed(shell_unknowns, spine%nodes()), source=.false.)
+    call find_kinds(spine, fixed, piece)
+    kind = piece%kind
+  end function strip_kinds
+end module gfb_part_chains
