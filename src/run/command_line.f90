@@ -12,6 +12,7 @@ module gfb_command_line
     character(len=:), allocatable :: folder !! where results go
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
     logical :: branches = .false. !! look for all equilibria
+    integer :: parts = -1        !! ranks whose shares to show instead of solving; 0: those of the job
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
@@ -19,8 +20,8 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=10), parameter :: options(8) = [character(len=10) :: &
-    '--branches', '--check', '--output', '--help', &
+  character(len=11), parameter :: options(9) = [character(len=11) :: &
+    '--branches', '--check', '--output', '--help', '--partition', &
                                                '--version', '--keys', '--quiet', '--petsc']
 
 contains
@@ -48,6 +49,8 @@ contains
         line%check = .true.
       case ('--branches')
         line%branches = .true.
+      case ('--partition')
+        line%parts = 0
       case ('--help', '-h')
         line%help = .true.
       case ('--version')
@@ -78,9 +81,15 @@ contains
     type(command_line_type), intent(inout) :: line
     type(error_type), allocatable, intent(out) :: error
     character(len=:), allocatable :: near
+    integer :: status
 
     if (index(word, '--output=') == 1 .and. len(word) > 9) then
       line%folder = word(10:)
+    else if (index(word, '--partition=') == 1) then
+      read (word(13:), *, iostat=status) line%parts
+      if (status /= 0 .or. verify(word(13:), '0123456789') /= 0 .or. line%parts < 1) then
+        call fail(error, 'gfb: '//word//': the number of ranks is a whole number above zero')
+      end if
     else if (index(word, '-') == 1) then
       near = nearest_word(word, options)
       if (near /= '') near = ', did you mean '//near//'?'
@@ -118,6 +127,8 @@ contains
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
+      '  --partition     how film and foils are shared out over the ranks of the job, stop;'//next// &
+      '                  --partition=N: over N ranks'//next// &
       '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
       '  --quiet         no line per iteration'//next// &

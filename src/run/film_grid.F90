@@ -2,7 +2,7 @@
 module gfb_film_grid
   use gfb_kinds, only: wp
   use gfb_output_case, only: output_case_type
-  use gfb_petsc_session, only: this_rank, rank_count
+  use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: film_block, full_rows
   use gfb_grid_file, only: block_bounds
@@ -40,6 +40,7 @@ contains
       end if
     end associate
     allocate (film%cell_field(0))
+    call add_rank(bearing, film)
     grids = [grids, film]
 
   contains
@@ -56,4 +57,32 @@ contains
       call add_grid_field(film%point_field, name, unit, meaning, reshape(block, [1, size(block)]))
     end subroutine add
   end subroutine add_film_grid
+
+  !> Adds the rank that has the elements.
+  subroutine add_rank(bearing, film)
+    type(bearing_system_type), intent(in) :: bearing
+    type(result_grid_type), intent(inout) :: film
+
+    integer, allocatable :: wanted(:), mine(:)
+    real(wp), allocatable :: value(:, :)
+    integer :: first, last, i, columns, column, half, rows
+
+    associate (whole => bearing%whole, mesh => bearing%mesh)
+      half = whole%axial()
+      columns = merge(2*half, half, whole%half)
+      call block_bounds(film%grid%cells, this_rank(), rank_count(), first, last)
+      allocate (wanted(last - first + 1))
+      do i = first, last
+        column = modulo(i - 1, columns) + 1
+        if (whole%half) column = merge(column - half, half + 1 - column, column > half)
+        wanted(i - first + 1) = (i - 1)/columns*half + column
+      end do
+      rows = whole%rows()
+      mine = mesh%mesh_node(mesh%element_nodes(1, :)) ! the corner with the smallest station and row
+      mine = (mine - 1)/rows*half + modulo(mine - 1, rows) + 1
+      allocate (value(1, size(mine)), source=real(this_rank(), wp))
+      call add_grid_field(film%cell_field, 'rank', '1', 'that computed the element', &
+                          fetch_entries(whole%circumferential()*half, mine, value, wanted))
+    end associate
+  end subroutine add_rank
 end module gfb_film_grid

@@ -44,7 +44,22 @@ contains
       grid%grid%cell(:, i - first + 1) = [corner, corner + 1, corner + rows + 1, corner + rows]
     end do
     allocate (grid%point_field(0), grid%cell_field(0))
+    call add_rank(foil, grid)
   end subroutine create_foil_grid
+
+  !> Adds the rank that has the elements.
+  subroutine add_rank(foil, grid)
+    type(foil_structure_type), intent(in) :: foil
+    type(result_grid_type), intent(inout) :: grid
+    real(wp) :: mine(1, size(foil%my_elements))
+    integer :: first, last, i
+
+    mine = real(this_rank(), wp)
+    call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
+    call add_grid_field(grid%cell_field, 'rank', '1', 'that computed the element', &
+                        fetch_entries(foil%mesh%elements(), foil%my_elements, mine, &
+                                      [(solved_cell(foil, i), i=first, last)]))
+  end subroutine add_rank
 
   !> Adds the displacement vectors of this rank's nodes.
   subroutine add_displacement(foil, name, meaning, moved, grid)

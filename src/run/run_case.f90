@@ -4,6 +4,7 @@ module gfb_run_case
   use gfb_errors, only: error_type, fail
   use gfb_c_library, only: make_folder
   use gfb_run_log, only: run_log_type
+  use gfb_partition_report, only: show_bearing_partition, show_strip_partition
   use gfb_petsc_session, only: this_rank, rank_count, wall_time, any_rank
   use gfb_scene, only: scene_type, read_scene
   use gfb_text_file, only: folder_is_writable
@@ -37,20 +38,27 @@ contains
     type(bearing_plan_type) :: plan
     type(foil_plan_type) :: foil_plan
     real(wp) :: start_time
+    logical :: only_look
+    integer :: parts
 
     converged = .true.
     start_time = wall_time()
     call read_scene(line%case_file, scene, error)
-    if (.not. allocated(error) .and. .not. line%check) call prepare_folder(line%folder, error)
+    only_look = line%check .or. line%parts >= 0
+    if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
     call log%line(version_text())
     call log%line(scene%file//': '//scene%general%title)
-    if (line%check) then
+    if (only_look) then
+      parts = merge(line%parts, rank_count(), line%parts > 0)
       if (is_bearing(scene%general%analysis)) then
         call plan_bearing(scene, log, plan)
+        if (line%parts >= 0) call show_bearing_partition(scene, plan, parts, log, error)
       else
         call plan_foil(scene, log, foil_plan)
+        if (line%parts >= 0) call show_strip_partition(scene, foil_plan, parts, log, error)
       end if
+      if (allocated(error)) return
       call log%line('')
       call log%line(scene%file//' is in order')
     else

@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -45,7 +46,18 @@ def check_options(checks, folder):
     status, words, wrong = call("--check", "good.nml", folder=folder)
     checks.that("--check: says what the scene needs", status == 0 and "48 x 8" in words and "in order" in words)
     checks.that("--check: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
+    status, words, wrong = call("--partition=3", "good.nml", folder=folder)
+    rows = [line.split() for line in words.splitlines() if re.match(r"^ +[0-2] +\d+ +0 +\d+ +[\d.]+$", line)]
+    checks.that("--partition=3: a line a rank", status == 0 and [row[0] for row in rows] == ["0", "1", "2"])
+    checks.that("--partition=3: columns add up", sum(int(row[1]) for row in rows) == 48)
+    checks.that("--partition=3: unknowns too", sum(int(row[3]) for row in rows) == 48*5)
+    checks.that("--partition: balance and cut", "largest load over the mean" in words and "cut: 2 of 47" in words)
+    checks.that("--partition: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
+    status, words, wrong = call("--partition", "good.nml", folder=folder, ranks=2)
+    checks.that("--partition: ranks of the job", status == 0 and len(re.findall(r"^ +[01] +24 ", words, re.M)) == 2)
     mistakes = {
+        ("--partition=none", "good.nml"): "the number of ranks is a whole number above zero",
+        ("--partition=0", "good.nml"): "the number of ranks is a whole number above zero",
         ("--chekc", "good.nml"): "did you mean --check",
         ("-x", "good.nml"): "unknown option -x",
         (): "no case file given",

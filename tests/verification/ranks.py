@@ -54,7 +54,10 @@ def check_case(checks, folder, name, bearing, case):
         checks.below(f"{words}: summary ({worst})", difference, LIMIT)
         other = datasets(f"{answers[ranks].stem}.film.vtkhdf")
         checks.that(f"{words}: film file has the same datasets", set(film) == set(other))
-        grid = [key for key in film if "PointData" not in key]
+        grid = [key for key in film if "PointData" not in key and not key.endswith("/rank")]
+        rank = next(key for key in film if key.endswith("CellData/rank"))
+        checks.that(f"{words}: every rank has cells, side by side", numpy.array_equal(
+            numpy.unique(other[rank]), numpy.arange(ranks)))
         checks.that(f"{words}: same grid", all(numpy.array_equal(film[key], other[key]) for key in grid))
         # A foil that does not move has only zeros to compare.
         checks.below(f"{words}: fields", max(

@@ -1,0 +1,73 @@
+!> How film and foils of a scene are shared out over ranks, without solving.
+module gfb_partition_report
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_part_chains, only: strip_chain
+  use gfb_foil_mesh, only: axial_rows
+  use gfb_model_case, only: foil_shell, reduction_guyan
+  use gfb_foil_builder, only: foil_plan_type, strip_shape
+  use gfb_bearing_builder, only: bearing_plan_type, divide_bearing, film_mesh_of
+  implicit none (type, external)
+  private
+  public :: show_bearing_partition, show_strip_partition
+
+contains
+
+  !> Parts of a bearing.
+  !>
+  !> Fails when METIS does.
+  subroutine show_bearing_partition(scene, plan, parts, log, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    integer, intent(in) :: parts
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+    type(division_type) :: division
+
+    call divide_bearing(scene, film_mesh_of(scene, plan), parts, division, error)
+    if (allocated(error)) return
+    call show_parts(division, scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
+    if (scene%model%foil /= foil_shell) call log%line('what foils there are stands on the ranks of the film above')
+  end subroutine show_bearing_partition
+
+  !> Parts of a strip.
+  !>
+  !> Fails when METIS does.
+  subroutine show_strip_partition(scene, plan, parts, log, error)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    integer, intent(in) :: parts
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+    type(division_type) :: division
+    integer :: rows
+
+    rows = size(axial_rows(scene%bump_foil%width, scene%mesh%axial_elements, plan%half))
+    call divide(no_chain(), strip_chain(strip_shape(scene), rows, plan%reduced), parts, division, error)
+    if (allocated(error)) return
+    call show_parts(division, plan%reduced, log)
+  end subroutine show_strip_partition
+
+  !> A line a part.
+  subroutine show_parts(division, reduced, log)
+    type(division_type), intent(in) :: division
+    logical, intent(in) :: reduced !! the bump foil's pieces are super-elements, else columns
+    type(run_log_type), intent(in) :: log
+    character(len=80) :: line
+    integer :: i
+
+    call log%heading('partition')
+    call log%line(' rank  film columns  '//merge('super-elements', '  bump columns', reduced)//'    unknowns  of the mean')
+    do i = 1, division%parts
+      write (line, '(i5, i14, i16, i12, f12.2)') i - 1, count(division%film == i), count(division%bumps == i), &
+        division%load(i), real(division%load(i)*division%parts, wp)/real(max(1, sum(division%load)), wp)
+      call log%line(trim(line))
+    end do
+    call log%line('largest load over the mean: '//text(division%balance(), 4))
+    call log%line('joints between pieces that are cut: '//text(division%cut)//' of '//text(division%joints))
+  end subroutine show_parts
+end module gfb_partition_report
