@@ -96,7 +96,8 @@ contains
     here = (i - 1)*mesh%rows() + j
     next = modulo(i, mesh%stations())*mesh%rows() + j
     node = [here, here + 1, next, next + 1]
-    share = [(1.0_wp - along)*(1.0_wp - across), (1.0_wp - along)*across, along*(1.0_wp - across), along*across]
+    share = [(1.0_wp - along)*(1.0_wp - across), (1.0_wp - along)*across, along*(1.0_wp - across), &
+      along*across]
   end subroutine find_film_place
 
   !> Interval of rising numbers that holds one, and where in it the number lies, 0 to 1.

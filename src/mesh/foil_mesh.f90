@@ -64,7 +64,8 @@ contains
     type(strip_shape_type), intent(in) :: shape
     real(wp), intent(in) :: rows(:) !! z [m]
     logical, intent(in) :: half     !! rows begin at z = 0
-    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
+    !> first and last station of the stretch; default: all
+    integer, intent(in), optional :: window(2)
     type(quad_mesh_type) :: mesh
     type(station_type), allocatable :: station(:)
 
@@ -118,7 +119,8 @@ contains
       if (last < first) cycle
       pieces(i)%retained(:mesh%rows) = .true.
       pieces(i)%retained(size(pieces(i)%nodes) - mesh%rows + 1:) = .true.
-      pieces(i)%elements = numbers((divide(i) - 1)*(mesh%rows - 1) + 1, (divide(i + 1) - 1)*(mesh%rows - 1))
+      pieces(i)%elements = numbers((divide(i) - 1)*(mesh%rows - 1) + 1, &
+        (divide(i + 1) - 1)*(mesh%rows - 1))
     end do
   end function strip_substructures
 
@@ -160,7 +162,8 @@ contains
     real(wp), intent(in) :: height        !! v of the mid-surface [m]
     real(wp), intent(in) :: rows(:)       !! z [m]
     logical, intent(in) :: half           !! rows begin at z = 0
-    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
+    !> first and last station of the stretch; default: all
+    integer, intent(in), optional :: window(2)
     type(quad_mesh_type) :: mesh
     type(station_type) :: station(size(position_x))
     integer :: i
@@ -262,7 +265,8 @@ contains
     logical, intent(in) :: mirrored  !! stations run towards smaller x
     real(wp), intent(in) :: rows(:)  !! z [m]
     logical, intent(in) :: half
-    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
+    !> first and last station of the stretch; default: all
+    integer, intent(in), optional :: window(2)
     type(quad_mesh_type) :: mesh
     real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2)
     logical :: kink(size(station))
@@ -360,7 +364,9 @@ contains
     integer, allocatable :: nodes(:)
 
     nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
-    if (nodes(1) < lbound(mesh%position, 2) .or. nodes(mesh%rows) > ubound(mesh%position, 2)) nodes = numbers(1, 0)
+    associate (first => lbound(mesh%position, 2), last => ubound(mesh%position, 2))
+      if (nodes(1) < first .or. nodes(mesh%rows) > last) nodes = numbers(1, 0)
+    end associate
   end function line_at
 
   !> Names the nodes at z = 0; none where no row lies there.
@@ -368,8 +374,10 @@ contains
     type(quad_mesh_type), intent(inout) :: mesh
     integer :: i
 
-    call add_node_set(mesh, 'midplane', pack([(i, i=lbound(mesh%position, 2), ubound(mesh%position, 2))], &
-                                             abs(mesh%position(3, :)) <= 0.0_wp))
+    associate (first => lbound(mesh%position, 2), last => ubound(mesh%position, 2))
+      call add_node_set(mesh, 'midplane', pack([(i, i=first, last)], &
+                                               abs(mesh%position(3, :)) <= 0.0_wp))
+    end associate
   end subroutine add_midplane
 
   !> Whole numbers from one to another.

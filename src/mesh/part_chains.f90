@@ -1,10 +1,10 @@
-!> What film and bump foil are made of when they are cut into parts, and what the parts mean for their
+!> What film and bump foil are made of when they are cut into parts, and what the parts mean for
 !> columns of elements.
 module gfb_part_chains
   use gfb_kinds, only: wp
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_foil_mesh, only: strip_shape_type, dividing_stations, station_positions, bump_strip_mesh, &
-                           strip_substructures
+  use gfb_foil_mesh, only: strip_shape_type, dividing_stations, station_positions, &
+                           bump_strip_mesh, strip_substructures
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_partition, only: chain_type, chain

@@ -13,7 +13,8 @@ module gfb_partition
   public :: divide, chain, no_chain
 
   integer(c_int), parameter :: metis_ok = 1
-  integer, parameter :: heaviest = 1000000 !! weight of all vertices, as METIS counts in whole numbers
+  !> weight of all vertices, as METIS counts in whole numbers
+  integer, parameter :: heaviest = 1000000
 
   !> Pieces that follow each other along x: columns of elements, or super-elements.
   type, public :: chain_type
@@ -35,9 +36,9 @@ module gfb_partition
   end type division_type
 
   interface
-    function c_part_graph(vertices, constraints, first, neighbour, weight, vertex_size, edge_weight, &
-                          parts, part_weight, imbalance, options, cut, part) result(status) &
-      bind(c, name='METIS_PartGraphRecursive')
+    function c_part_graph(vertices, constraints, first, neighbour, weight, vertex_size, &
+                          edge_weight, parts, part_weight, imbalance, options, cut, part) &
+      result(status) bind(c, name='METIS_PartGraphRecursive')
       import :: c_int, c_ptr
       implicit none (type, external)
       integer(c_int), intent(in) :: vertices, constraints, parts
@@ -168,8 +169,9 @@ contains
     end do
     ones = 1
     rounded = max(1, nint(weight*heaviest/sum(weight)))
-    if (c_part_graph(int(size(weight), c_int), 1_c_int, first, neighbour, rounded, c_null_ptr, ones, &
-                     int(parts, c_int), c_null_ptr, c_null_ptr, c_null_ptr, cut, found) /= metis_ok) then
+    if (c_part_graph(int(size(weight), c_int), 1_c_int, first, neighbour, rounded, c_null_ptr, &
+                     ones, int(parts, c_int), c_null_ptr, c_null_ptr, c_null_ptr, cut, found) &
+        /= metis_ok) then
       call fail(error, 'METIS could not cut the meshes into parts', status_machine)
       return
     end if

@@ -51,7 +51,8 @@ contains
     elements = max(0, self%stations - 1)*(self%rows - 1)
   end function whole_elements
 
-  !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no such set.
+  !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no
+  !> such set.
   pure function node_set(mesh, name) result(nodes)
     type(quad_mesh_type), intent(in) :: mesh
     character(len=*), intent(in) :: name

@@ -12,7 +12,8 @@ module gfb_command_line
     character(len=:), allocatable :: folder !! where results go
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
     logical :: branches = .false. !! look for all equilibria
-    integer :: parts = -1        !! ranks whose shares to show instead of solving; 0: those of the job
+    !> ranks whose shares to show instead of solving; 0: those of the job
+    integer :: parts = -1
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
@@ -127,7 +128,8 @@ contains
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
-      '  --partition     how film and foils are shared out over the ranks of the job, stop;'//next// &
+      '  --partition     how film and foils are shared out over the ranks of the job, stop;'// &
+        next// &
       '                  --partition=N: over N ranks'//next// &
       '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &

@@ -30,8 +30,9 @@ contains
 
     call divide_bearing(scene, film_mesh_of(scene, plan), parts, division, error)
     if (allocated(error)) return
-    call show_parts(division, scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
-    if (scene%model%foil /= foil_shell) call log%line('what foils there are stands on the ranks of the film above')
+    call show_parts(division, &
+      scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
+    if (scene%model%foil /= foil_shell) call log%line('beams, if any, are the first rank''s')
   end subroutine show_bearing_partition
 
   !> Parts of a strip.
@@ -47,7 +48,8 @@ contains
     integer :: rows
 
     rows = size(axial_rows(scene%bump_foil%width, scene%mesh%axial_elements, plan%half))
-    call divide(no_chain(), strip_chain(strip_shape(scene), rows, plan%reduced), parts, division, error)
+    call divide(no_chain(), strip_chain(strip_shape(scene), rows, plan%reduced), parts, division, &
+      error)
     if (allocated(error)) return
     call show_parts(division, plan%reduced, log)
   end subroutine show_strip_partition
@@ -58,16 +60,20 @@ contains
     logical, intent(in) :: reduced !! the bump foil's pieces are super-elements, else columns
     type(run_log_type), intent(in) :: log
     character(len=80) :: line
+    real(wp) :: share
     integer :: i
 
     call log%heading('partition')
-    call log%line(' rank  film columns  '//merge('super-elements', '  bump columns', reduced)//'    unknowns  of the mean')
+    call log%line(' rank  film columns  '//merge('super-elements', '  bump columns', reduced)// &
+      '    unknowns  of the mean')
     do i = 1, division%parts
-      write (line, '(i5, i14, i16, i12, f12.2)') i - 1, count(division%film == i), count(division%bumps == i), &
-        division%load(i), real(division%load(i)*division%parts, wp)/real(max(1, sum(division%load)), wp)
+      share = real(division%load(i)*division%parts, wp)/real(max(1, sum(division%load)), wp)
+      write (line, '(i5, i14, i16, i12, f12.2)') i - 1, count(division%film == i), &
+        count(division%bumps == i), division%load(i), share
       call log%line(trim(line))
     end do
     call log%line('largest load over the mean: '//text(division%balance(), 4))
-    call log%line('joints between pieces that are cut: '//text(division%cut)//' of '//text(division%joints))
+    call log%line('joints between pieces that are cut: '//text(division%cut)//' of '// &
+      text(division%joints))
   end subroutine show_parts
 end module gfb_partition_report

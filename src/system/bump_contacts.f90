@@ -14,7 +14,8 @@ module gfb_bump_contacts
   public :: set_contact_laws, bump_contact, crest_name, line_shares, line_length
 
   integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! laws of a set of bumps
-  character(len=*), parameter, public :: corner_name = 'corner_' !! of a corner line among the node sets, before its number
+  !> of a corner line among the node sets, before its number
+  character(len=*), parameter, public :: corner_name = 'corner_'
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
 

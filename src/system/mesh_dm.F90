@@ -207,18 +207,18 @@ contains
     type(local_mesh_type), intent(inout) :: mesh
 
     PetscInt :: first_cell, end_cell, first_vertex, end_vertex, cell
-    PetscInt, pointer :: corners(:)
+    PetscInt, pointer :: cone(:)
     PetscErrorCode :: ierr
 
     PetscCallA(DMPlexGetHeightStratum(part, 0_pint, first_cell, end_cell, ierr))
     PetscCallA(DMPlexGetDepthStratum(part, 0_pint, first_vertex, end_vertex, ierr))
     allocate (mesh%mesh_node(end_vertex - first_vertex), source=0)
     allocate (mesh%element_nodes(4, end_cell - first_cell))
-    nullify (corners)
+    nullify (cone)
     do cell = first_cell, end_cell - 1
-      PetscCallA(DMPlexGetCone(part, cell, corners, ierr))
-      mesh%element_nodes(:, cell - first_cell + 1) = int(corners - first_vertex) + 1
-      PetscCallA(DMPlexRestoreCone(part, cell, corners, ierr))
+      PetscCallA(DMPlexGetCone(part, cell, cone, ierr))
+      mesh%element_nodes(:, cell - first_cell + 1) = int(cone - first_vertex) + 1
+      PetscCallA(DMPlexRestoreCone(part, cell, cone, ierr))
     end do
   end subroutine read_elements
 
