@@ -309,8 +309,10 @@ contains
       end do
     end do
     element = (first - 1)*(mesh%rows - 1)
-    allocate (mesh%element_nodes(4, element + 1:(last - 1)*(mesh%rows - 1)))
-    allocate (mesh%director(3, 4, element + 1:(last - 1)*(mesh%rows - 1)), source=0.0_wp)
+    ! gfortran copies an array without elements only if its bounds are one apart.
+    here = max(element, (last - 1)*(mesh%rows - 1))
+    allocate (mesh%element_nodes(4, element + 1:here))
+    allocate (mesh%director(3, 4, element + 1:here), source=0.0_wp)
     do i = first, last - 1
       do j = 1, size(rows) - 1
         element = element + 1

@@ -80,13 +80,15 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     integer, allocatable :: joint(:, :), part(:)
-    integer :: i, pieces
+    integer :: i, pieces, wanted
 
     pieces = size(film%weight)
     division%parts = parts
     joint = joints_of(film, bumps)
     allocate (part(pieces + size(bumps%weight)), source=1)
-    if (parts > 1) call cut_graph([film%weight, bumps%weight], joint, parts, part, error)
+    ! METIS wants a piece for every part; ranks beyond that have nothing.
+    wanted = min(parts, size(part))
+    if (wanted > 1) call cut_graph([film%weight, bumps%weight], joint, wanted, part, error)
     if (allocated(error)) return
     division%film = part(:pieces)
     division%bumps = part(pieces + 1:)

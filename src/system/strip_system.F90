@@ -135,7 +135,7 @@ contains
     PetscCallA(MatGetOwnershipRange(strip%foil%stiffness, first, last, ierr))
     PetscCallA(VecGetOwnershipRange(strip%state, begin, finish, ierr))
     allocate (inside(owned), outside(owned), source=0_pint)
-    allocate (column(strip%unknowns), value(strip%unknowns))
+    allocate (column(strip%foil%row_entries()), value(strip%foil%row_entries()))
     do row = first, last - 1
       PetscCallA(MatGetRow(strip%foil%stiffness, row, entries, column, PETSC_NULL_SCALAR, ierr))
       inside(row - first + 1) = count(column(:entries) >= begin .and. column(:entries) < finish)
