@@ -1,0 +1,62 @@
+!> The error of a number that was computed on nested meshes.
+!>
+!> With values f on meshes that are each twice as fine as the one before, the last three tell the order
+!> \( p = \log_2 |f_2 - f_1| / |f_3 - f_2| \), and the error of the finest one is estimated by
+!>
+!> $$ E = F_s \frac{|f_3 - f_2|}{2^p - 1} $$
+!>
+!> Source: grid convergence index, [Roache1994]. Where the values do not approach a limit in that way,
+!> the order is not believed: the differences themselves, with a larger factor, stand for the error.
+module gfb_grid_convergence
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: estimate_error
+
+  real(wp), parameter :: trusted_factor = 1.25_wp !! F_s where the order is as it should be [1]
+  real(wp), parameter :: doubtful_factor = 3.0_wp !! where it is not, or is not known [1]
+  real(wp), parameter :: lowest_order = 0.5_wp    !! an order below that is not believed [1]
+  real(wp), parameter :: rounding = 1.0e-12_wp    !! differences that mean nothing, relative
+
+  !> What nested meshes say of a number.
+  type, public :: convergence_type
+    real(wp) :: value = 0.0_wp        !! on the finest mesh
+    real(wp) :: error = huge(1.0_wp)  !! estimated, absolute; huge on one mesh
+    real(wp) :: order = 0.0_wp        !! observed [1]; 0: not known
+    logical :: trusted = .false.      !! the order is as it should be
+  end type convergence_type
+
+contains
+
+  !> Judges values on meshes from coarse to fine.
+  pure function estimate_error(value, formal_order) result(found)
+    real(wp), intent(in) :: value(:)     !! each mesh twice as fine as the one before
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(convergence_type) :: found
+    real(wp) :: last, before
+    integer :: n
+
+    n = size(value)
+    found%value = value(n)
+    if (n < 2) return
+    last = value(n) - value(n - 1)
+    if (n == 2) then
+      found%error = doubtful_factor*abs(last)
+      return
+    end if
+    before = value(n - 1) - value(n - 2)
+    if (max(abs(last), abs(before)) <= rounding*maxval(abs(value))) then
+      found%error = max(abs(last), abs(before))
+      found%trusted = .true.
+      return
+    end if
+    if (last*before > 0.0_wp) found%order = log(before/last)/log(2.0_wp)
+    found%trusted = found%order >= lowest_order
+    if (found%trusted) then
+      ! A number that happens to converge faster will not go on so.
+      found%error = trusted_factor*abs(last)/(2.0_wp**min(found%order, formal_order) - 1.0_wp)
+    else
+      found%error = doubtful_factor*max(abs(last), abs(before))
+    end if
+  end function estimate_error
+end module gfb_grid_convergence

@@ -1,0 +1,46 @@
+!> Solid contact of a rough shaft with the foil, or sleeve, where the film is thin.
+!>
+!> Asperities whose heights are spread exponentially, with mean \( \sigma \), carry
+!>
+!> $$ p_c(h) = p_0 e^{-h/\sigma} $$
+!>
+!> Source: [GreenwoodWilliamson1966]. In theirs
+!> \( p_0 = \sqrt{\pi} \, \eta \beta^{1/2} \sigma^{3/2} E' \) with \( \eta \) asperities an area, of
+!> tip radius \( \beta \), and the reduced modulus \( E' \). The gap stays positive as long as the load
+!> is less than p_0 over the area that it presses on. Asperities rub with a constant coefficient.
+module gfb_solid_contact
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: contact_pressure, contact_pressure_rate
+
+  !> The rough surfaces; without roughness they never touch.
+  type, public :: solid_contact_type
+    logical :: present = .false.
+    real(wp) :: roughness = 0.0_wp !! sigma, mean height of both surfaces' asperities [m]
+    real(wp) :: pressure = 0.0_wp  !! p_0, where the mean planes meet [Pa]
+    real(wp) :: friction = 0.0_wp  !! coefficient of the asperities [1]
+  end type solid_contact_type
+
+contains
+
+  !> Pressure of the asperities [Pa].
+  elemental function contact_pressure(contact, gap) result(pressure)
+    type(solid_contact_type), intent(in) :: contact
+    real(wp), intent(in) :: gap !! h [m]
+    real(wp) :: pressure
+
+    pressure = 0.0_wp
+    if (contact%present) pressure = contact%pressure*exp(-gap/contact%roughness)
+  end function contact_pressure
+
+  !> Its derivative by the gap [Pa/m].
+  elemental function contact_pressure_rate(contact, gap) result(rate)
+    type(solid_contact_type), intent(in) :: contact
+    real(wp), intent(in) :: gap !! h [m]
+    real(wp) :: rate
+
+    rate = 0.0_wp
+    if (contact%present) rate = -contact_pressure(contact, gap)/contact%roughness
+  end function contact_pressure_rate
+end module gfb_solid_contact
