@@ -90,8 +90,9 @@ def measure(gfb, scene, model, folder):
     """What one run costs, and its answers."""
     log = pathlib.Path(folder)/"log.csv"
     done = run_case(gfb, strip_case(scene, model), folder, "strip", petsc=("-log_view", f":{log}:ascii_csv"))
-    events = read_petsc_log(log)["Main Stage"]
-    whole = events["summary"][1]
+    stages = read_petsc_log(log)
+    events = stages["Main Stage"]
+    whole = sum(stage.get("summary", (0.0, 0.0))[1] for stage in stages.values())
     if NEWTON not in events:
         stop("PETSc's log has no solve in it: is it built without logging?", 3)
     parts = {name: sum(events[event][1] for event in of) for name, of in PARTS.items()}

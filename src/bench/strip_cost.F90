@@ -11,6 +11,7 @@ module gfb_strip_cost
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure, destroy_foil_structure
+  use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private
   public :: make_strip, strip_cost
@@ -33,25 +34,34 @@ module gfb_strip_cost
     real(wp) :: recovery = 0.0_wp  !! displacements of all nodes
     integer :: unknowns = 0        !! of the equations
     integer :: kinds = 0           !! condensed
-    real(wp), allocatable :: moved(:, :) !! (5, nodes) [m], [rad]
+    real(wp), allocatable :: moved(:, :) !! (5, nodes) zero at nodes of other ranks [m], [rad]
   end type strip_cost_type
 
 contains
 
-  !> Ten bumps of [Gu2020] table 1, case 1: first corner line clamped, all corner lines held in v.
-  function make_strip(arc_elements, flat_elements, axial_elements) result(strip)
+  !> Bumps of [Gu2020] table 1, case 1: first corner line clamped, all corner lines held in v.
+  !>
+  !> Without more words ten equal ones.
+  function make_strip(arc_elements, flat_elements, axial_elements, bumps, growth) result(strip)
     integer, intent(in) :: arc_elements, flat_elements !! of a bump
     integer, intent(in) :: axial_elements              !! over the whole width
+    integer, intent(in), optional :: bumps
+    real(wp), intent(in), optional :: growth !! of the bumps' measures, from the first to the last [1]
     type(strip_type) :: strip
 
     real(wp), parameter :: width = 38.1e-3_wp
     type(strip_shape_type) :: shape
+    real(wp), allocatable :: scale(:) ! of each bump
+    integer :: i
 
     strip%bumps = 10
+    if (present(bumps)) strip%bumps = bumps
     allocate (shape%bump(strip%bumps))
-    shape%bump%half_length = 1.778e-3_wp
-    shape%bump%height = 0.508e-3_wp
-    shape%bump%pitch = 4.572e-3_wp
+    allocate (scale(strip%bumps), source=1.0_wp)
+    if (present(growth)) scale = [(1.0_wp + growth*real(i - 1, wp)/real(strip%bumps, wp), i=1, strip%bumps)]
+    shape%bump%half_length = 1.778e-3_wp*scale
+    shape%bump%height = 0.508e-3_wp*scale
+    shape%bump%pitch = 4.572e-3_wp*scale
     shape%arc_elements = arc_elements
     shape%flat_elements = flat_elements
     strip%section = shell_section_type(0.102e-3_wp, 214.0e9_wp, 0.29_wp, 8440.0_wp)
@@ -72,16 +82,19 @@ contains
 
     type(foil_structure_type) :: foil
     type(substructure_type), allocatable :: piece(:)
+    real(wp), allocatable :: moved(:, :) ! of this rank's nodes
     Vec :: load, solution
     PetscErrorCode :: ierr
     real(wp) :: start
     integer :: i
 
     start = now()
+    call enter_stage('set-up')
     piece = strip%piece
     piece%kind = [(i, i=1, size(piece))]
     if (congruent) call find_kinds(strip%mesh, strip%fixed, piece)
     call create_foil_structure(strip%mesh, strip%section, strip%fixed, piece, reduced, foil, error)
+    call leave_stage()
     if (allocated(error)) return
     cost%set_up = now() - start
     cost%unknowns = foil%unknowns
@@ -89,11 +102,14 @@ contains
     PetscCallA(MatCreateVecs(foil%stiffness, solution, load, ierr))
     call load_crests(foil, strip%bumps, load)
     call time_solver(foil%stiffness, load, solution, cost)
-    allocate (cost%moved(node_unknowns, size(foil%part%mesh_node)))
+    allocate (moved(node_unknowns, size(foil%part%mesh_node)))
     start = now()
-    call foil%displacements(solution, cost%moved)
+    call enter_stage('recovery')
+    call foil%displacements(solution, moved)
+    call leave_stage()
     cost%recovery = now() - start
-    cost%moved(:, foil%part%mesh_node) = cost%moved
+    allocate (cost%moved(node_unknowns, size(strip%mesh%position, 2)), source=0.0_wp)
+    cost%moved(:, foil%part%mesh_node) = moved
     PetscCallA(VecDestroy(load, ierr))
     PetscCallA(VecDestroy(solution, ierr))
     call destroy_foil_structure(foil)
@@ -111,6 +127,7 @@ contains
     do bump = 1, bumps
       line = node_set(foil%mesh, 'crest_'//text(bump))
       do i = 1, size(line)
+        if (.not. foil%owns(line(i))) cycle
         PetscCallA(VecSetValue(load, int(foil%unknown(2, line(i)), pint), -1.0_wp - 0.5_wp*sin(real(7*bump + i, wp)), INSERT_VALUES, ierr))
       end do
     end do

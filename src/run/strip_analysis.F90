@@ -28,6 +28,7 @@ module gfb_strip_analysis
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
   use gfb_foil_stress, only: shell_stresses
   use gfb_foil_plan, only: plan_foil
+  use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
   use gfb_strip_companions, only: companions_type, strip_companions, show_companions, companion_arrays
   use gfb_contact_output, only: contact_record_type, record_contacts, contact_arrays, contact_field
@@ -74,7 +75,9 @@ contains
     plates = scene%strip_load%kind == load_plates
     call plan_foil(scene, log, plan)
     call log%heading('solution')
+    call enter_stage('set-up')
     call build_strip(scene, plan, strip, error)
+    call leave_stage()
     if (allocated(error)) return
     call log%line('super-elements: '//text(kind_count(strip%foil%substructure))//' distinct of '// &
                   text(size(strip%foil%substructure))//', '//text(strip%unknowns)//' unknowns')
@@ -87,7 +90,9 @@ contains
     run%companions = strip_companions(scene, run%full%force)
     call show_closing_block(log, run, plates)
     call warn(log, scene, run%full)
+    call enter_stage('output')
     call write_strip(scene, folder, command, strip, run, summary, log, error)
+    call leave_stage()
     call destroy_newton(newton)
     call destroy_strip_system(strip)
   end subroutine run_strip

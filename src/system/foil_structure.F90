@@ -21,6 +21,7 @@ module gfb_foil_structure
   use gfb_foil_pieces, only: number_slots, condense_piece, piece_unknowns, element_geometry, &
                              add_symmetric_block, create_foil_matrix, element_row
   use gfb_super_element, only: super_element_type, destroy_super_element
+  use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private
   public :: create_foil_structure, destroy_foil_structure, share_kinds
@@ -91,9 +92,13 @@ contains
     call MPI_Allreduce(structure%part%owned_unknowns, structure%unknowns, 1, MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
     call MPI_Scan(structure%part%owned_unknowns, last, 1, MPI_INTEGER, MPI_SUM, PETSC_COMM_WORLD, ierr)
     structure%first = last - structure%part%owned_unknowns
+    call enter_stage('condensation')
     if (reduced) call condense_kinds(structure, error)
+    call leave_stage()
     if (allocated(error)) return
+    call enter_stage('stiffness')
     call structure%assemble_stiffness(structure%stiffness, error)
+    call leave_stage()
     structure%created = .not. allocated(error)
   end subroutine create_foil_structure
 

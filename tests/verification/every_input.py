@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Every input gives the same physical numbers on any number of ranks: 1, 2, 3, 4 and 7.
+
+every_input.py [--small] [--as-is] [--ranks 1,2,3] [INPUT ...]
+
+The first of the ranks is what the others are compared with: all numbers of the summary and of every load step or sweep
+point that are not costs. Inputs that would take minutes are solved on coarser meshes, as the output says.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import tempfile
+
+from gfb_run import COST, Bearing, Checks, largest_difference, namelist_value, natural_sizes, run_file, \
+    summary_difference
+
+INPUTS = pathlib.Path(os.environ.get("GFB_SOURCE", pathlib.Path(__file__).parents[2]))/"inputs"
+RANKS = (1, 2, 3, 4, 7)
+LIMIT = 1.0e-8
+SMALL = ("rigid_slit", "strip_linear", "strip_modes", "gu2020_strip_case1_uniform", "gu2020_fig11a_beam",
+         "gu2020_bearing")  # in seconds
+
+STRIP = {"mesh": {"arc_elements": 6, "flat_elements": 2, "axial_elements": 12}}
+SHELLS = {"mesh": {"circumferential_elements": 104, "axial_elements": 8, "arc_elements": 6, "flat_elements": 2}}
+PAPER = {"mesh": {"axial_elements": 8, "arc_elements": 6, "flat_elements": 2}}  # crests inside elements
+FILM = {"mesh": {"circumferential_elements": 104, "axial_elements": 16}}
+TWO_TILTS = {"sweep": {"values": (0.0, 1.0e-4)}}
+COARSER = (  # which inputs, what is changed
+    (r"gu2020_strip_case1_.*", STRIP | {"strip_load": {"steps_up": 3}}),
+    (r"gu2020_strip_case2_.*", STRIP | {"strip_load": {"steps_up": 8, "steps_down": 8}}),
+    (r"strip_linear|strip_modes", STRIP),
+    (r"rigid_slit|rigid_ring_sweep", FILM),
+    (r"foundation_.*_sweep", FILM),
+    (r"gu2020_fig11[ab]_.*", SHELLS | TWO_TILTS),
+    (r"gu2020_bearing_fig10", SHELLS | {"sweep": {"values": (200.0, 175.0)}}),
+    (r"gu2020_bearing_fig10_trailing", SHELLS | {"sweep": {"values": (50.0, 75.0)}}),
+    (r"gu2020_bearing|gu2020_bearing_fig9", SHELLS),
+    (r"gu2020_position_.*", PAPER),
+)
+
+
+def changes_of(name):
+    """What is changed in an input."""
+    return next((changes for pattern, changes in COARSER if re.fullmatch(pattern, name)), {})
+
+
+def changed(text, changes):
+    """A case file with other values of some keys, each on a line of its own."""
+    for group, keys in changes.items():
+        if not re.search(rf"^&{group}\b", text, re.MULTILINE):
+            text += f"\n&{group}\n/\n"
+        for key, value in keys.items():
+            body = re.search(rf"^&{group}\b.*?^/", text, re.MULTILINE | re.DOTALL)
+            kept = re.sub(rf"^ *{key} *=.*\n", "", body.group(), flags=re.MULTILINE)
+            text = text[:body.start()] + kept[:-1] + f"  {key} = {namelist_value(value)}\n/" + text[body.end():]
+    return text
+
+
+def number_of(text, key):
+    """A number of a case file; None where it is not there."""
+    found = re.search(rf"^ *{key} *= *([-+.0-9a-zA-Z]+)", text, re.MULTILINE)
+    return float(found.group(1)) if found else None
+
+
+def sizes_of(text, one):
+    """What differences of quantities that may vanish are compared with."""
+    measures = {key: number_of(text, key) for key in ("radius", "length", "clearance", "ambient_pressure")}
+    if measures["radius"] is not None:
+        bearing = Bearing(**measures)
+        ends = [f"{edge}_edge_lift{place}" for edge in ("leading", "trailing") for place in ("", "_edge")]
+        return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | {
+            f"held_force_{axis}": bearing.force_unit for axis in "xy"}
+    works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
+    if "maximum_deflection" not in one.summary:
+        return {}
+    largest, energy = one["maximum_deflection"], one["maximum_deflection"]*one["maximum_force"]
+    return {name: energy for name in works} | {"force": one["maximum_force"], "plate_travel": largest} | {
+        name: largest for name in one.summary if name.startswith("crest_deflection_")}
+
+
+def history_of(answer):
+    """The columns of the history; none where there are no steps."""
+    try:
+        return answer.history()
+    except KeyError:
+        return {}
+
+
+def check_input(checks, folder, name, ranks, as_is):
+    text = (INPUTS/f"{name}.nml").read_text(encoding="utf-8")
+    changes = {} if as_is else changes_of(name)
+    if changes:
+        print(f"       {name}: " + ", ".join(f"{key} = {namelist_value(value)}" for keys in changes.values()
+                                             for key, value in keys.items()))
+        text = changed(text, changes)
+    path = pathlib.Path(folder)/f"{name}.nml"
+    path.write_text(text, encoding="utf-8")
+    one, rows = None, {}
+    for count in ranks:
+        answer = run_file(path, pathlib.Path(folder)/str(count), ranks=count, options=["--quiet"])
+        if one is None:
+            one, rows, sizes = answer, history_of(answer), sizes_of(text, answer)
+            continue
+        words = f"{name}, {count} ranks against {ranks[0]}"
+        difference, worst = summary_difference(one, answer, sizes)
+        checks.below(f"{words}: summary ({worst})", difference, LIMIT)
+        checks.that(f"{words}: the same words", {key: value for key, value in one.summary.items()
+                                                 if isinstance(value, str)} ==
+                    {key: value for key, value in answer.summary.items() if isinstance(value, str)})
+        columns = history_of(answer)
+        checks.that(f"{words}: the same columns of the history", set(columns) == set(rows))
+        largest = max(((largest_difference(rows[key], columns[key], sizes.get(key)), key)
+                       for key in set(rows) & set(columns) - COST), default=(0.0, "no steps"))
+        checks.below(f"{words}: history ({largest[1]})", largest[0], LIMIT)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("inputs", metavar="INPUT", nargs="*", help="name of a file in inputs/; default: all")
+    parser.add_argument("--small", action="store_true", help="a few inputs, in seconds")
+    parser.add_argument("--as-is", action="store_true", help="on the meshes of the inputs; hours")
+    parser.add_argument("--ranks", default=",".join(map(str, RANKS)), help="default: %(default)s")
+    options = parser.parse_args()
+    ranks = [int(word) for word in options.ranks.split(",")]
+    if len(ranks) < 2:
+        parser.error("--ranks: two or more numbers")
+    names = [pathlib.Path(name).stem for name in options.inputs] or sorted(path.stem for path in INPUTS.glob("*.nml"))
+    if options.small and not options.inputs:
+        names = SMALL
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            check_input(checks, folder, name, ranks, options.as_is)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()

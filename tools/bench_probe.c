@@ -1,0 +1,140 @@
+/* What PETSc's log (-log_view) does not tell, for tools/bench scaling; preloaded into gfb (LD_PRELOAD).
+ *
+ * Times of the log become CPU times of each process, because PETSc reads its clock by MPI_Wtime. Who waits for another
+ * rank sleeps instead of spinning, so that waiting is no CPU time; Open MPI yields where it is idle
+ * (mpi_yield_when_idle). Messages that Fortran libraries send, MUMPS that is, are counted for each of MUMPS' phases:
+ * PETSc counts its own only. Each rank leaves a line "calls messages bytes collectives" for every phase in the file
+ * $GFB_PROBE_FILE.<rank>.
+ */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+/* What a phase has cost. */
+typedef struct {
+  long calls, messages, bytes, collectives;
+} cost_type;
+
+enum { outside, analysis, factorization, solve, phases };
+
+static cost_type cost[phases];
+static int phase = outside;
+
+double MPI_Wtime(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1.0e-9 * (double)now.tv_nsec;
+}
+
+int sched_yield(void)
+{
+  const struct timespec nap = {0, 100000};
+  return nanosleep(&nap, NULL);
+}
+
+/* The start of MUMPS' C structure, in every version. */
+typedef struct {
+  int sym, par, job;
+} mumps_start_type;
+
+void dmumps_c(mumps_start_type *mumps)
+{
+  void (*real_one)(mumps_start_type *) = (void (*)(mumps_start_type *))dlsym(RTLD_NEXT, "dmumps_c");
+  phase = mumps->job > outside && mumps->job < phases ? mumps->job : outside;
+  cost[phase].calls++;
+  real_one(mumps);
+  phase = outside;
+}
+
+static int rank_count(const MPI_Fint *communicator)
+{
+  int ranks = 1;
+  PMPI_Comm_size(PMPI_Comm_f2c(*communicator), &ranks);
+  return ranks;
+}
+
+static void count_message(const MPI_Fint *count, const MPI_Fint *type)
+{
+  int bytes = 0;
+  PMPI_Type_size(PMPI_Type_f2c(*type), &bytes);
+  cost[phase].messages++;
+  cost[phase].bytes += (long)*count * bytes;
+}
+
+#define SEND(name)                                                                                          \
+  void p##name(void *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *);              \
+  void name(void *data, MPI_Fint *count, MPI_Fint *type, MPI_Fint *to, MPI_Fint *tag, MPI_Fint *communicator, \
+            MPI_Fint *error)                                                                                \
+  {                                                                                                         \
+    count_message(count, type);                                                                             \
+    p##name(data, count, type, to, tag, communicator, error);                                               \
+  }
+
+#define SEND_LATER(name)                                                                                    \
+  void p##name(void *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *);  \
+  void name(void *data, MPI_Fint *count, MPI_Fint *type, MPI_Fint *to, MPI_Fint *tag, MPI_Fint *communicator, \
+            MPI_Fint *request, MPI_Fint *error)                                                             \
+  {                                                                                                         \
+    count_message(count, type);                                                                             \
+    p##name(data, count, type, to, tag, communicator, request, error);                                      \
+  }
+
+SEND(mpi_send_)
+SEND(mpi_ssend_)
+SEND_LATER(mpi_isend_)
+
+static void count_collective(const MPI_Fint *communicator)
+{
+  if (rank_count(communicator) > 1) cost[phase].collectives++;
+}
+
+void pmpi_allreduce_(void *, void *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *);
+void mpi_allreduce_(void *from, void *to, MPI_Fint *count, MPI_Fint *type, MPI_Fint *operation, MPI_Fint *communicator,
+                    MPI_Fint *error)
+{
+  count_collective(communicator);
+  pmpi_allreduce_(from, to, count, type, operation, communicator, error);
+}
+
+void pmpi_reduce_(void *, void *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *);
+void mpi_reduce_(void *from, void *to, MPI_Fint *count, MPI_Fint *type, MPI_Fint *operation, MPI_Fint *root,
+                 MPI_Fint *communicator, MPI_Fint *error)
+{
+  count_collective(communicator);
+  pmpi_reduce_(from, to, count, type, operation, root, communicator, error);
+}
+
+void pmpi_bcast_(void *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *, MPI_Fint *);
+void mpi_bcast_(void *data, MPI_Fint *count, MPI_Fint *type, MPI_Fint *root, MPI_Fint *communicator, MPI_Fint *error)
+{
+  count_collective(communicator);
+  pmpi_bcast_(data, count, type, root, communicator, error);
+}
+
+void pmpi_barrier_(MPI_Fint *, MPI_Fint *);
+void mpi_barrier_(MPI_Fint *communicator, MPI_Fint *error)
+{
+  count_collective(communicator);
+  pmpi_barrier_(communicator, error);
+}
+
+__attribute__((destructor)) static void write_costs(void)
+{
+  const char *file = getenv("GFB_PROBE_FILE"), *rank = getenv("OMPI_COMM_WORLD_RANK");
+  char path[4096];
+  FILE *out;
+
+  if (!rank) rank = getenv("PMI_RANK");
+  if (!file) return;
+  snprintf(path, sizeof path, "%s.%s", file, rank ? rank : "0");
+  out = fopen(path, "w");
+  if (!out) return;
+  for (int i = 0; i < phases; i++) {
+    fprintf(out, "%ld %ld %ld %ld\n", cost[i].calls, cost[i].messages, cost[i].bytes, cost[i].collectives);
+  }
+  fclose(out);
+}
