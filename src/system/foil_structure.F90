@@ -16,7 +16,7 @@ module gfb_foil_structure
   use gfb_shell_mass, only: shell_mass
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_substructures, only: substructure_type, kind_count
-  use gfb_partition, only: division_type, divide, chain, no_chain
+  use gfb_foil_sharing, only: cut_columns, share_kinds, pass_on, lines_at_seams
   use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
   use gfb_foil_pieces, only: number_slots, condense_piece, piece_unknowns, element_geometry, &
                              add_symmetric_block, create_foil_matrix, element_row
@@ -24,7 +24,7 @@ module gfb_foil_structure
   use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private
-  public :: create_foil_structure, destroy_foil_structure, share_kinds
+  public :: create_foil_structure, destroy_foil_structure
 
   !> One foil and this rank's part of it.
   type, public :: foil_structure_type
@@ -72,7 +72,8 @@ contains
     type(error_type), allocatable, intent(out) :: error
     !> rank, from 1, of every column of elements; default: the foil is cut by itself
     integer, intent(in), optional :: column_part(:)
-    integer :: last
+    integer, allocatable :: first(:)
+    integer :: last, i
     PetscErrorCode :: ierr
 
     structure%mesh = mesh
@@ -85,7 +86,9 @@ contains
     if (present(column_part)) then
       structure%column_part = column_part
     else
-      call cut_foil(structure, error)
+      first = [(i, i=1, mesh%stations)]
+      if (reduced) first = [substructure%column, mesh%stations]
+      call cut_columns(first, rank_count(), structure%column_part, error)
       if (allocated(error)) return
     end if
     call distribute_foil(structure)
@@ -101,28 +104,6 @@ contains
     call leave_stage()
     structure%created = .not. allocated(error)
   end subroutine create_foil_structure
-
-  !> Cuts a foil that nothing lies above: between substructures where it is condensed.
-  !>
-  !> Fails when METIS does.
-  subroutine cut_foil(structure, error)
-    type(foil_structure_type), intent(inout) :: structure
-    type(error_type), allocatable, intent(out) :: error
-    type(division_type) :: division
-    integer, allocatable :: first(:)
-    integer :: i, columns
-
-    columns = structure%mesh%stations - 1
-    first = [(i, i=1, columns + 1)]
-    if (structure%reduced) first = [structure%substructure%column, columns + 1]
-    call divide(no_chain(), chain(real(first, wp), real(first(2:) - first(:size(first) - 1), wp), .false.), &
-                rank_count(), division, error)
-    if (allocated(error)) return
-    allocate (structure%column_part(columns))
-    do i = 1, size(first) - 1
-      structure%column_part(first(i):first(i + 1) - 1) = division%bumps(i)
-    end do
-  end subroutine cut_foil
 
   !> Every column of elements goes to its rank.
   subroutine distribute_foil(structure)
@@ -178,50 +159,6 @@ contains
       if (has(this_rank() + 1, i)) call pass_on(has(:, i), maker(i), structure%super(i))
     end do
   end subroutine condense_kinds
-
-  !> Which rank has which kind of substructure, and which one condenses it: of those that have it the
-  !> one with the least to condense.
-  pure subroutine share_kinds(kind, part, ranks, has, maker)
-    integer, intent(in) :: kind(:) !! of the substructures
-    integer, intent(in) :: part(:) !! rank, from 1, of the substructures
-    integer, intent(in) :: ranks
-    logical, allocatable, intent(out) :: has(:, :)  !! (ranks, kinds)
-    integer, allocatable, intent(out) :: maker(:) !! (kinds) rank, from 1
-    integer :: burden(ranks), i
-
-    allocate (has(ranks, maxval([0, kind])), source=.false.)
-    allocate (maker(size(has, 2)))
-    do i = 1, size(kind)
-      has(part(i), kind(i)) = .true.
-    end do
-    burden = 0
-    do i = 1, size(maker)
-      maker(i) = minloc(burden, 1, mask=has(:, i))
-      burden(maker(i)) = burden(maker(i)) + 1
-    end do
-  end subroutine share_kinds
-
-  !> Hands a condensed matrix from the rank that made it to the others that have the kind; kinds come in
-  !> the same order on all ranks, so that nobody waits for ever.
-  subroutine pass_on(has, maker, super)
-    logical, intent(in) :: has(:)  !! (ranks)
-    integer, intent(in) :: maker   !! rank, from 1
-    type(super_element_type), intent(inout) :: super
-    integer, parameter :: tag = 1
-    integer :: rank, entries, status(MPI_STATUS_SIZE)
-    PetscErrorCode :: ierr
-
-    entries = size(super%retained)**2
-    if (maker /= this_rank() + 1) then
-      allocate (super%stiffness(size(super%retained), size(super%retained)))
-      call MPI_Recv(super%stiffness, entries, MPI_DOUBLE_PRECISION, maker - 1, tag, PETSC_COMM_WORLD, status, ierr)
-      return
-    end if
-    do rank = 1, size(has)
-      if (rank == maker .or. .not. has(rank)) cycle
-      call MPI_Send(super%stiffness, entries, MPI_DOUBLE_PRECISION, rank - 1, tag, PETSC_COMM_WORLD, ierr)
-    end do
-  end subroutine pass_on
 
   !> Stiffness of the whole foil in its numbered unknowns.
   !>
@@ -295,47 +232,30 @@ contains
     entries = 2*retained*node_unknowns ! the two substructures that share a line
   end function row_entries
 
-  !> Which of this rank's unknowns are coupled to those of other ranks: those of elements and
-  !> substructures that end where another rank begins.
+  !> Which of this rank's unknowns are coupled to those of other ranks.
   pure function at_seam(structure) result(coupled)
     type(foil_structure_type), intent(in) :: structure
     logical :: coupled(structure%part%owned_unknowns)
     logical :: line(structure%mesh%stations)
-    integer :: i, first, last, place, unknowns
+    integer :: i, k, ends(2, size(structure%mine)), place, unknowns
 
-    line = .false.
     if (structure%reduced) then
       do i = 1, size(structure%mine)
         associate (nodes => structure%substructure(structure%mine(i))%nodes)
-          first = (nodes(1) - 1)/structure%mesh%rows + 1
-          last = (nodes(size(nodes)) - 1)/structure%mesh%rows + 1
+          ends(:, i) = (nodes([1, size(nodes)]) - 1)/structure%mesh%rows + 1
         end associate
-        if (is_seam(first) .or. is_seam(last)) line([first, last]) = .true.
       end do
+      line = lines_at_seams(structure%column_part, ends)
     else
-      do i = 1, size(line)
-        line(i) = is_seam(i) .or. is_seam(max(1, i - 1)) .or. is_seam(min(size(line), i + 1))
-      end do
+      line = lines_at_seams(structure%column_part, reshape([(k, k + 1, k=1, size(line) - 1)], [2, size(line) - 1]))
     end if
     coupled = .false.
-    place = 0
     do i = 1, size(structure%part%mesh_node)
       if (.not. structure%part%owned(i)) cycle
       unknowns = maxval(structure%slot(:, structure%part%mesh_node(i)))
       place = structure%part%first_unknown(i) - 1 - structure%first
       coupled(place + 1:place + unknowns) = line((structure%part%mesh_node(i) - 1)/structure%mesh%rows + 1)
     end do
-
-  contains
-
-    !> Whether the columns before and behind a station are different ranks'.
-    pure function is_seam(station) result(seam)
-      integer, intent(in) :: station
-      logical :: seam
-      seam = .false.
-      if (station == 1 .or. station == structure%mesh%stations) return
-      seam = structure%column_part(station - 1) /= structure%column_part(station)
-    end function is_seam
   end function at_seam
 
   !> Global numbers, from 0, of all components at any nodes; -1 where there is none. All ranks ask.
