@@ -1,6 +1,8 @@
 !> `&output`: what is written.
 module gfb_output_case
+  use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_value_rules, only: from_to
   implicit none (type, external)
   private
   public :: output_case_type, read_output_case
@@ -8,11 +10,14 @@ module gfb_output_case
   character(len=*), parameter :: field_words(*) = [character(len=10) :: &
                                                    'all', 'none', 'pressure', 'gap', 'deflection']
 
-  !> Fields that are written for ParaView.
+  real(wp), parameter :: most_steps = 1.0e6_wp
+
+  !> Fields that are written for ParaView, and how often the run can be gone on with.
   type :: output_case_type
     logical :: pressure = .true.
     logical :: gap = .true.
     logical :: deflection = .true.
+    integer :: restart_every = 0 !! sweep points or load steps between restart files; 0: none
   end type output_case_type
 
 contains
@@ -32,6 +37,10 @@ contains
     output%pressure = any(chosen .and. (field_words == 'all' .or. field_words == 'pressure'))
     output%gap = any(chosen .and. (field_words == 'all' .or. field_words == 'gap'))
     output%deflection = any(chosen .and. (field_words == 'all' .or. field_words == 'deflection'))
+    call keys%integer_key('restart_every', output%restart_every, &
+                          'sweep points, or load steps of a strip, after which '// &
+                          '`CASE.restart.h5` is written for `--restart`; 0: never', &
+                          from_to(0.0_wp, most_steps))
     call keys%finish_group()
   end subroutine read_output_case
 end module gfb_output_case

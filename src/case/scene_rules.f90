@@ -11,6 +11,7 @@ module gfb_scene_rules
                             meshes_foils, half_width_yes
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
+  use gfb_output_case, only: output_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_modes, is_bearing
   use gfb_solver_case, only: solver_case_type
@@ -22,7 +23,7 @@ module gfb_scene_rules
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
   public :: check_shell_bearing, check_friction_memory
-  public :: check_plates, check_stability, is_symmetric
+  public :: check_plates, check_stability, check_restart, is_symmetric
 
 contains
 
@@ -96,6 +97,20 @@ contains
                          'nothing else moves by itself')
     end if
   end subroutine check_stability
+
+  !> A run can be gone on with where it has steps.
+  subroutine check_restart(keys, output, sweep, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(output_case_type), intent(in) :: output
+    type(sweep_case_type), intent(in) :: sweep
+    integer, intent(in) :: analysis  !! 0 where it is not known
+
+    if (output%restart_every == 0 .or. analysis == 0) return
+    if (analysis /= analysis_strip .and. .not. sweep%present) then
+      call keys%complain('output', 'restart_every', "needs a &sweep, or analysis = 'strip': "// &
+                         'nothing else has steps to go on from')
+    end if
+  end subroutine check_restart
 
   !> An elastic foundation needs its stiffness, or what it is computed from.
   subroutine check_foundation(keys, model)

@@ -23,14 +23,16 @@ module gfb_bearing_analysis
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_cold_start, only: start_bearing
-  use gfb_partitioned, only: partitioned_type, start_partitioned, follow_partitioned, &
-                             destroy_partitioned
+  use gfb_partitioned, only: partitioned_type, start_partitioned, create_partitioned, follow_partitioned, &
+                             forget_partitioned, destroy_partitioned
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
   use gfb_answer_judgement, only: judge_answer
   use gfb_tilt_response, only: begin_tilt, measure_tilt, summary_quantities, show_tilt_response
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name, sweep_name, sweep_unit
+  use gfb_restart, only: restart_type, drop_restart
+  use gfb_bearing_restart, only: keep_bearing, recall_bearing
   use gfb_fold_sweep, only: sweep_round_folds
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
@@ -48,10 +50,11 @@ contains
   !> Computes a bearing and writes its results.
   !>
   !> `converged` is false where an answer could not be found. Fails when a file cannot be written.
-  subroutine run_bearing(scene, folder, command, start_time, log, converged, error)
+  subroutine run_bearing(scene, folder, command, restart, start_time, log, converged, error)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
+    type(restart_type), intent(in) :: restart !! where the run goes on, if it does
     real(wp), intent(in) :: start_time       !! of the run [s]
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: converged
@@ -69,7 +72,7 @@ contains
     converged = .false.
     call plan_bearing(scene, log, plan)
     call log%heading('solution')
-    call solve_scene(scene, plan, log, bearing, newton, record, converged, error)
+    call solve_scene(scene, plan, restart, log, bearing, newton, record, converged, error)
     if (allocated(error)) return
     call enter_stage('output')
     answer = bearing_answer(bearing)
@@ -88,15 +91,17 @@ contains
     call add_foil_grids(bearing, grids)
     call write_result_set(scene, folder, converged, provenance(command), summary, record%history, &
                           foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, log, error)
+    if (converged .and. .not. allocated(error)) call drop_restart(restart)
     call leave_stage()
     call destroy_newton(newton)
     call bearing%destroy()
   end subroutine run_bearing
 
   !> The first answer, and those of the sweep, each from its neighbour.
-  subroutine solve_scene(scene, plan, log, bearing, newton, record, converged, error)
+  subroutine solve_scene(scene, plan, restart, log, bearing, newton, record, converged, error)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
+    type(restart_type), intent(in) :: restart
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
@@ -109,7 +114,7 @@ contains
     type(newton_settings_type) :: newton_settings
     type(partitioned_type), target :: sides
     type(operation_case_type) :: operation
-    integer :: point, first
+    integer :: point, first, last
     logical :: partitioned
 
     allocate (record%history(0), record%judged(0))
@@ -124,7 +129,13 @@ contains
     newton_settings = newton_settings_type(scene%solver%residual_tolerance, scene%solver%step_tolerance, &
                                            scene%solver%maximum_iterations)
     partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil /= foil_rigid
-    if (partitioned) then
+    if (restart%goes_on) then
+      call recall_bearing(scene, plan, restart, newton_settings, log, bearing, newton, record, first, error)
+      if (.not. allocated(error) .and. partitioned) call create_partitioned(bearing, newton_settings, log, sides)
+      first = first + 1
+      if (scene%sweep%turn_folds) first = min(first, 2) ! answers along the branch are no points
+      converged = .true.
+    else if (partitioned) then
       call start_partitioned(scene, plan, operating_point(operation), newton_settings, path, log, bearing, &
                              newton, sides, report, error)
     else
@@ -132,28 +143,21 @@ contains
                          newton, report, error)
     end if
     if (allocated(error)) return
-    record%begun = wall_time()
-    converged = report%converged
-    if (.not. converged) call explain(log, scene, bearing, report, .false.)
-    if (.not. scene%sweep%present) then
-      if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
-      call add_row(scene, bearing, newton, converged, record)
-      call destroy_partitioned(sides)
-      return
-    end if
-    if (converged .and. scene%sweep%hold_position) then
-      if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first way the foils went
-      call hold_shaft(bearing, log)
-      call begin_tilt(scene, bearing, newton, record%tilted)
-    else if (converged) then
-      call end_point(scene, log, 1, bearing, newton, record)
+    if (.not. restart%goes_on) then
+      converged = report%converged
+      if (.not. converged) call explain(log, scene, bearing, report, .false.)
+      call begin_sweep(scene, log, converged, bearing, newton, record)
+      if (converged) call keep(first - 1)
     end if
     call enter_stage('sweep')
-    do point = first, size(scene%sweep%values)
+    last = 0
+    if (scene%sweep%present) last = size(scene%sweep%values)
+    do point = first, last
       if (.not. converged) exit
       if (scene%sweep%turn_folds .and. point > 1) then
-        call sweep_round_folds(scene, log, sweep_target(scene, bearing, size(scene%sweep%values)), path, bearing, &
-                               newton, record, report)
+        call sweep_round_folds(scene, restart, log, sweep_target(scene, bearing, last), path, bearing, &
+                               newton, record, report, error)
+        if (allocated(error)) return
         converged = report%converged
         if (.not. converged) call stop_short(log, scene, bearing, report, record)
         exit
@@ -167,10 +171,45 @@ contains
       if (.not. converged) call stop_short(log, scene, bearing, report, record)
       if (converged) call end_point(scene, log, point, bearing, newton, record)
       if (point == 1) record%begun = wall_time()
+      if (converged) call keep(point)
     end do
     call leave_stage()
     call destroy_partitioned(sides)
+
+  contains
+
+    !> Writes the restart file after a point, where one is due; 0: where the shaft is held.
+    subroutine keep(point)
+      integer, intent(in) :: point
+
+      if (.not. restart%is_due(point)) return
+      call keep_bearing(scene, restart, log, point, bearing, newton, record)
+      call forget_partitioned(sides)
+    end subroutine keep
   end subroutine solve_scene
+
+  !> What follows the first answer: a scene without a sweep is done, the shaft is held, or the first point
+  !> of a sweep is there.
+  subroutine begin_sweep(scene, log, converged, bearing, newton, record)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    logical, intent(in) :: converged !! the answer is one
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(bearing_record_type), intent(inout) :: record
+
+    record%begun = wall_time()
+    if (.not. scene%sweep%present) then
+      if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
+      call add_row(scene, bearing, newton, converged, record)
+    else if (converged .and. scene%sweep%hold_position) then
+      if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first way the foils went
+      call hold_shaft(bearing, log)
+      call begin_tilt(scene, bearing, newton, record%tilted)
+    else if (converged) then
+      call end_point(scene, log, 1, bearing, newton, record)
+    end if
+  end subroutine begin_sweep
 
   !> Keeps a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
   subroutine end_point(scene, log, point, bearing, newton, record)

@@ -14,6 +14,7 @@ module gfb_command_line
     logical :: branches = .false. !! look for all equilibria
     !> ranks whose shares to show instead of solving; 0: those of the job
     integer :: parts = -1
+    logical :: restart = .false. !! go on from the restart file
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
@@ -21,8 +22,8 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=11), parameter :: options(9) = [character(len=11) :: &
-    '--branches', '--check', '--output', '--help', '--partition', &
+  character(len=11), parameter :: options(10) = [character(len=11) :: &
+    '--branches', '--check', '--output', '--restart', '--help', '--partition', &
                                                '--version', '--keys', '--quiet', '--petsc']
 
 contains
@@ -52,6 +53,8 @@ contains
         line%branches = .true.
       case ('--partition')
         line%parts = 0
+      case ('--restart')
+        line%restart = .true.
       case ('--help', '-h')
         line%help = .true.
       case ('--version')
@@ -73,6 +76,9 @@ contains
     if (allocated(error) .or. line%help .or. line%version .or. line%keys) return
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
+    else if (line%restart .and. line%branches) then
+      call fail(error, 'gfb: --restart goes on with a sweep or a strip''s load steps, not with '// &
+                '--branches')
     end if
   end subroutine read_command_line
 
@@ -133,6 +139,7 @@ contains
       '                  --partition=N: over N ranks'//next// &
       '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
+      '  --restart       go on from CASE.restart.h5, which a killed run left behind'//next// &
       '  --quiet         no line per iteration'//next// &
       '  --keys          table of all keys of a case file'//next// &
       '  --version       version of the program and its libraries'//next// &

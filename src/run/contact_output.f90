@@ -10,7 +10,9 @@ module gfb_contact_output
   private
   public :: record_contacts, contact_arrays, contact_field
 
-  integer, parameter :: fields = 6 !! of a contact: force and friction along x and z, slip, state
+  !> of a contact: force and friction along x and z, slip, state
+  integer, parameter, public :: record_fields = 6
+  integer, parameter :: fields = record_fields
 
   !> Contacts of this rank at every step.
   type, public :: contact_record_type

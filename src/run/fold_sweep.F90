@@ -4,6 +4,7 @@
 module gfb_fold_sweep
   use petscsys
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
@@ -11,9 +12,12 @@ module gfb_fold_sweep
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
+  use gfb_arc_length, only: begin_arc, advance_arc, end_arc
+  use gfb_fold_way, only: fold_way_type
   use gfb_answer_judgement, only: judge_answer
   use gfb_tilt_response, only: measure_tilt
+  use gfb_restart, only: restart_type
+  use gfb_bearing_restart, only: keep_bearing, recall_way
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   implicit none (type)
   private
@@ -21,21 +25,15 @@ module gfb_fold_sweep
 
   integer, parameter :: most_steps = 2000 !! along the branch
 
-  !> The way along the branch.
-  type :: fold_sweep_type
-    type(arc_type) :: arc
-    type(operating_point_type) :: first, last !! of the sweep
-    real(wp), allocatable :: place(:)         !! of the sweep's values between them [1]
-    integer :: kept = 1                       !! value whose answer was kept last
-    real(wp) :: kept_heading = 1.0_wp         !! and in which sense it was passed
-  end type fold_sweep_type
-
 contains
 
-  !> Follows the branch from the first value's answer, which has been kept; the bearing is left at the
-  !> last answer.
-  subroutine sweep_round_folds(scene, log, last, settings, bearing, newton, record, report)
+  !> Follows the branch from the first value's answer, which has been kept, or from where a restart file
+  !> says; the bearing is left at the last answer.
+  !>
+  !> Fails when that file is damaged.
+  subroutine sweep_round_folds(scene, restart, log, last, settings, bearing, newton, record, report, error)
     type(scene_type), intent(in) :: scene
+    type(restart_type), intent(in) :: restart
     type(run_log_type), intent(in) :: log
     type(operating_point_type), intent(in) :: last !! of the sweep
     type(path_settings_type), intent(in) :: settings
@@ -43,18 +41,27 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(bearing_record_type), intent(inout) :: record
     type(path_report_type), intent(out) :: report
-    type(fold_sweep_type), target :: way
+    type(error_type), allocatable, intent(out) :: error
+    type(fold_way_type), target :: way
     real(wp) :: gap
-    logical :: moved, again, ended
+    integer :: kept
+    logical :: moved, again, ended, begun
 
     way%first = bearing%point
     way%last = last
     associate (values => scene%sweep%values)
       way%place = (values - values(1))/(values(size(values)) - values(1))
     end associate
-    call begin_arc(bearing, newton, last, 1.0_wp, way%arc)
+    begun = .false.
+    if (restart%goes_on) then
+      call bearing%linearise(bearing%state) ! an arc needs to know which entries the matrix has
+      call recall_way(restart, last, bearing, newton, way, begun, error)
+      if (allocated(error)) return
+    end if
+    if (.not. begun) call begin_arc(bearing, newton, last, 1.0_wp, way%arc)
     ended = .false.
     do while (.not. ended)
+      kept = size(record%history)
       call advance_arc(way%arc, moved)
       report%steps = way%arc%steps
       if (moved) then
@@ -74,6 +81,9 @@ contains
         report%reason = 'more than '//text(most_steps)//' steps along the branch'
       end if
       ended = ended .or. allocated(report%reason)
+      if (.not. ended .and. restart%is_due_after(kept, size(record%history))) then
+        call keep_bearing(scene, restart, log, size(record%history), bearing, newton, record, way)
+      end if
     end do
     report%reached = bearing%point
     report%fraction = way%arc%place
@@ -87,7 +97,7 @@ contains
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
-    type(fold_sweep_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: way
     type(bearing_record_type), intent(inout) :: record
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ended
@@ -132,7 +142,7 @@ contains
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
-    type(fold_sweep_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: way
     type(bearing_record_type), intent(inout) :: record
     real(wp) :: fold
 

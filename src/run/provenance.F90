@@ -6,16 +6,22 @@ module gfb_provenance
   use gfb_petsc_session, only: petsc_version_text, rank_count
   implicit none (type, external)
   private
-  public :: version_text, provenance, blas_in_use
+  public :: version_text, program_words, provenance, blas_in_use
 
 contains
 
   !> Version of the program and its libraries.
   function version_text() result(words)
     character(len=:), allocatable :: words
-    words = 'gfb '//GFB_VERSION//' ('//GFB_COMMIT//'), '//GFB_BUILD//' build by '//GFB_COMPILER//', '// &
+    words = program_words()//', '//GFB_BUILD//' build by '//GFB_COMPILER//', '// &
       petsc_version_text()//', BLAS '//blas_in_use()
   end function version_text
+
+  !> Version and commit of the program.
+  pure function program_words() result(words)
+    character(len=:), allocatable :: words
+    words = 'gfb '//GFB_VERSION//' ('//GFB_COMMIT//')'
+  end function program_words
 
   !> What the result file says of its origin.
   function provenance(command) result(list)

@@ -19,6 +19,7 @@ module gfb_run_case
   use gfb_strip_analysis, only: run_strip
   use gfb_modes_analysis, only: run_modes
   use gfb_command_line, only: command_line_type
+  use gfb_restart, only: restart_type, find_restart
   use gfb_provenance, only: version_text
   implicit none (type, external)
   private
@@ -37,6 +38,7 @@ contains
     type(scene_type) :: scene
     type(bearing_plan_type) :: plan
     type(foil_plan_type) :: foil_plan
+    type(restart_type) :: restart
     real(wp) :: start_time
     logical :: only_look
     integer :: parts
@@ -63,9 +65,13 @@ contains
       call log%line(scene%file//' is in order')
     else
       call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
+      if (.not. line%branches) then
+        call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)
+        if (allocated(error)) return
+      end if
       select case (scene%general%analysis)
       case (analysis_strip)
-        call run_strip(scene, line%folder, line%words, start_time, log, converged, error)
+        call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error)
       case (analysis_modes)
         call run_modes(scene, line%folder, line%words, start_time, log, converged, error)
       case default
@@ -73,7 +79,7 @@ contains
           call run_branches(scene, line%folder, line%words, start_time, log, converged, error)
           return
         end if
-        call run_bearing(scene, line%folder, line%words, start_time, log, converged, error)
+        call run_bearing(scene, line%folder, line%words, restart, start_time, log, converged, error)
       end select
     end if
   end subroutine run_case

@@ -30,8 +30,11 @@ module gfb_strip_analysis
   use gfb_foil_plan, only: plan_foil
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
-  use gfb_strip_companions, only: companions_type, strip_companions, show_companions, companion_arrays
-  use gfb_contact_output, only: contact_record_type, record_contacts, contact_arrays, contact_field
+  use gfb_restart, only: restart_type, drop_restart
+  use gfb_strip_record, only: strip_run_type
+  use gfb_strip_restart, only: keep_strip, recall_strip
+  use gfb_strip_companions, only: strip_companions, show_companions, companion_arrays
+  use gfb_contact_output, only: record_contacts, contact_arrays, contact_field
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -40,25 +43,16 @@ module gfb_strip_analysis
   real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a balance of forces, relative
 
-  !> What a run gathers.
-  type :: strip_run_type
-    type(strip_answer_type) :: full, last !! at the largest load, and of the last step
-    type(history_row_type), allocatable :: history(:)
-    type(contact_record_type) :: contacts
-    type(companions_type) :: companions
-    integer :: steps = 0                  !! done
-    logical :: converged = .true.
-  end type strip_run_type
-
 contains
 
   !> Computes a strip and writes its results.
   !>
   !> Fails when a file cannot be written.
-  subroutine run_strip(scene, folder, command, start_time, log, converged, error)
+  subroutine run_strip(scene, folder, command, restart, start_time, log, converged, error)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
+    type(restart_type), intent(in) :: restart !! where the run goes on, if it does
     real(wp), intent(in) :: start_time       !! of the run [s]
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: converged
@@ -83,7 +77,8 @@ contains
                   text(size(strip%foil%substructure))//', '//text(strip%unknowns)//' unknowns')
     call create_newton(newton, strip, 'strip_', newton_settings_type(scene%solver%residual_tolerance, &
                        scene%solver%step_tolerance, scene%solver%maximum_iterations), log)
-    call load_and_unload(scene, strip, newton, log, run)
+    call load_and_unload(scene, restart, strip, newton, log, run, error)
+    if (allocated(error)) return
     converged = run%converged
     summary = [answer_quantities(run%full, run%last, plates, converged), &
                cost_quantities(scene, strip, newton, start_time)]
@@ -93,17 +88,20 @@ contains
     call enter_stage('output')
     call write_strip(scene, folder, command, strip, run, summary, log, error)
     call leave_stage()
+    if (converged .and. .not. allocated(error)) call drop_restart(restart)
     call destroy_newton(newton)
     call destroy_strip_system(strip)
   end subroutine run_strip
 
   !> All load steps, up and down again.
-  subroutine load_and_unload(scene, strip, newton, log, run)
+  subroutine load_and_unload(scene, restart, strip, newton, log, run, error)
     type(scene_type), intent(in) :: scene
+    type(restart_type), intent(in) :: restart
     type(strip_system_type), target, intent(inout) :: strip
     type(newton_type), target, intent(inout) :: newton
     type(run_log_type), intent(in) :: log
     type(strip_run_type), intent(inout) :: run
+    type(error_type), allocatable, intent(out) :: error
 
     type(load_path_type) :: path
     type(strip_recorder_type) :: recorder
@@ -118,9 +116,13 @@ contains
       call create_load_path(strip, path)
       run%full = recorder%last
       run%last = recorder%last
+      if (restart%goes_on) then
+        call recall_strip(restart, steps, log, strip, newton, path, recorder, run, error)
+        if (allocated(error)) return
+      end if
       call show_step_header(log)
       report%reason = what_lifts(scene)
-      do step = 1, steps
+      do step = run%steps + 1, steps
         if (report%reason /= '' .and. step == 1) then
           call explain(log, step, steps, report%reason)
           run%converged = .false.
@@ -144,6 +146,7 @@ contains
         row%quantity = step_quantities(run%last, step, load%kind == load_plates, iterations, factorizations)
         run%history = [run%history, row]
         call show_step(log, run%last, step, iterations, factorizations)
+        call keep_strip(scene, restart, log, strip, newton, path, run)
       end do
       if (path%homotopies + path%cuts > 0) then
         call log%line(text(path%homotopies)//' steps by a longer stick length, '//text(path%cuts)//' cuts')

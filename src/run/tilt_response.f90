@@ -13,6 +13,7 @@ module gfb_tilt_response
   implicit none (type, external)
   private
   public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response
+  public :: response_numbers, recall_response
 
   character(len=1), parameter :: axes(2) = ['x', 'y']
 
@@ -177,6 +178,43 @@ contains
       end do
     end do
   end function slope_quantities
+
+  !> What a sweep has told so far as plain numbers.
+  pure function response_numbers(response) result(numbers)
+    type(tilt_response_type), intent(in) :: response
+    real(wp), allocatable :: numbers(:)
+
+    associate (there => response%equilibrium)
+      numbers = [merge(1.0_wp, 0.0_wp, [response%measured, response%has_secant, &
+                                        response%held, response%rubs, &
+                                        response%from_equilibrium, there%has_foils]), &
+                 real(response%axis, wp), response%tilt, reshape(response%slope, [4]), &
+                 reshape(response%first_slope, [4]), response%untilted, response%secant, &
+                 there%force(:2), there%leading_edge_lift, there%lifted_length]
+    end associate
+  end function response_numbers
+
+  !> The reverse: all that rows and summary will need.
+  pure subroutine recall_response(numbers, response)
+    real(wp), intent(in) :: numbers(:) !! as `response_numbers` gave them
+    type(tilt_response_type), intent(out) :: response
+
+    response%measured = numbers(1) > 0.5_wp
+    response%has_secant = numbers(2) > 0.5_wp
+    response%held = numbers(3) > 0.5_wp
+    response%rubs = numbers(4) > 0.5_wp
+    response%from_equilibrium = numbers(5) > 0.5_wp
+    response%equilibrium%has_foils = numbers(6) > 0.5_wp
+    response%axis = nint(numbers(7))
+    response%tilt = numbers(8)
+    response%slope = reshape(numbers(9:12), [2, 2])
+    response%first_slope = reshape(numbers(13:16), [2, 2])
+    response%untilted = numbers(17:18)
+    response%secant = numbers(19:20)
+    response%equilibrium%force(:2) = numbers(21:22)
+    response%equilibrium%leading_edge_lift = numbers(23:24)
+    response%equilibrium%lifted_length = numbers(25)
+  end subroutine recall_response
 
   !> Lines of the closing block.
   subroutine show_tilt_response(log, response)

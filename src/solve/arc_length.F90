@@ -20,7 +20,7 @@ module gfb_arc_length
   use gfb_path_system, only: path_system_type, create_path_system, destroy_path_system
   implicit none (type)
   private
-  public :: begin_arc, advance_arc, end_arc
+  public :: begin_arc, create_arc, advance_arc, end_arc
 
   real(wp), parameter :: first_step = 1.0e-3_wp
   real(wp), parameter :: shortest_step = 1.0e-7_wp
@@ -51,23 +51,23 @@ module gfb_arc_length
     real(wp) :: place = 0.0_wp        !! lambda of the last answer
     real(wp) :: place_before = 0.0_wp !! of the one before
     integer :: steps = 0
-    integer, private :: orientation = 0 !! sign of the determinant with the tangent in its sense
+    integer :: orientation = 0 !! sign of the determinant with the tangent in its sense
     real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
     logical :: turned = .false.       !! it changed in the last step
     type(bearing_system_type), pointer, private :: bearing => null()
-    real(wp), private :: step = first_step
-    Vec, private :: tangent           !! at the last answer, of length one
-    real(wp), private :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
-    real(wp), private :: distance = 0.0_wp    !! of that contact from it, over the clearance [1]
-    real(wp), private :: last_way = least_start !! length of the last step
+    real(wp) :: step = first_step      !! to try next
+    Vec :: tangent                    !! at the last answer, of length one
+    real(wp) :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
+    real(wp) :: distance = 0.0_wp     !! of that contact from it, over the clearance [1]
+    real(wp) :: last_way = least_start !! length of the last step
     logical, private :: closes = .false.
     Vec, private :: coming            !! direction in which it comes on
-    real(wp), private :: place_earlier = 0.0_wp !! lambda of the answer before those two
-    real(wp), private :: earlier_step = 0.0_wp
-    integer, private :: retreats = 0
-    real(wp), private :: step_limit = longest_step
-    Vec, private :: previous, earlier !! the answers before the last one
-    Vec, private :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
+    real(wp) :: place_earlier = 0.0_wp !! lambda of the answer before those two
+    real(wp) :: earlier_step = 0.0_wp !! its length
+    integer :: retreats = 0           !! before the fold ahead
+    real(wp) :: step_limit = longest_step !! until that is passed
+    Vec :: previous, earlier          !! the answers before the last one
+    Vec :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
     Vec, private :: work
   contains
     procedure :: between
@@ -87,6 +87,20 @@ contains
     type(arc_type), target, intent(inout) :: arc
     PetscErrorCode :: ierr
 
+    call create_arc(bearing, newton, last, arc)
+    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
+    call start_along_path(arc, sense)
+    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
+  end subroutine begin_arc
+
+  !> Prepares what an arc needs, on the path from the bearing's present point to another.
+  subroutine create_arc(bearing, newton, last, arc)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton !! of the bearing: its settings
+    type(operating_point_type), intent(in) :: last
+    type(arc_type), target, intent(inout) :: arc
+    PetscErrorCode :: ierr
+
     arc%bearing => bearing
     call create_path_system(bearing, last, arc%path)
     call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
@@ -99,10 +113,7 @@ contains
     PetscCallA(VecDuplicate(arc%path%state, arc%earlier, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%previous_tangent, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%earlier_tangent, ierr))
-    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
-    call start_along_path(arc, sense)
-    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
-  end subroutine begin_arc
+  end subroutine create_arc
 
   !> The first direction is the one in which the path goes in the sense asked for.
   subroutine start_along_path(arc, sense)

@@ -19,9 +19,9 @@ module gfb_load_step
 
   !> The last two answers.
   type, public :: load_path_type
-    Vec, private :: here, before
-    real(wp), private :: at_here = 0.0_wp, at_before = 0.0_wp !! load factors
-    integer, private :: answers = 0  !! of the last two, those that there are
+    Vec :: here, before              !! like the strip's state
+    real(wp) :: at_here = 0.0_wp, at_before = 0.0_wp !! load factors
+    integer :: answers = 0           !! of the last two, those that there are
     integer :: homotopies = 0        !! steps that needed one
     integer :: cuts = 0              !! steps that were shortened
   end type load_path_type

@@ -19,7 +19,8 @@ module gfb_newton
   use gfb_old_factors, only: old_factors_type, use_old_factors, judge_factors
   implicit none (type)
   private
-  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, destroy_newton
+  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, forget_factors, &
+            destroy_newton
 
   integer, parameter :: memory = 5                 !! residuals that the line search remembers
   integer, parameter :: halvings = 24              !! shortest trial is 2^-24 of a step
@@ -182,6 +183,20 @@ contains
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSolve(linear, right, solution, ierr))
   end subroutine solve_with_factors
+
+  !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
+  !> on the system's state alone, and so does a run that goes on from that state.
+  subroutine forget_factors(newton)
+    type(newton_type), intent(inout) :: newton
+    type(old_factors_type) :: none
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    PetscCallA(KSPReset(linear, ierr))
+    newton%ready = .false.
+    newton%old = none
+  end subroutine forget_factors
 
   !> SNES' reason as a sentence.
   function reason_in_words(newton, reason) result(words)

@@ -19,14 +19,14 @@ module gfb_partitioned
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
-                        solve_newton, destroy_newton
+                        solve_newton, forget_factors, destroy_newton
   use gfb_coupling_side, only: coupling_side_type, create_side
   use gfb_loop_mixing, only: loop_mixing_type, create_mixing, mix_loops, destroy_mixing
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, refine
   implicit none (type)
   private
-  public :: start_partitioned, create_partitioned, follow_partitioned, destroy_partitioned
+  public :: start_partitioned, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
 
   integer, parameter :: most_loops = 200
   integer, parameter :: foil_patience = 5        !! iterations of the foil over those of a solve
@@ -318,6 +318,15 @@ contains
     call sides%log%detail('loop '//text(loop)//': change '//text(change, 3)//' C, e/C ('//text(position(1), 8)// &
                           ', '//text(position(2), 8)//')')
   end subroutine show_loop
+
+  !> Forgets the factors of both sides; may be called without ever having been created.
+  subroutine forget_partitioned(sides)
+    type(partitioned_type), intent(inout) :: sides
+
+    if (.not. sides%created) return
+    call forget_factors(sides%film_newton)
+    call forget_factors(sides%foil_newton)
+  end subroutine forget_partitioned
 
   !> Frees what PETSc holds; may be called without ever having been created.
   subroutine destroy_partitioned(sides)

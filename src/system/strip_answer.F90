@@ -11,7 +11,7 @@ module gfb_strip_answer
   use gfb_strip_system, only: strip_system_type, plate_moved
   implicit none (type)
   private
-  public :: start_recorder, read_answer, destroy_recorder
+  public :: start_recorder, resume_recorder, read_answer, destroy_recorder
 
   integer, parameter :: radial = 2, axial = 3
   integer, parameter :: states = state_slip - state_open + 1
@@ -51,6 +51,17 @@ contains
     PetscCallA(VecDuplicate(strip%state, recorder%change, ierr))
     PetscCallA(VecCopy(strip%state, recorder%state, ierr))
   end subroutine start_recorder
+
+  !> Goes on from the strip's present state, whose answer is known.
+  subroutine resume_recorder(strip, answer, recorder)
+    type(strip_system_type), intent(in) :: strip
+    type(strip_answer_type), intent(in) :: answer
+    type(strip_recorder_type), intent(inout) :: recorder
+    PetscErrorCode :: ierr
+
+    recorder%last = answer
+    PetscCallA(VecCopy(strip%state, recorder%state, ierr))
+  end subroutine resume_recorder
 
   !> The answer of a step that has converged and is not committed yet; works go on from the last
   !> one.

@@ -1,0 +1,238 @@
+!> An HDF5 file that all ranks read together, dataset by dataset.
+module gfb_stored_file
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_char
+  use hdf5
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail, status_machine
+  implicit none (type, external)
+  private
+  public :: open_stored_file, close_stored_file
+
+  !> An open file. What cannot be read from it leaves `failed` behind, and zeros.
+  type, public :: stored_file_type
+    character(len=:), allocatable :: path
+    logical :: failed = .false. !! something could not be read on this rank
+    integer(hid_t), private :: file = -1
+    integer(hid_t), private :: collective = -1
+  contains
+    procedure :: has
+    procedure :: words
+    procedure :: scalar
+    procedure :: count => whole_number
+    procedure :: numbers
+    procedure :: block => block_of_rank
+    procedure, private :: entries_of
+  end type stored_file_type
+
+contains
+
+  !> Opens a file for reading.
+  !>
+  !> Fails when it is no HDF5 file.
+  subroutine open_stored_file(path, communicator, information, file, error)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: communicator !! MPI's, of the ranks that read
+    integer, intent(in) :: information  !! MPI's null information
+    type(stored_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+    integer(hid_t) :: access
+    integer :: status
+
+    file%path = path
+    call h5open_f(status)
+    call h5eset_auto_f(0, status)
+    call h5pcreate_f(H5P_FILE_ACCESS_F, access, status)
+    call h5pset_fapl_mpio_f(access, communicator, information, status)
+    call h5fopen_f(path, H5F_ACC_RDONLY_F, file%file, status, access_prp=access)
+    if (status /= 0) then
+      call fail(error, path//': the file cannot be read, or is no HDF5 file', status_machine)
+    end if
+    call h5pclose_f(access, status)
+    call h5pcreate_f(H5P_DATASET_XFER_F, file%collective, status)
+    call h5pset_dxpl_mpio_f(file%collective, H5FD_MPIO_COLLECTIVE_F, status)
+  end subroutine open_stored_file
+
+  !> Ends reading.
+  subroutine close_stored_file(file)
+    type(stored_file_type), intent(inout) :: file
+    integer :: status
+
+    call h5pclose_f(file%collective, status)
+    call h5fclose_f(file%file, status)
+  end subroutine close_stored_file
+
+  !> Whether there is a dataset or group of this path, in a group that is there.
+  function has(self, path) result(there)
+    class(stored_file_type), intent(in) :: self
+    character(len=*), intent(in) :: path
+    logical :: there
+    integer :: status
+
+    call h5lexists_f(self%file, path, there, status)
+    there = there .and. status == 0
+  end function has
+
+  !> A text; empty where there is none.
+  function words(self, path)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: words
+    character(kind=c_char, len=:), allocatable, target :: buffer
+    type(c_ptr) :: address
+    integer(hid_t) :: dataset, kind
+    integer(size_t) :: length
+    integer :: status, ignored
+
+    words = ''
+    call h5dopen_f(self%file, path, dataset, status)
+    if (status /= 0) then
+      self%failed = .true.
+      return
+    end if
+    call h5dget_type_f(dataset, kind, status)
+    length = 0
+    if (status == 0) call h5tget_size_f(kind, length, status)
+    if (status == 0) then
+      allocate (character(len=length) :: buffer)
+      address = c_loc(buffer(1:1))
+      call h5dread_f(dataset, kind, address, status)
+      if (status == 0) words = buffer
+      call h5tclose_f(kind, ignored)
+    end if
+    if (status /= 0) self%failed = .true.
+    call h5dclose_f(dataset, ignored)
+  end function words
+
+  !> One number.
+  function scalar(self, path) result(number)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp) :: number
+    real(wp), target :: value
+    type(c_ptr) :: address
+    integer(hid_t) :: dataset
+    integer :: status, ignored
+
+    number = 0.0_wp
+    call h5dopen_f(self%file, path, dataset, status)
+    if (status == 0) then
+      address = c_loc(value)
+      call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status)
+      if (status == 0) number = value
+      call h5dclose_f(dataset, ignored)
+    end if
+    if (status /= 0) self%failed = .true.
+  end function scalar
+
+  !> One whole number.
+  function whole_number(self, path) result(number)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer :: number
+    number = nint(self%scalar(path))
+  end function whole_number
+
+  !> A list of numbers, all of it on all ranks.
+  function numbers(self, path) result(list)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(wp), allocatable :: list(:)
+    integer :: entries
+
+    entries = self%entries_of(path)
+    list = reshape(self%block(path, 1, 0, entries), [entries])
+  end function numbers
+
+  !> Entries of a list; 0 where it cannot be read.
+  function entries_of(self, path) result(entries)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer :: entries
+    integer(hid_t) :: dataset, space
+    integer(hsize_t) :: extent(1), most(1)
+    integer :: status, rank
+
+    entries = 0
+    call h5dopen_f(self%file, path, dataset, status)
+    if (status /= 0) then
+      self%failed = .true.
+      return
+    end if
+    call h5dget_space_f(dataset, space, status)
+    call h5sget_simple_extent_ndims_f(space, rank, status)
+    if (status == 0 .and. rank == 1) then
+      call h5sget_simple_extent_dims_f(space, extent, most, status)
+      entries = int(extent(1))
+    else
+      self%failed = .true.
+    end if
+    call h5sclose_f(space, status)
+    call h5dclose_f(dataset, status)
+  end function entries_of
+
+  !> Consecutive entries of a field, for each rank its own; one component makes it a plain list.
+  function block_of_rank(self, path, components, offset, entries) result(block)
+    class(stored_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: components
+    integer, intent(in) :: offset  !! entries before this rank's
+    integer, intent(in) :: entries !! of this rank
+    real(wp) :: block(components, entries)
+
+    real(wp), target :: buffer(max(1, components*entries))
+    type(c_ptr) :: address
+    integer(hsize_t) :: part(2), start(2)
+    integer(hid_t) :: space, memory, dataset
+    integer :: status, rank, ignored
+
+    block = 0.0_wp
+    rank = merge(1, 2, components == 1)
+    part = [components, entries]
+    start = [0, offset]
+    if (rank == 1) then
+      part(1) = entries
+      start(1) = offset
+    end if
+    call h5dopen_f(self%file, path, dataset, status)
+    if (status /= 0) then
+      self%failed = .true.
+      return
+    end if
+    call h5dget_space_f(dataset, space, status)
+    if (.not. has_shape(space, rank, components)) then
+      self%failed = .true.
+      call h5sclose_f(space, ignored)
+      call h5dclose_f(dataset, ignored)
+      return
+    end if
+    call h5screate_simple_f(rank, max(part(:rank), 1_hsize_t), memory, status)
+    if (entries > 0) then
+      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start(:rank), part(:rank), status)
+    else
+      call h5sselect_none_f(space, status)
+      call h5sselect_none_f(memory, status)
+    end if
+    address = c_loc(buffer)
+    call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status, memory, space, self%collective)
+    if (status == 0) block = reshape(buffer(:components*entries), [components, entries])
+    if (status /= 0) self%failed = .true.
+    call h5sclose_f(memory, ignored)
+    call h5sclose_f(space, ignored)
+    call h5dclose_f(dataset, ignored)
+  end function block_of_rank
+
+  !> Whether a dataset is a list, or has so many components.
+  function has_shape(space, rank, components) result(fits)
+    integer(hid_t), intent(in) :: space
+    integer, intent(in) :: rank, components !! that it should have
+    logical :: fits
+    integer(hsize_t) :: extent(2), most(2)
+    integer :: status, found
+
+    call h5sget_simple_extent_ndims_f(space, found, status)
+    fits = status == 0 .and. found == rank
+    if (.not. fits .or. rank == 1) return
+    call h5sget_simple_extent_dims_f(space, extent, most, status)
+    fits = extent(1) == components
+  end function has_shape
+end module gfb_stored_file

@@ -1,0 +1,193 @@
+#include "gfb_petsc.h"
+!> `<case>.restart.h5`: from where a run that was stopped goes on.
+!>
+!> After a file has been written the solvers forget their factors, so that what follows depends on what
+!> the file holds and on nothing else: a run that goes on from it ends with the digits of one that was
+!> never stopped. What is of the mesh stands in an order that does not depend on the ranks.
+module gfb_restart
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_c_library, only: remove_file
+  use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure
+  use gfb_scene, only: scene_type
+  use gfb_scene_text, only: scene_difference
+  use gfb_case_file, only: write_quantities
+  use gfb_result_file, only: result_file_type, open_result_file, close_result_file, keep_result_file, &
+                             drop_result_file
+  use gfb_stored_file, only: stored_file_type, open_stored_file, close_stored_file
+  use gfb_provenance, only: provenance, program_words
+  implicit none (type)
+  private
+  public :: find_restart, begin_restart_file, end_restart_file, open_restart, check_restart_file, drop_restart
+
+  !> Where a run's restart file stands, and whether the run goes on from it.
+  type, public :: restart_type
+    character(len=:), allocatable :: path    !! of the file
+    character(len=:), allocatable :: command !! the whole command line
+    integer :: every = 0                     !! steps between files; 0: none is written
+    logical :: goes_on = .false.             !! from the file that is there
+  contains
+    procedure :: is_due
+    procedure :: is_due_after
+  end type restart_type
+
+contains
+
+  !> Whether a file is written after a step.
+  pure function is_due(self, step) result(due)
+    class(restart_type), intent(in) :: self
+    integer, intent(in) :: step
+    logical :: due
+
+    due = self%every > 0
+    if (due) due = modulo(step, self%every) == 0
+  end function is_due
+
+  !> Whether a file is written where some steps came at once.
+  pure function is_due_after(self, before, now) result(due)
+    class(restart_type), intent(in) :: self
+    integer, intent(in) :: before, now !! steps that were and are done
+    logical :: due
+
+    due = self%every > 0
+    if (due) due = now/self%every > before/self%every
+  end function is_due_after
+
+  !> Looks for the file of a scene.
+  !>
+  !> Fails where the run is to go on from a file of another scene or program, or from a damaged one.
+  subroutine find_restart(scene, folder, wanted, command, log, restart, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder  !! where the results go
+    logical, intent(in) :: wanted           !! the run is to go on
+    character(len=*), intent(in) :: command !! the whole command line
+    type(run_log_type), intent(in) :: log
+    type(restart_type), intent(out) :: restart
+    type(error_type), allocatable, intent(out) :: error
+    logical :: there
+
+    restart%path = folder//'/'//scene%name//'.restart.h5'
+    restart%command = command
+    restart%every = scene%output%restart_every
+    there = .false.
+    if (this_rank() == 0) inquire (file=restart%path, exist=there)
+    there = any_rank(there)
+    if (wanted .and. .not. there) then
+      call log%line('restart: there is no '//restart%path//', the run starts from the beginning')
+    else if (there .and. .not. wanted .and. restart%every > 0) then
+      call log%warning(restart%path//' of an earlier run is there; --restart would go on from it; it will be replaced')
+    end if
+    if (.not. (wanted .and. there)) return
+    call compare_origin(scene, log, restart, error)
+    restart%goes_on = .not. allocated(error)
+  end subroutine find_restart
+
+  !> Compares program and scene with those that wrote the file.
+  !>
+  !> Fails naming what differs.
+  subroutine compare_origin(scene, log, restart, error)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(restart_type), intent(in) :: restart
+    type(error_type), allocatable, intent(out) :: error
+
+    type(stored_file_type) :: file
+    character(len=:), allocatable :: program, difference
+    integer :: ranks
+
+    call open_restart(restart, file, error)
+    if (allocated(error)) return
+    program = 'gfb '//file%words('/provenance/program_version')//' ('//file%words('/provenance/commit')//')'
+    difference = scene_difference(file%words('/scene/used'), scene%echo)
+    ranks = file%count('/provenance/ranks')
+    call check_restart_file(file, error)
+    call close_stored_file(file)
+    if (allocated(error)) return
+    if (program /= program_words()) then
+      call fail(error, restart%path//': was written by '//program//', this is '//program_words()// &
+                '; run without --restart to start from the beginning')
+    else if (difference /= '') then
+      call fail(error, restart%path//': belongs to another scene than '//scene%file//': '//difference// &
+                '; run without --restart to start from the beginning')
+    else if (ranks /= rank_count()) then
+      call log%line('restart: '//restart%path//' was written by '//text(ranks)//' rank(s); digits of '// &
+                    'the answer beyond the tolerances may differ from theirs')
+    end if
+  end subroutine compare_origin
+
+  !> Begins a restart file: where it comes from, and the step after which it is written.
+  !>
+  !> Fails when it cannot be made.
+  subroutine begin_restart_file(scene, restart, step, file, error)
+    type(scene_type), intent(in) :: scene
+    type(restart_type), intent(in) :: restart
+    integer, intent(in) :: step
+    type(result_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+
+    call open_result_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank() == 0, file, error)
+    call share_failure(error)
+    if (allocated(error)) return
+    call file%group('/scene')
+    call file%put_text('/scene/case_file', scene%verbatim, 'the case file as it was read')
+    call file%put_text('/scene/used', scene%echo, 'every key with the value used')
+    call write_quantities(file, '/provenance', provenance(restart%command))
+    call file%group('/step')
+    call file%put_scalar('/step/number', real(step, wp), '1', 'load steps, or points of the sweep, that are done')
+  end subroutine begin_restart_file
+
+  !> Ends a restart file; it takes the place of the one before when it is whole. A run does not end because
+  !> the file cannot be written.
+  subroutine end_restart_file(file, log, error)
+    type(result_file_type), intent(inout) :: file
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(inout) :: error !! of `begin_restart_file`
+
+    if (.not. allocated(error)) then
+      call close_result_file(file, error)
+      call share_failure(error)
+      if (.not. allocated(error)) call keep_result_file(file, error)
+      call share_failure(error)
+    end if
+    if (.not. allocated(error)) return
+    call drop_result_file(file)
+    call log%warning(error%message//'; the run goes on without')
+    deallocate (error)
+  end subroutine end_restart_file
+
+  !> Opens the file from which the run goes on.
+  !>
+  !> Fails when it cannot be read.
+  subroutine open_restart(restart, file, error)
+    type(restart_type), intent(in) :: restart
+    type(stored_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+
+    call open_stored_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, file, error)
+    call share_failure(error)
+  end subroutine open_restart
+
+  !> Fails where something could not be read.
+  subroutine check_restart_file(file, error)
+    type(stored_file_type), intent(in) :: file
+    type(error_type), allocatable, intent(out) :: error
+
+    if (any_rank(file%failed)) then
+      call fail(error, file%path//': the file is damaged; run without --restart to start from the '// &
+                'beginning', status_machine)
+    end if
+  end subroutine check_restart_file
+
+  !> Removes the file of a run that has ended well.
+  subroutine drop_restart(restart)
+    type(restart_type), intent(in) :: restart
+
+    if (restart%every == 0) return
+    if (this_rank() /= 0) return
+    call remove_file(restart%path)
+    call remove_file(restart%path//'.part') ! where a run was stopped while it wrote
+  end subroutine drop_restart
+end module gfb_restart

@@ -1,0 +1,209 @@
+#include "gfb_petsc.h"
+!> Numbers of unknowns and contacts that do not depend on how many ranks there are.
+module gfb_natural_order
+  use petscvec
+  use gfb_kinds, only: wp, long
+  use gfb_petsc_session, only: this_rank, rank_count, largest_over_ranks, fetch_entries
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_bump_contacts, only: contact_sleeve, contact_top
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_foundation_foil, only: foundation_foil_type
+  use gfb_shell_foil, only: shell_foil_type
+  use gfb_beam_foil, only: beam_foil_type
+  use gfb_unknown_layout, only: shaft_unknowns
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_strip_system, only: strip_system_type, plate_forced
+  implicit none (type)
+  private
+  public :: bearing_order, path_order, strip_order, contact_order, to_natural, from_natural, vector_values, set_vector
+
+  !> What this rank owns, by numbers that some of which nothing may have.
+  type, public :: natural_order_type
+    integer, allocatable :: number(:) !! of each thing this rank owns, from 1
+    integer :: total = 0              !! largest number on all ranks
+  contains
+    procedure :: offset => offset_of_rank
+    procedure :: entries => entries_of_rank
+  end type natural_order_type
+
+contains
+
+  !> Order of a bearing's state: film node by node, foil, shaft.
+  function bearing_order(bearing) result(order)
+    type(bearing_system_type), intent(in) :: bearing
+    type(natural_order_type) :: order
+    integer, allocatable :: film(:), foil(:)
+    integer :: i
+
+    film = film_numbers(bearing%mesh)
+    foil = foil_numbers(bearing%foil)
+    order%number = [film, largest(film) + foil]
+    order%total = largest(order%number)
+    if (.not. bearing%floats) return
+    if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, shaft_unknowns)]
+    order%total = order%total + shaft_unknowns
+  end function bearing_order
+
+  !> Order of a bearing's state with its place on a path behind it.
+  function path_order(bearing) result(order)
+    type(bearing_system_type), intent(in) :: bearing
+    type(natural_order_type) :: order
+
+    order = bearing_order(bearing)
+    order%total = order%total + 1
+    if (bearing%last_rank) order%number = [order%number, order%total]
+  end function path_order
+
+  !> Order of a strip's state: node by node, then the plate.
+  function strip_order(strip) result(order)
+    type(strip_system_type), intent(in) :: strip
+    type(natural_order_type) :: order
+
+    order%number = structure_numbers(strip%foil)
+    order%total = largest(order%number)
+    if (strip%plate /= plate_forced) return
+    order%total = order%total + 1
+    if (this_rank() == rank_count() - 1) order%number = [order%number, order%total]
+  end function strip_order
+
+  !> Order of contacts: surface by surface, line by line, node by node.
+  function contact_order(contacts, rows) result(order)
+    type(contact_set_type), intent(in) :: contacts
+    integer, intent(in) :: rows !! nodes of a line
+    type(natural_order_type) :: order
+    integer :: sleeve_lines
+
+    associate (point => contacts%point)
+      sleeve_lines = largest(pack(point%line, point%law == contact_sleeve))
+      order%number = (point%line - 1)*rows + modulo(point%node - 1, rows) + 1
+      where (point%law == contact_top) order%number = order%number + sleeve_lines*rows
+    end associate
+    order%total = largest(order%number)
+  end function contact_order
+
+  !> Numbers of the film nodes this rank owns, in the order of the vectors.
+  pure function film_numbers(mesh) result(number)
+    type(local_mesh_type), intent(in) :: mesh
+    integer, allocatable :: number(:)
+    integer :: node, first
+
+    allocate (number(mesh%owned_unknowns), source=0)
+    first = minval(mesh%first_unknown, mesh%owned)
+    do node = 1, size(mesh%mesh_node)
+      if (mesh%owned(node)) number(mesh%first_unknown(node) - first + 1) = mesh%mesh_node(node)
+    end do
+  end function film_numbers
+
+  !> Numbers of the foil's unknowns this rank owns, in the order of the vectors.
+  function foil_numbers(foil) result(number)
+    class(foil_model_type), intent(in) :: foil
+    integer, allocatable :: number(:), top(:), bumps(:)
+
+    allocate (number(0))
+    select type (foil)
+    class is (beam_foil_type)
+      number = foil%global_unknown(foil%own_place)
+    class is (shell_foil_type)
+      top = structure_numbers(foil%top)
+      bumps = structure_numbers(foil%bumps)
+      number = [top, largest(top) + bumps]
+    class is (foundation_foil_type)
+      number = foil%global_unknown(foil%owned_station)
+    end select
+  end function foil_numbers
+
+  !> Numbers of a structure's unknowns this rank owns, in the order of the vectors.
+  function structure_numbers(structure) result(number)
+    type(foil_structure_type), intent(in) :: structure
+    integer, allocatable :: number(:), unknown(:), natural(:)
+    integer :: node, component, found, here
+
+    associate (part => structure%part)
+      allocate (number(part%owned_unknowns), unknown(part%owned_unknowns), natural(part%owned_unknowns))
+      found = 0
+      do node = 1, size(part%mesh_node)
+        if (.not. part%owned(node)) cycle
+        do component = 1, node_unknowns
+          here = structure%unknown(component, part%mesh_node(node))
+          if (here < 0) cycle
+          found = found + 1
+          unknown(found) = here
+          natural(found) = node_unknowns*(part%mesh_node(node) - 1) + component
+        end do
+      end do
+    end associate
+    if (found /= size(number)) error stop 'a node''s unknowns are not where its mesh says'
+    if (found > 0) number(unknown - minval(unknown) + 1) = natural
+  end function structure_numbers
+
+  !> The largest number on any rank, 0 where there is none.
+  function largest(number)
+    integer, intent(in) :: number(:) !! of this rank
+    integer :: largest
+    real(wp) :: found(1)
+
+    found = largest_over_ranks([real(maxval([0, number]), wp)])
+    largest = nint(found(1))
+  end function largest
+
+  !> Numbers before those that this rank writes and reads, an equal part.
+  function offset_of_rank(self) result(offset)
+    class(natural_order_type), intent(in) :: self
+    integer :: offset
+    offset = int(int(self%total, long)*this_rank()/rank_count())
+  end function offset_of_rank
+
+  !> Numbers that this rank writes and reads.
+  function entries_of_rank(self) result(entries)
+    class(natural_order_type), intent(in) :: self
+    integer :: entries
+    entries = int(int(self%total, long)*(this_rank() + 1)/rank_count()) - self%offset()
+  end function entries_of_rank
+
+  !> This rank's part of a field in the natural order; zero where nothing has the number.
+  function to_natural(order, value) result(block)
+    type(natural_order_type), intent(in) :: order
+    real(wp), intent(in) :: value(:, :) !! (components, things this rank owns)
+    real(wp), allocatable :: block(:, :)
+    integer :: i
+
+    block = fetch_entries(order%total, order%number, value, [(order%offset() + i, i=1, order%entries())])
+  end function to_natural
+
+  !> A field at what this rank owns, from the ranks' parts in the natural order.
+  function from_natural(order, block) result(value)
+    type(natural_order_type), intent(in) :: order
+    real(wp), intent(in) :: block(:, :) !! (components, numbers of this rank's part)
+    real(wp), allocatable :: value(:, :)
+    integer :: i
+
+    value = fetch_entries(order%total, [(order%offset() + i, i=1, order%entries())], block, order%number)
+  end function from_natural
+
+  !> What this rank owns of a vector, as a field of one component.
+  function vector_values(vector) result(value)
+    Vec, intent(in) :: vector
+    real(wp), allocatable :: value(:, :)
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArrayRead(vector, values, ierr))
+    value = reshape(values, [1, size(values)])
+    PetscCallA(GFB_VecRestoreArrayRead(vector, values, ierr))
+  end function vector_values
+
+  !> The reverse.
+  subroutine set_vector(value, vector)
+    real(wp), intent(in) :: value(:, :) !! (1, owned)
+    Vec, intent(in) :: vector
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(vector, values, ierr))
+    values = value(1, :)
+    PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
+  end subroutine set_vector
+end module gfb_natural_order
