@@ -3,24 +3,28 @@ program gfb
   use gfb_errors, only: error_type
   use gfb_c_library, only: exit_with_status
   use gfb_run_log, only: run_log_type
+  use gfb_job_groups, only: job_type, start_job, stop_job
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
   use gfb_scene, only: key_table
   use gfb_command_line, only: command_line_type, read_command_line, help_text
   use gfb_provenance, only: version_text
   use gfb_run_case, only: run_case
+  use gfb_run_groups, only: run_groups
   implicit none (type, external)
 
   integer, parameter :: status_unconverged = 2
   type(command_line_type) :: line
+  type(job_type) :: job
   type(run_log_type) :: log
   type(error_type), allocatable :: error
   integer :: status
   logical :: converged
 
-  call start_petsc()
-  log%active = this_rank() == 0
-  status = 0
   call read_command_line(line, error)
+  call start_job(line%groups, job)
+  call start_petsc()
+  log%active = this_rank() == 0 .and. job%rank == 0
+  status = 0
   if (.not. allocated(error)) then
     log%verbose = .not. line%quiet
     if (line%help) then
@@ -29,6 +33,8 @@ program gfb
       call log%line(version_text())
     else if (line%keys) then
       call log%line(key_table())
+    else if (line%groups > 0) then
+      call run_groups(line, job, log, status, error)
     else
       call run_case(line, log, converged, error)
       if (.not. converged) status = status_unconverged
@@ -39,5 +45,6 @@ program gfb
     status = error%status
   end if
   call stop_petsc()
+  call stop_job(job)
   call exit_with_status(status)
 end program gfb

@@ -6,7 +6,7 @@ module gfb_case_file
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   implicit none (type, external)
   private
-  public :: write_case_file, write_quantities, summary_text
+  public :: write_case_file, write_quantities, write_history, summary_text
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -17,6 +17,7 @@ module gfb_case_file
   type, public :: case_array_type
     character(len=:), allocatable :: path, unit, meaning
     real(wp), allocatable :: values(:, :) !! (columns, rows) of the file
+    logical :: by_step = .false.          !! a row is a load step or sweep point
   end type case_array_type
 
 contains

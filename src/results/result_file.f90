@@ -25,6 +25,7 @@ module gfb_result_file
     procedure :: group => add_group
     procedure :: need_group
     procedure :: put_text
+    procedure :: put_words
     procedure :: put_numbers
     procedure :: put_scalar
     procedure :: put_block
@@ -146,6 +147,24 @@ contains
     call h5sclose_f(space, status)
     call h5tclose_f(kind, status)
   end subroutine put_text
+
+  !> Adds a list of words that all ranks know.
+  subroutine put_words(self, path, words, meaning)
+    class(result_file_type), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    character(len=*), intent(in) :: meaning
+    character(kind=c_char, len=len(words)), target :: buffer(max(1, size(words)))
+    integer(hid_t) :: kind
+    integer :: status
+
+    buffer(:size(words)) = words
+    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
+    call h5tset_size_f(kind, int(max(1, len(words)), size_t), status)
+    call self%write_part(path, kind, kind, c_loc(buffer), 1, &
+                         merge(size(words), 0, self%first_rank), 0, size(words), '', meaning)
+    call h5tclose_f(kind, status)
+  end subroutine put_words
 
   !> Adds numbers that all ranks know.
   subroutine put_numbers(self, path, numbers, unit, meaning)

@@ -34,13 +34,14 @@ module gfb_bearing_analysis
   use gfb_restart, only: restart_type, drop_restart
   use gfb_bearing_restart, only: keep_bearing, recall_bearing
   use gfb_fold_sweep, only: sweep_round_folds
+  use gfb_case_file, only: case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_output, only: add_foil_grids, foil_contact_arrays, foil_quantities
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
-  public :: run_bearing
+  public :: run_bearing, solve_scene, write_bearing
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
 
@@ -50,7 +51,7 @@ contains
   !> Computes a bearing and writes its results.
   !>
   !> `converged` is false where an answer could not be found. Fails when a file cannot be written.
-  subroutine run_bearing(scene, folder, command, restart, start_time, log, converged, error)
+  subroutine run_bearing(scene, folder, command, restart, start_time, log, converged, error, answer)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
@@ -59,15 +60,13 @@ contains
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), allocatable, intent(out), optional :: answer(:) !! what the summary has
 
     type(bearing_plan_type) :: plan
     type(bearing_system_type), target :: bearing
     type(newton_type), target :: newton
-    type(bearing_answer_type) :: answer
     type(bearing_record_type) :: record
     type(quantity_type), allocatable :: summary(:)
-    type(result_grid_type), allocatable :: grids(:)
-    type(cost_type) :: cost
 
     converged = .false.
     call plan_bearing(scene, log, plan)
@@ -75,12 +74,43 @@ contains
     call solve_scene(scene, plan, restart, log, bearing, newton, record, converged, error)
     if (allocated(error)) return
     call enter_stage('output')
+    call write_bearing(scene, plan, folder, provenance(command), log, bearing, converged, record, &
+                       cost_of(bearing, newton, start_time), rank_count(), &
+                       foil_contact_arrays(bearing, record%contacts, size(record%history)), summary, error)
+    if (present(answer)) call move_alloc(summary, answer)
+    if (converged .and. .not. allocated(error)) call drop_restart(restart)
+    call leave_stage()
+    call destroy_newton(newton)
+    call bearing%destroy()
+  end subroutine run_bearing
+
+  !> Shows the present state and writes it with what was recorded on the way.
+  !>
+  !> Fails when a file cannot be written.
+  subroutine write_bearing(scene, plan, folder, origin, log, bearing, converged, record, cost, ranks, contacts, &
+                           summary, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    character(len=*), intent(in) :: folder        !! where the results go
+    type(quantity_type), intent(in) :: origin(:)  !! what the files say of it
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(inout) :: bearing
+    logical, intent(in) :: converged
+    type(bearing_record_type), intent(in) :: record
+    type(cost_type), intent(in) :: cost
+    integer, intent(in) :: ranks                  !! that computed it
+    type(case_array_type), intent(in) :: contacts(:)
+    type(quantity_type), allocatable, intent(out) :: summary(:)
+    type(error_type), allocatable, intent(out) :: error
+
+    type(bearing_answer_type) :: answer
+    type(result_grid_type), allocatable :: grids(:)
+
     answer = bearing_answer(bearing)
-    cost = cost_of(bearing, newton, start_time)
     summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
                                  bearing%force_scale), summary_quantities(record%tilted), foil_quantities(bearing), &
                record%judged, cost_quantities(cost)]
-    call show_closing_block(log, converged, answer, bearing%film%clearance, cost, rank_count(), blas_in_use())
+    call show_closing_block(log, converged, answer, bearing%film%clearance, cost, ranks, blas_in_use())
     call show_tilt_response(log, record%tilted)
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -89,13 +119,8 @@ contains
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)
     call add_foil_grids(bearing, grids)
-    call write_result_set(scene, folder, converged, provenance(command), summary, record%history, &
-                          foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, log, error)
-    if (converged .and. .not. allocated(error)) call drop_restart(restart)
-    call leave_stage()
-    call destroy_newton(newton)
-    call bearing%destroy()
-  end subroutine run_bearing
+    call write_result_set(scene, folder, converged, origin, summary, record%history, contacts, grids, log, error)
+  end subroutine write_bearing
 
   !> The first answer, and those of the sweep, each from its neighbour.
   subroutine solve_scene(scene, plan, restart, log, bearing, newton, record, converged, error)
@@ -239,7 +264,7 @@ contains
     type(operating_point_type) :: target
 
     target = operating_point(operation_at(scene%operation, scene%sweep, point))
-    if (bearing%held) target%eccentricity = bearing%point%eccentricity
+    if (scene%sweep%hold_position) target%eccentricity = bearing%point%eccentricity
   end function sweep_target
 
   !> Keeps the shaft at its equilibrium from now on.
@@ -276,17 +301,17 @@ contains
 
     associate (point => report%reached, force => bearing%reaction())
       if (held) then
-        call log%line('no answer found with the shaft held: '//report%reason)
+        call log%gave_up('no answer found with the shaft held: '//report%reason)
         call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)// &
                       ') rad, film force ('//text(force(1), 5)//', '//text(force(2), 5)//') N, smallest gap '// &
                       text(bearing%smallest_gap()*1.0e6_wp, 3)//' um')
       else if (scene%general%analysis == analysis_equilibrium) then
-        call log%line('no equilibrium found: '//report%reason)
+        call log%gave_up('no equilibrium found: '//report%reason)
         call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
                       text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
       else
-        call log%line('no answer found: '//report%reason)
+        call log%gave_up('no answer found: '//report%reason)
         call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the way, speed '// &
                       text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm')
       end if
@@ -299,11 +324,12 @@ contains
     type(sweep_case_type), intent(in) :: sweep
     integer, intent(in) :: point
     real(wp), intent(in) :: begun !! when the first point was there [s]
-    character(len=:), allocatable :: line
+    character(len=:), allocatable :: line, place
     integer :: left
 
-    line = 'point '//text(point)//' of '//text(size(sweep%values))//': '//sweep_name(sweep)//' = '// &
-      text(sweep%values(point))//' '//sweep_unit(sweep)
+    place = sweep_name(sweep)//' = '//text(sweep%values(point))//' '//sweep_unit(sweep)
+    call log%point_done(place)
+    line = 'point '//text(point)//' of '//text(size(sweep%values))//': '//place
     left = size(sweep%values) - point
     if (point > 1 .and. left > 0) then
       line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'

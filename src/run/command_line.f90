@@ -6,9 +6,17 @@ module gfb_command_line
   private
   public :: read_command_line, help_text
 
+  !> A file's name.
+  type, public :: file_name_type
+    character(len=:), allocatable :: path
+  end type file_name_type
+
   !> The command line.
   type, public :: command_line_type
-    character(len=:), allocatable :: case_file
+    character(len=:), allocatable :: case_file !! the first one
+    type(file_name_type), allocatable :: case_files(:) !! all of them
+    integer :: groups = 0 !! of ranks; 0: not asked for
+    character(len=:), allocatable :: table !! name of the result file of several cases
     character(len=:), allocatable :: folder !! where results go
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
     logical :: branches = .false. !! look for all equilibria
@@ -22,9 +30,10 @@ module gfb_command_line
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=11), parameter :: options(10) = [character(len=11) :: &
+  character(len=11), parameter :: options(12) = [character(len=11) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', &
-                                               '--version', '--keys', '--quiet', '--petsc']
+                                               '--version', '--keys', '--quiet', '--petsc', &
+                                               '--groups', '--name']
 
 contains
 
@@ -38,6 +47,8 @@ contains
     integer :: i
 
     line%folder = '.'
+    line%table = ''
+    allocate (line%case_files(0))
     line%words = argument(0)
     do i = 1, command_argument_count()
       line%words = line%words//' '//argument(i)
@@ -69,6 +80,13 @@ contains
         i = i + 1
         line%folder = argument(i)
         if (line%folder == '') call fail(error, 'gfb: --output needs a folder')
+      case ('--groups')
+        i = i + 1
+        call take_groups(argument(i), line, error)
+      case ('--name')
+        i = i + 1
+        line%table = argument(i)
+        if (line%table == '') call fail(error, 'gfb: --name needs a name')
       case default
         call take_other(word, line, error)
       end select
@@ -79,8 +97,45 @@ contains
     else if (line%restart .and. line%branches) then
       call fail(error, 'gfb: --restart goes on with a sweep or a strip''s load steps, not with '// &
                 '--branches')
+    else
+      call check_groups(line, error)
     end if
   end subroutine read_command_line
+
+  !> Several case files need groups, and groups are not for everything.
+  subroutine check_groups(line, error)
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(out) :: error
+
+    if (line%groups == 0 .and. size(line%case_files) > 1) then
+      call fail(error, 'gfb: one case file at a time, not '//line%case_file//' and '// &
+                line%case_files(2)%path//'; --groups N computes several in N groups of ranks')
+    else if (line%table /= '' .and. size(line%case_files) < 2) then
+      call fail(error, 'gfb: --name is that of the table of several case files')
+    else if (index(line%table, '/') > 0) then
+      call fail(error, 'gfb: --name is a name without a folder; --output DIR says where it goes')
+    else if (line%groups > 0 .and. line%branches) then
+      call fail(error, 'gfb: --branches looks at one case on all ranks; it has no use for --groups')
+    end if
+    if (line%table == '') line%table = 'ensemble'
+  end subroutine check_groups
+
+  !> Reads how many groups are wanted.
+  subroutine take_groups(word, line, error)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(out) :: error
+    integer :: status
+
+    status = 1
+    if (word /= '' .and. len(word) < 8 .and. verify(word, '0123456789') == 0) then
+      read (word, *, iostat=status) line%groups
+    end if
+    if (status /= 0 .or. line%groups < 1) then
+      line%groups = 0
+      call fail(error, 'gfb: --groups needs the number of groups, a whole number from 1')
+    end if
+  end subroutine take_groups
 
   !> A word that is no known option: the case file, or a mistake.
   subroutine take_other(word, line, error)
@@ -97,16 +152,19 @@ contains
       if (status /= 0 .or. verify(word(13:), '0123456789') /= 0 .or. line%parts < 1) then
         call fail(error, 'gfb: '//word//': the number of ranks is a whole number above zero')
       end if
+    else if (index(word, '--groups=') == 1) then
+      call take_groups(word(10:), line, error)
+    else if (index(word, '--name=') == 1 .and. len(word) > 7) then
+      line%table = word(8:)
     else if (index(word, '-') == 1) then
       near = nearest_word(word, options)
       if (near /= '') near = ', did you mean '//near//'?'
       call fail(error, 'gfb: unknown option '//word//near//' (gfb --help shows all)')
     else if (word == '') then
       call fail(error, 'gfb: the name of the case file is empty')
-    else if (allocated(line%case_file)) then
-      call fail(error, 'gfb: one case file at a time, not '//line%case_file//' and '//word)
     else
-      line%case_file = word
+      if (.not. allocated(line%case_file)) line%case_file = word
+      line%case_files = [line%case_files, file_name_type(word)]
     end if
   end subroutine take_other
 
@@ -141,6 +199,9 @@ contains
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
       '  --restart       go on from CASE.restart.h5, which a killed run left behind'//next// &
       '  --quiet         no line per iteration'//next// &
+      '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
+      '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
+      '  --name NAME     of the table of several cases; default: ensemble'//next// &
       '  --keys          table of all keys of a case file'//next// &
       '  --version       version of the program and its libraries'//next// &
       '  --help          this text'//next// &

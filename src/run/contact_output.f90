@@ -147,7 +147,7 @@ contains
         all_nodes)
       values = transpose(values)
       arrays(3 + field) = case_array_type(group//'/'//trim(name(field)), trim(unit(field)), &
-                                          trim(meaning(field)), values)
+                                          trim(meaning(field)), values, by_step=.true.)
     end do
   end subroutine surface_arrays
 

@@ -36,7 +36,7 @@ contains
   !>
   !> `converged` is false where fewer modes than wanted were found. Fails when a file cannot be
   !> written.
-  subroutine run_modes(scene, folder, command, start_time, log, converged, error)
+  subroutine run_modes(scene, folder, command, start_time, log, converged, error, answer)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
@@ -44,6 +44,7 @@ contains
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), allocatable, intent(out), optional :: answer(:) !! what the summary has
 
     type(foil_plan_type) :: plan
     type(foil_structure_type) :: part
@@ -67,6 +68,7 @@ contains
     shift = plate_eigenvalue(part)
     call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes)
     converged = size(modes%eigenvalue) >= min(scene%modes%count, part%unknowns)
+    if (.not. converged) call log%gave_up('only '//text(size(modes%eigenvalue))//' modes found')
     summary = [mode_quantities(converged, modes, shift), cost_quantities(part, start_time)]
     call show_closing_block(log, scene, modes, part)
     allocate (history(1))
@@ -87,6 +89,7 @@ contains
     call destroy_modes(modes)
     call write_result_set(scene, folder, converged, provenance(command), summary, history, arrays, [grid], &
                           log, error)
+    if (present(answer)) call move_alloc(summary, answer)
     call destroy_foil_structure(part)
   end subroutine run_modes
 

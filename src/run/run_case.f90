@@ -9,6 +9,7 @@ module gfb_run_case
   use gfb_scene, only: scene_type, read_scene
   use gfb_text_file, only: folder_is_writable
   use gfb_text, only: text
+  use gfb_quantity, only: quantity_type
   use gfb_bearing_builder, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_builder, only: foil_plan_type
@@ -23,7 +24,7 @@ module gfb_run_case
   use gfb_provenance, only: version_text
   implicit none (type, external)
   private
-  public :: run_case
+  public :: run_case, run_scene, check_scene, prepare_folder
 
 contains
 
@@ -36,12 +37,8 @@ contains
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: scene
-    type(bearing_plan_type) :: plan
-    type(foil_plan_type) :: foil_plan
-    type(restart_type) :: restart
     real(wp) :: start_time
     logical :: only_look
-    integer :: parts
 
     converged = .true.
     start_time = wall_time()
@@ -49,40 +46,76 @@ contains
     only_look = line%check .or. line%parts >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
-    call log%line(version_text())
-    call log%line(scene%file//': '//scene%general%title)
     if (only_look) then
-      parts = merge(line%parts, rank_count(), line%parts > 0)
-      if (is_bearing(scene%general%analysis)) then
-        call plan_bearing(scene, log, plan)
-        if (line%parts >= 0) call show_bearing_partition(scene, plan, parts, log, error)
-      else
-        call plan_foil(scene, log, foil_plan)
-        if (line%parts >= 0) call show_strip_partition(scene, foil_plan, parts, log, error)
-      end if
-      if (allocated(error)) return
-      call log%line('')
-      call log%line(scene%file//' is in order')
+      call check_scene(scene, line%parts, log, error)
     else
-      call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
-      if (.not. line%branches) then
-        call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)
-        if (allocated(error)) return
-      end if
-      select case (scene%general%analysis)
-      case (analysis_strip)
-        call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error)
-      case (analysis_modes)
-        call run_modes(scene, line%folder, line%words, start_time, log, converged, error)
-      case default
-        if (line%branches) then
-          call run_branches(scene, line%folder, line%words, start_time, log, converged, error)
-          return
-        end if
-        call run_bearing(scene, line%folder, line%words, restart, start_time, log, converged, error)
-      end select
+      call run_scene(scene, line, start_time, log, converged, error)
     end if
   end subroutine run_case
+
+  !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
+  !>
+  !> Fails when METIS does.
+  subroutine check_scene(scene, parts, log, error)
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: parts !! ranks whose shares to show; 0: those of the job; negative: none
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+    type(bearing_plan_type) :: plan
+    type(foil_plan_type) :: foil_plan
+    integer :: shares
+
+    call log%line(version_text())
+    call log%line(scene%file//': '//scene%general%title)
+    shares = parts
+    if (parts == 0) shares = rank_count()
+    if (is_bearing(scene%general%analysis)) then
+      call plan_bearing(scene, log, plan)
+      if (parts >= 0) call show_bearing_partition(scene, plan, shares, log, error)
+    else
+      call plan_foil(scene, log, foil_plan)
+      if (parts >= 0) call show_strip_partition(scene, foil_plan, shares, log, error)
+    end if
+    if (allocated(error)) return
+    call log%line('')
+    call log%line(scene%file//' is in order')
+  end subroutine check_scene
+
+  !> Computes and writes what a scene asks for.
+  !>
+  !> Fails on files that cannot be written.
+  subroutine run_scene(scene, line, start_time, log, converged, error, answer)
+    type(scene_type), intent(in) :: scene
+    type(command_line_type), intent(in) :: line
+    real(wp), intent(in) :: start_time !! [s]
+    type(run_log_type), intent(in) :: log
+    logical, intent(out) :: converged
+    type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), allocatable, intent(out), optional :: answer(:) !! what the summary has
+    type(restart_type) :: restart
+
+    call log%line(version_text())
+    call log%line(scene%file//': '//scene%general%title)
+    call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
+    converged = .false.
+    if (.not. line%branches) then
+      call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)
+      if (allocated(error)) return
+    end if
+    select case (scene%general%analysis)
+    case (analysis_strip)
+      call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error, answer)
+    case (analysis_modes)
+      call run_modes(scene, line%folder, line%words, start_time, log, converged, error, answer)
+    case default
+      if (line%branches) then
+        call run_branches(scene, line%folder, line%words, start_time, log, converged, error)
+        return
+      end if
+      call run_bearing(scene, line%folder, line%words, restart, start_time, log, converged, error, &
+                       answer)
+    end select
+  end subroutine run_scene
 
   !> Makes the folder of the results if it is not there.
   !>

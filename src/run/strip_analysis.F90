@@ -48,7 +48,7 @@ contains
   !> Computes a strip and writes its results.
   !>
   !> Fails when a file cannot be written.
-  subroutine run_strip(scene, folder, command, restart, start_time, log, converged, error)
+  subroutine run_strip(scene, folder, command, restart, start_time, log, converged, error, answer)
     type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: folder   !! where the results go
     character(len=*), intent(in) :: command  !! the whole command line
@@ -57,6 +57,7 @@ contains
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: converged
     type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), allocatable, intent(out), optional :: answer(:) !! what the summary has
 
     type(foil_plan_type) :: plan
     type(strip_system_type), target :: strip
@@ -89,6 +90,7 @@ contains
     call write_strip(scene, folder, command, strip, run, summary, log, error)
     call leave_stage()
     if (converged .and. .not. allocated(error)) call drop_restart(restart)
+    if (present(answer)) call move_alloc(summary, answer)
     call destroy_newton(newton)
     call destroy_strip_system(strip)
   end subroutine run_strip
@@ -218,7 +220,7 @@ contains
     integer, intent(in) :: step, steps
     character(len=*), intent(in) :: reason
 
-    call log%line('no equilibrium found in step '//text(step)//' of '//text(steps)//': '//reason)
+    call log%gave_up('no equilibrium found in step '//text(step)//' of '//text(steps)//': '//reason)
   end subroutine explain
 
   !> Says where an answer is not what it seems.

@@ -36,7 +36,7 @@ def check_options(checks, folder):
     status, words, wrong = call("--help", folder=folder)
     checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
     checks.that("--help: names every option and the exit status", all(part in words for part in (
-        "--check", "--output", "--quiet", "--keys", "--version", "--petsc", "exit status", "CASE.nml")))
+        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--version", "--petsc", "exit status", "CASE.nml")))
     status, words, wrong = call("--version", folder=folder)
     checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
     status, words, wrong = call("--keys", folder=folder)

@@ -1,0 +1,65 @@
+!> The result file of several scenes: a row a scene.
+module gfb_table_file
+  use gfb_errors, only: error_type
+  use gfb_quantity, only: quantity_type
+  use gfb_case_file, only: history_row_type, write_quantities, write_history
+  use gfb_result_file, only: result_file_type, open_result_file, close_result_file
+  implicit none (type, external)
+  private
+  public :: write_table_file
+
+  !> What a member of the table is, and how it ended.
+  type, public :: table_member_type
+    character(len=:), allocatable :: name   !! of its case file, without folder and ending
+    character(len=:), allocatable :: reason !! why there is no answer; empty where there is one
+    integer :: status = 0                   !! exit status that gfb would have had
+    integer :: group = 0                    !! of ranks that computed it
+    type(history_row_type) :: row           !! its summary
+  end type table_member_type
+
+contains
+
+  !> Writes the file under its temporary name.
+  !>
+  !> Fails when it cannot be written.
+  subroutine write_table_file(path, communicator, information, provenance, summary, members, &
+                              file, error)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: communicator, information !! MPI's, of one rank
+    type(quantity_type), intent(in) :: provenance(:), summary(:)
+    type(table_member_type), intent(in) :: members(:)
+    type(result_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: names(:), reasons(:)
+    type(history_row_type) :: rows(size(members))
+    integer :: i, length
+
+    length = longest(members)
+    allocate (character(len=length) :: names(size(members)), reasons(size(members)))
+    do i = 1, size(members)
+      names(i) = members(i)%name
+      reasons(i) = members(i)%reason
+      rows(i) = members(i)%row
+    end do
+    call open_result_file(path, communicator, information, .true., file, error)
+    if (allocated(error)) return
+    call write_quantities(file, '/provenance', provenance)
+    call write_quantities(file, '/summary', summary)
+    call write_history(file, rows)
+    call file%put_words('/history/member', names, 'name of the case file')
+    call file%put_words('/history/reason', reasons, 'why there is no answer; empty where there is')
+    call close_result_file(file, error)
+  end subroutine write_table_file
+
+  !> Length of the longest word there is to write.
+  pure function longest(members) result(length)
+    type(table_member_type), intent(in) :: members(:)
+    integer :: length
+    integer :: i
+
+    length = 1
+    do i = 1, size(members)
+      length = max(length, len(members(i)%name), len(members(i)%reason))
+    end do
+  end function longest
+end module gfb_table_file

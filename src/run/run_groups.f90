@@ -1,0 +1,156 @@
+!> A job whose ranks are divided into groups: what is asked of them is checked, and then computed.
+module gfb_run_groups
+  use gfb_errors, only: error_type, fail
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type, read_scene
+  use gfb_job_groups, only: job_type
+  use gfb_command_line, only: command_line_type
+  use gfb_run_case, only: check_scene, prepare_folder
+  use gfb_divided_sweep, only: run_divided_sweep
+  use gfb_scene_table, only: run_scene_table
+  implicit none (type, external)
+  private
+  public :: run_groups
+
+contains
+
+  !> One sweep divided, or several cases.
+  !>
+  !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
+  !> members: they are told, and `status` says so.
+  subroutine run_groups(line, job, log, status, error)
+    type(command_line_type), intent(in) :: line
+    type(job_type), target, intent(inout) :: job
+    type(run_log_type), intent(in) :: log !! the terminal
+    integer, intent(out) :: status        !! exit status of the program
+    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), allocatable :: scenes(:)
+    integer :: i
+
+    status = 0
+    call read_all(line, scenes, error)
+    if (.not. allocated(error)) call check_work(line, job, scenes, error)
+    if (.not. (line%check .or. line%parts >= 0 .or. allocated(error)) .and. job%group == 1) then
+      ! By one group: a second one might take away its trial file.
+      call prepare_folder(line%folder, error)
+    end if
+    if (allocated(error)) status = error%status
+    status = job%largest(status)
+    if (status /= 0 .and. .not. allocated(error)) call fail(error, 'another rank failed', status)
+    if (allocated(error)) return
+    if (line%check .or. line%parts >= 0) then
+      do i = 1, size(scenes)
+        call check_scene(scenes(i), line%parts, log, error)
+        if (allocated(error)) return
+      end do
+    else if (size(scenes) == 1) then
+      call run_divided_sweep(scenes(1), line, job, log, status)
+    else
+      call run_scene_table(scenes, line, job, log, status)
+    end if
+  end subroutine run_groups
+
+  !> Reads all case files.
+  !>
+  !> Fails with every mistake of every file.
+  subroutine read_all(line, scenes, error)
+    type(command_line_type), intent(in) :: line
+    type(scene_type), allocatable, intent(out) :: scenes(:)
+    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable :: one
+    integer :: i
+
+    allocate (scenes(size(line%case_files)))
+    do i = 1, size(scenes)
+      call read_scene(line%case_files(i)%path, scenes(i), one)
+      if (allocated(one)) call add(one%message, error, one%status)
+    end do
+  end subroutine read_all
+
+  !> Whether the ranks and the work can be divided as asked.
+  !>
+  !> Fails with everything that is in the way.
+  subroutine check_work(line, job, scenes, error)
+    type(command_line_type), intent(in) :: line
+    type(job_type), intent(in) :: job
+    type(scene_type), intent(in) :: scenes(:)
+    type(error_type), allocatable, intent(out) :: error
+
+    if (.not. job%split .and. .not. line%check) then
+      call add('gfb: '//text(line%groups)//' groups need as many ranks at least, and the job '// &
+               'has '//text(job%ranks)//': mpiexec -n '//text(line%groups)//' gfb ...', error)
+    end if
+    if (size(scenes) == 1) then
+      call check_sweep(line, scenes(1), error)
+    else
+      call check_names(line, scenes, error)
+      if (line%groups > size(scenes)) then
+        call add('gfb: '//text(line%groups)//' groups for '//text(size(scenes))// &
+                 ' cases: some would have nothing to do', error)
+      end if
+    end if
+  end subroutine check_work
+
+  !> Whether a case has a sweep that can be divided.
+  subroutine check_sweep(line, scene, error)
+    type(command_line_type), intent(in) :: line
+    type(scene_type), intent(in) :: scene
+    type(error_type), allocatable, intent(inout) :: error
+
+    if (.not. scene%sweep%present) then
+      call add(scene%file//': has no &sweep whose points could be divided among groups; '// &
+               '--groups is for a sweep, or for several cases', error)
+      return
+    end if
+    if (scene%sweep%friction_memory) then
+      call add(scene%file//': &sweep: friction_memory: the sweep cannot be divided among '// &
+               'groups, because what slid at a point is needed at the next one', error)
+    end if
+    if (scene%sweep%turn_folds) then
+      call add(scene%file//': &sweep: turn_folds: the sweep cannot be divided among groups, '// &
+               'because its branch is followed from the first value on', error)
+    end if
+    if (line%groups > size(scene%sweep%values)) then
+      call add(scene%file//': &sweep: '//text(line%groups)//' groups for '// &
+               text(size(scene%sweep%values))//' values: some would have nothing to do', error)
+    end if
+  end subroutine check_sweep
+
+  !> No two cases may write the same files, nor a case those of the table.
+  subroutine check_names(line, scenes, error)
+    type(command_line_type), intent(in) :: line
+    type(scene_type), intent(in) :: scenes(:)
+    type(error_type), allocatable, intent(inout) :: error
+    integer :: i, k
+
+    do i = 1, size(scenes)
+      if (scenes(i)%name == line%table) then
+        call add(scenes(i)%file//': its results and the table would have the same names; '// &
+                 '--name NAME gives the table another one', error)
+      end if
+      do k = 1, i - 1
+        if (scenes(k)%name /= scenes(i)%name) cycle
+        call add(scenes(i)%file//': its results would have the same names as those of '// &
+                 scenes(k)%file, error)
+        exit
+      end do
+    end do
+  end subroutine check_names
+
+  !> Adds a mistake to those there are.
+  subroutine add(message, error, status)
+    character(len=*), intent(in) :: message
+    type(error_type), allocatable, intent(inout) :: error
+    integer, intent(in), optional :: status !! exit status
+    type(error_type), allocatable :: both
+
+    if (allocated(error)) then
+      call fail(both, error%message//new_line('a')//message, error%status)
+    else
+      call fail(both, message)
+    end if
+    if (present(status)) both%status = max(both%status, status)
+    call move_alloc(both, error)
+  end subroutine add
+end module gfb_run_groups

@@ -1,0 +1,217 @@
+#include "gfb_petsc.h"
+!> Several scenes side by side: every group of ranks takes the next one that is left.
+module gfb_scene_table
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, status_machine
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, count_quantity, number_quantity, truth_quantity, word_quantity
+  use gfb_scene, only: scene_type
+  use gfb_case_file, only: history_row_type, summary_text
+  use gfb_table_file, only: table_member_type, write_table_file
+  use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
+  use gfb_text_file, only: write_text_file
+  use gfb_row_packing, only: pack_rows, unpack_rows
+  use gfb_petsc_session, only: wall_time
+  use gfb_job_groups, only: job_type, text_type
+  use gfb_command_line, only: command_line_type
+  use gfb_group_log, only: open_group_log, close_group_log
+  use gfb_provenance, only: provenance, version_text
+  use gfb_run_case, only: run_scene
+  implicit none (type)
+  private
+  public :: run_scene_table
+
+  integer, parameter :: status_unconverged = 2
+  integer, parameter :: heads = 2 !! quantities of a row that only the packing needs
+
+contains
+
+  !> Computes all members, each of which writes its own files, and writes their table.
+  subroutine run_scene_table(scenes, line, job, log, status)
+    type(scene_type), intent(in) :: scenes(:)
+    type(command_line_type), intent(in) :: line
+    type(job_type), target, intent(inout) :: job
+    type(run_log_type), intent(in) :: log !! the terminal
+    integer, intent(out) :: status        !! exit status of the program
+
+    type(history_row_type), allocatable :: rows(:)
+    type(text_type), allocatable :: all(:)
+    type(table_member_type), allocatable :: members(:)
+    type(table_member_type) :: one
+    type(error_type), allocatable :: error
+    integer :: member
+
+    call log%line(version_text())
+    call log%line(text(size(scenes))//' cases, results go to '//line%folder//', '//text(job%ranks)// &
+                  ' rank(s) in '//text(job%groups)//' group(s), a log for each case as CASE.log')
+    job%total = size(scenes)
+    allocate (rows(0))
+    status = 0
+    call job%next_member(member)
+    do while (member <= size(scenes))
+      call run_member(scenes(member), line, job, log%verbose, one)
+      rows = [rows, packed_row(one, member)]
+      status = max(status, one%status)
+      call job%next_member(member)
+    end do
+    call job%collect(pack_rows(rows), 1, all)
+    if (job%rank == 0) then
+      call read_members(all, size(scenes), members)
+      call write_table(members, scenes, line, job, log, error)
+      call show_failures(members, log)
+      if (allocated(error)) then
+        call log%complaint(error%message)
+        status = max(status, error%status)
+      end if
+    end if
+    status = job%largest(status)
+  end subroutine run_scene_table
+
+  !> One member from its case to its files.
+  subroutine run_member(scene, line, job, verbose, member)
+    type(scene_type), intent(in) :: scene
+    type(command_line_type), intent(in) :: line
+    type(job_type), target, intent(inout) :: job
+    logical, intent(in) :: verbose
+    type(table_member_type), intent(out) :: member
+    type(quantity_type), allocatable :: answer(:)
+    type(error_type), allocatable :: error
+    type(run_log_type) :: log
+    logical :: converged
+
+    job%reason = ''
+    converged = .false.
+    call open_group_log(line%folder//'/'//scene%name//'.log', verbose, job, log, error)
+    if (.not. allocated(error)) then
+      call run_scene(scene, line, wall_time(), log, converged, error, answer)
+    end if
+    member%name = scene%name
+    member%group = job%group
+    member%reason = job%reason
+    if (allocated(error)) then
+      call log%complaint(error%message)
+      member%status = error%status
+      member%reason = error%message
+      call job%report(scene%name//' failed', 1)
+    else if (converged) then
+      member%reason = ''
+      call job%report(scene%name, 1)
+    else
+      member%status = status_unconverged
+      call job%report(scene%name//' has no answer', 1)
+    end if
+    if (.not. allocated(answer)) answer = [truth_quantity('converged', .false., 'whether the answer was found')]
+    member%row%quantity = [count_quantity('exit_status', member%status, 'that gfb would have had with this case alone'), &
+                           count_quantity('group', member%group, 'of ranks that computed it'), answer]
+    call close_group_log(log)
+  end subroutine run_member
+
+  !> A member as a row: its number and reason, and then its row of the table.
+  function packed_row(member, number) result(row)
+    type(table_member_type), intent(in) :: member
+    integer, intent(in) :: number
+    type(history_row_type) :: row
+
+    row%quantity = [count_quantity('member', number, ''), word_quantity(member%name, member%reason, ''), &
+                    member%row%quantity]
+  end function packed_row
+
+  !> The members in the order of the command line, from what the groups have sent.
+  subroutine read_members(all, number, members)
+    type(text_type), intent(in) :: all(:)
+    integer, intent(in) :: number
+    type(table_member_type), allocatable, intent(out) :: members(:)
+    type(history_row_type), allocatable :: rows(:)
+    integer :: i, k
+
+    allocate (members(number))
+    do i = 1, size(all)
+      call unpack_rows(all(i)%words, rows)
+      do k = 1, size(rows)
+        associate (list => rows(k)%quantity, member => members(nint(rows(k)%quantity(1)%number)))
+          member%name = list(2)%name
+          member%reason = list(2)%word
+          member%row%quantity = list(heads + 1:)
+          member%status = nint(list(heads + 1)%number)
+          member%group = nint(list(heads + 2)%number)
+        end associate
+      end do
+    end do
+  end subroutine read_members
+
+  !> Writes the table and its summary; older ones are replaced when both are whole.
+  !>
+  !> Fails when they cannot be written.
+  subroutine write_table(members, scenes, line, job, log, error)
+    type(table_member_type), intent(in) :: members(:)
+    type(scene_type), intent(in) :: scenes(:)
+    type(command_line_type), intent(in) :: line
+    type(job_type), intent(in) :: job
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), allocatable :: summary(:)
+    type(result_file_type) :: file
+    character(len=:), allocatable :: stem
+    integer :: i
+
+    summary = [count_quantity('members', size(members), 'cases of the table'), &
+               count_quantity('converged_members', count(members%status == 0), 'of them'), &
+               count_quantity('groups', job%groups, 'of ranks'), &
+               count_quantity('ranks', job%ranks, 'processes of the job'), &
+               number_quantity('wall_time', wall_time() - job%begun, 's', 'of the whole table')]
+    do i = 1, size(members)
+      summary = [summary, word_quantity('member_'//text(i), outcome(members(i)), scenes(i)%file)]
+    end do
+    stem = line%folder//'/'//line%table
+    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(line%words), summary, members, &
+                          file, error)
+    if (.not. allocated(error)) call keep_result_file(file, error)
+    if (allocated(error)) then
+      call drop_result_file(file)
+      return
+    end if
+    call write_text_file(stem//'.summary', summary_text(summary), error)
+    if (allocated(error)) return
+    call log%line('')
+    call log%line('table of all cases: '//stem//'.summary, .h5')
+  end subroutine write_table
+
+  !> How a member ended.
+  pure function outcome(member) result(words)
+    type(table_member_type), intent(in) :: member
+    character(len=:), allocatable :: words
+
+    words = member%name//': done'
+    if (member%status == status_unconverged) words = member%name//': no answer'
+    if (member%status /= 0 .and. member%status /= status_unconverged) words = member%name//': failed'
+    if (member%reason /= '') words = words//' ('//one_line(member%reason)//')'
+  end function outcome
+
+  !> A text without line ends.
+  pure function one_line(words) result(flat)
+    character(len=*), intent(in) :: words
+    character(len=len(words)) :: flat
+    integer :: i
+
+    flat = words
+    do i = 1, len(words)
+      if (words(i:i) == new_line('a')) flat(i:i) = ' '
+    end do
+  end function one_line
+
+  !> The members that have no answer, and why.
+  subroutine show_failures(members, log)
+    type(table_member_type), intent(in) :: members(:)
+    type(run_log_type), intent(in) :: log
+    integer :: i, failed
+
+    failed = count(members%status /= 0)
+    if (failed == 0) return
+    call log%line(text(failed)//' of '//text(size(members))//' without an answer:')
+    do i = 1, size(members)
+      if (members(i)%status /= 0) call log%line('  '//outcome(members(i)))
+    end do
+  end subroutine show_failures
+end module gfb_scene_table
