@@ -37,16 +37,20 @@ contains
     logical :: given, can_align
 
     call keys%start_group('mesh')
-    mesh%circumferential_elements = default_circumferential_elements(bearing, foil)
+    ! As many nodes, whatever the order of the film's elements.
+    mesh%circumferential_elements = default_circumferential_elements(bearing, foil)/model%film_order
+    mesh%axial_elements = mesh%axial_elements/model%film_order
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
-                          default='8 a pitch with bumps, otherwise 240', given=given)
+                          default='8 a pitch with bumps, otherwise 240; half of it with '// &
+                          '`film_order = 2`', given=given)
     if (.not. given .and. mesh%circumferential_elements > most_a_side) then
       call keys%complain('bump_foil', 'pitch', '8 elements a pitch would be more than '// &
                          text(most_a_side)//' along the pad: give circumferential_elements')
     end if
     call keys%integer_key('axial_elements', mesh%axial_elements, &
-                          'elements of the whole width, also where one half is solved', &
+                          'elements of the whole width, also where one half is solved; by '// &
+                          'default 16 with `film_order = 2`', &
                           from_to(2.0_wp, real(most_a_side, wp)))
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
@@ -66,7 +70,8 @@ contains
       call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch, "// &
                          "half_length and height in &bump_foil; 'beam' will do, too")
     end if
-    if (int(mesh%circumferential_elements, long)*mesh%axial_elements > most_in_all) then
+    if (int(mesh%circumferential_elements, long)*mesh%axial_elements*model%film_order**2 > &
+        most_in_all) then
       call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &
                          text(mesh%axial_elements)//' elements are more than '//text(most_in_all))
     end if

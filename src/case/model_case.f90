@@ -3,7 +3,7 @@ module gfb_model_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_scene_case, only: is_bearing, is_structure
-  use gfb_value_rules, only: positive
+  use gfb_value_rules, only: positive, from_to
   implicit none (type, external)
   private
   public :: model_case_type, read_model_case, meshes_foils
@@ -23,6 +23,9 @@ module gfb_model_case
   integer, parameter, public :: film_scheme_auto = 1
   integer, parameter, public :: film_scheme_galerkin = 2
   integer, parameter, public :: film_scheme_supg = 3
+
+  integer, parameter, public :: film_order_bilinear = 1
+  integer, parameter, public :: film_order_biquadratic = 2
 
   integer, parameter, public :: coupling_monolithic = 1
   integer, parameter, public :: coupling_partitioned = 2
@@ -45,6 +48,7 @@ module gfb_model_case
     integer :: reduction = reduction_guyan
     integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
     integer :: film_scheme = film_scheme_auto
+    integer :: film_order = film_order_bilinear
     integer :: coupling = coupling_monolithic    !! film and foil together, or in turns
     real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
     integer :: foundation_pressure = foundation_pressure_local
@@ -71,6 +75,7 @@ contains
                          'solve film and foil together, or in turns for comparison')
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
+    call read_film_order(keys, model, is_structure(analysis))
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
@@ -99,6 +104,27 @@ contains
       call keys%useless_key(name, meaning, "needs foil = 'shell': no other foil is condensed")
     end if
   end subroutine read_reduction
+
+  !> Order of the film elements. Upwinding is for bilinear ones; strips and modes have no film.
+  subroutine read_film_order(keys, model, no_film)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(inout) :: model
+    logical, intent(in) :: no_film
+    character(len=*), parameter :: name = 'film_order'
+    character(len=*), parameter :: meaning = &
+      '1: bilinear film elements; 2: biquadratic ones, with twice as many node intervals each '// &
+      'way as elements (film and foils share the nodes)'
+
+    if (no_film) then
+      call keys%useless_key(name, meaning, 'needs a film: strips and modes have none')
+      return
+    end if
+    call keys%integer_key(name, model%film_order, meaning, from_to(1.0_wp, 2.0_wp))
+    if (model%film_order == film_order_biquadratic .and. model%film_scheme == film_scheme_supg) then
+      call keys%complain('model', name, "cannot be 2 where film_scheme is 'supg': upwinding is "// &
+                         'for bilinear elements')
+    end if
+  end subroutine read_film_order
 
   !> Whether top foil and bumps have meshes of their own.
   elemental function meshes_foils(foil) result(meshes)

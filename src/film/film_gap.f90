@@ -1,7 +1,7 @@
 !> Film thickness between a tilted shaft and an undeformed sleeve.
 module gfb_film_gap
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: film_shape, film_nodes, film_points
+  use gfb_film_geometry, only: film_shapes
   implicit none (type, external)
   private
   public :: rigid_gap, rigid_gap_excess
@@ -30,23 +30,26 @@ contains
       + (eccentricity_y - axial*tilt_x)*sin(angle)
   end function rigid_gap
 
-  !> What the rigid gap at an element's Gauss points has beyond the bilinear one of its nodal
-  !> values.
+  !> What the rigid gap at an element's Gauss points has beyond the one that its nodal values give.
   !>
   !> The gap is linear in eccentricity and tilt, so this gives the excess of
   !> \( \cos\theta, \sin\theta, z\cos\theta, z\sin\theta \), to be multiplied with
   !> \( e_x, e_y, \phi_y, -\phi_x \).
   pure function rigid_gap_excess(angle, axial) result(excess)
-    real(wp), intent(in) :: angle(film_nodes) !! theta of the nodes [rad]
-    real(wp), intent(in) :: axial(film_nodes) !! z of the nodes [m]
-    real(wp) :: excess(4, film_points)        !! [1], [1], [m], [m]
-    integer :: point
+    real(wp), intent(in) :: angle(:)          !! theta of the nodes [rad]
+    real(wp), intent(in) :: axial(size(angle)) !! z of the nodes [m]
+    real(wp) :: excess(4, size(angle))        !! (4, points) [1], [1], [m], [m]
+    real(wp) :: nodal(4, size(angle)), shapes(size(angle), size(angle))
+    integer :: i
 
-    do point = 1, film_points
-      associate (shape => film_shape(:, point))
-        excess(:, point) = terms(dot_product(shape, angle), dot_product(shape, axial)) - &
-          matmul(reshape([terms(angle(1), axial(1)), terms(angle(2), axial(2)), &
-                          terms(angle(3), axial(3)), terms(angle(4), axial(4))], [4, 4]), shape)
+    shapes = film_shapes(size(angle))
+    do i = 1, size(angle)
+      nodal(:, i) = terms(angle(i), axial(i))
+    end do
+    do i = 1, size(angle)
+      associate (shape => shapes(:, i))
+        excess(:, i) = terms(dot_product(shape, angle), dot_product(shape, axial)) &
+          - matmul(nodal, shape)
       end associate
     end do
   end function rigid_gap_excess

@@ -1,7 +1,7 @@
 !> Force, torque and friction of one film element.
 module gfb_film_load
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, film_points
+  use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_reynolds_element, only: film_flow_type
   implicit none (type, external)
   private
@@ -19,14 +19,16 @@ contains
   !> Source: [Gu2020] eqs. 14 and 16. The force acts on the sleeve, the torque on the shaft.
   pure subroutine film_force_weights(geometry, angle, axial, weight)
     type(film_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: angle(film_nodes) !! theta of the nodes [rad]
-    real(wp), intent(in) :: axial(film_nodes) !! z of the nodes [m]
-    real(wp), intent(out) :: weight(film_forces, film_nodes) !! of p - p_a [m2], [m3]
+    real(wp), intent(in) :: angle(:)      !! theta of the nodes [rad]
+    real(wp), intent(in) :: axial(:)      !! z of the nodes [m]
+    real(wp), intent(out) :: weight(:, :) !! (4, nodes) of p - p_a [m2], [m3]
+    real(wp) :: shapes(size(angle), size(angle))
     integer :: point
 
+    shapes = film_shapes(size(angle))
     weight = 0.0_wp
-    do point = 1, film_points
-      associate (shape => film_shape(:, point))
+    do point = 1, size(geometry%area)
+      associate (shape => shapes(:, point))
         weight = weight + geometry%area(point)* &
           outer(force_direction(dot_product(shape, angle), dot_product(shape, axial)), shape)
       end associate
@@ -36,15 +38,17 @@ contains
   !> The element's share of force and torque where the pressure is above ambient only.
   pure function film_force(geometry, angle, axial, overpressure) result(force)
     type(film_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: angle(film_nodes)        !! theta of the nodes [rad]
-    real(wp), intent(in) :: axial(film_nodes)        !! z of the nodes [m]
-    real(wp), intent(in) :: overpressure(film_nodes) !! p - p_a at the nodes [Pa]
-    real(wp) :: force(film_forces)                   !! F_x, F_y [N], M_x, M_y [N m]
+    real(wp), intent(in) :: angle(:)        !! theta of the nodes [rad]
+    real(wp), intent(in) :: axial(:)        !! z of the nodes [m]
+    real(wp), intent(in) :: overpressure(:) !! p - p_a at the nodes [Pa]
+    real(wp) :: force(film_forces)          !! F_x, F_y [N], M_x, M_y [N m]
+    real(wp) :: shapes(size(angle), size(angle))
     integer :: point
 
+    shapes = film_shapes(size(angle))
     force = 0.0_wp
-    do point = 1, film_points
-      associate (shape => film_shape(:, point))
+    do point = 1, size(geometry%area)
+      associate (shape => shapes(:, point))
         force = force + geometry%area(point)*max(dot_product(shape, overpressure), 0.0_wp)* &
           force_direction(dot_product(shape, angle), dot_product(shape, axial))
       end associate
@@ -61,16 +65,17 @@ contains
   pure function film_friction(geometry, flow, pressure, gap, excess) result(drag)
     type(film_geometry_type), intent(in) :: geometry
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: pressure(film_nodes) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(film_nodes)      !! at the nodes [m]
-    real(wp), intent(in) :: excess(film_points)  !! of the gap over the bilinear one [m]
-    real(wp) :: drag                             !! [N]
-    real(wp) :: h
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
+    real(wp) :: drag                    !! [N]
+    real(wp) :: h, shapes(size(gap), size(gap))
     integer :: point
 
+    shapes = film_shapes(size(gap))
     drag = 0.0_wp
-    do point = 1, film_points
-      h = dot_product(film_shape(:, point), gap) + excess(point)
+    do point = 1, size(geometry%area)
+      h = dot_product(shapes(:, point), gap) + excess(point)
       drag = drag + geometry%area(point)*(2.0_wp*flow%viscosity*flow%entraining_speed/h &
                                           + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), &
                                           pressure))

@@ -1,11 +1,12 @@
-!> Four-node element of the steady, isothermal, ideal-gas film.
+!> Element of the steady, isothermal, ideal-gas film, with four nodes or nine.
 !>
-!> Pressure and foil deflection are bilinear. The rigid gap is taken where it is, at the Gauss
-!> points: the nodal gaps give the bilinear part, `excess` what the rigid gap has beyond it. That
-!> halves the error of the force against a gap that is bilinear as a whole.
+!> Pressure and foil deflection are bilinear, or biquadratic. The rigid gap is taken where it is, at
+!> the Gauss points: the nodal gaps give the bilinear part, `excess` what the rigid gap has beyond
+!> it. That halves the error of the force against a gap that is bilinear as a whole.
 module gfb_reynolds_element
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, film_points
+  use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, biquadratic_shape, &
+                               biquadratic_nodes
   implicit none (type, external)
   private
   public :: reynolds_residual, reynolds_jacobian, upwind_weight, cell_peclet
@@ -37,63 +38,114 @@ contains
   !>
   !> Source: [Gu2020] eq. 15, whose edge term is absent because the pressure is given on every edge;
   !> the last term (SUPG, streamline upwind Petrov-Galerkin, \( \alpha = \coth Pe - 1/Pe \)) only
-  !> with `flow%upwind`. The second derivatives of the pressure in R vanish on parallelograms.
+  !> with `flow%upwind`. It is for bilinear elements: the second derivatives of the pressure in R
+  !> vanish on parallelograms there, not so in biquadratic ones.
   pure subroutine reynolds_residual(geometry, flow, pressure, gap, excess, source, residual)
     type(film_geometry_type), intent(in) :: geometry
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: pressure(film_nodes)  !! absolute pressure at the nodes [Pa]
-    real(wp), intent(in) :: gap(film_nodes)       !! film thickness at the nodes [m]
-    real(wp), intent(in) :: excess(film_points)   !! of the gap over the bilinear one [m]
-    real(wp), intent(in) :: source(film_nodes)    !! s, gas fed in (p h per time) [Pa m/s]
-    real(wp), intent(out) :: residual(film_nodes) !! one a node [Pa m3/s]
+    real(wp), contiguous, intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
+    real(wp), contiguous, intent(in) :: gap(:)       !! film thickness at the nodes [m]
+    real(wp), contiguous, intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
+    real(wp), contiguous, intent(in) :: source(:)    !! s, gas fed in (p h per time) [Pa m/s]
+    real(wp), contiguous, intent(out) :: residual(:) !! one a node [Pa m3/s]
+
+    if (size(residual) == film_nodes) then
+      call sum_residual(film_nodes, film_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, flow, pressure, gap, excess, source, residual)
+    else
+      call sum_residual(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, flow, pressure, gap, excess, source, residual)
+    end if
+  end subroutine reynolds_residual
+
+  !> The residual's sum over the Gauss points, of which there are as many as nodes.
+  pure subroutine sum_residual(nodes, shapes, gradients, area, stream_length, flow, pressure, gap, &
+                               excess, source, residual)
+    integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
+    real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
+    real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
+    real(wp), intent(in) :: area(nodes)                !! of the points [m2]
+    real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
+    real(wp), intent(in) :: excess(nodes)               !! at the points [m]
+    real(wp), intent(in) :: source(nodes)               !! at the nodes [Pa m/s]
+    real(wp), intent(out) :: residual(nodes)            !! [Pa m3/s]
 
     type(film_state_type) :: state
     real(wp) :: mobility, flux_x, flux_z, fed
     integer :: point
 
     residual = 0.0_wp
-    do point = 1, film_points
-      associate (shape => film_shape(:, point), gradient => geometry%gradient(:, :, point))
+    do point = 1, nodes
+      associate (shape => shapes(:, point), gradient => gradients(:, :, point))
         state = film_state(shape, gradient, pressure, gap, excess(point))
         fed = dot_product(shape, source)
         mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
         flux_x = mobility*state%p_x - state%p*state%h*flow%entraining_speed
         flux_z = mobility*state%p_z
         if (flow%upwind) then
-          flux_x = flux_x + 0.5_wp*geometry%stream_length(point)* &
-            upwind_weight(cell_peclet(flow, geometry%stream_length(point), state%p, state%h))* &
+          flux_x = flux_x + 0.5_wp*stream_length(point)* &
+            upwind_weight(cell_peclet(flow, stream_length(point), state%p, state%h))* &
             (strong_residual(flow, state) - fed)
         end if
-        residual = residual + geometry%area(point)* &
+        residual = residual + area(point)* &
           (flux_x*gradient(1, :) + flux_z*gradient(2, :) - fed*shape)
       end associate
     end do
-  end subroutine reynolds_residual
+  end subroutine sum_residual
 
   !> Exact derivatives of `reynolds_residual` by the nodal pressures and gaps, and by the excess.
   pure subroutine reynolds_jacobian(geometry, flow, pressure, gap, excess, source, by_pressure, &
                                     by_gap, by_excess)
     type(film_geometry_type), intent(in) :: geometry
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: pressure(film_nodes) !! absolute pressure at the nodes [Pa]
-    real(wp), intent(in) :: gap(film_nodes)      !! film thickness at the nodes [m]
-    real(wp), intent(in) :: excess(film_points)  !! of the gap over the bilinear one [m]
-    real(wp), intent(in) :: source(film_nodes)   !! s, gas fed in (p h per time) [Pa m/s]
-    real(wp), intent(out) :: by_pressure(film_nodes, film_nodes) !! dr_a/dp_b [m3/s]
-    real(wp), intent(out) :: by_gap(film_nodes, film_nodes)      !! dr_a/dh_b [Pa m2/s]
-    real(wp), intent(out) :: by_excess(film_nodes, film_points)  !! [Pa m2/s]
+    real(wp), contiguous, intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
+    real(wp), contiguous, intent(in) :: gap(:)      !! film thickness at the nodes [m]
+    real(wp), contiguous, intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp), contiguous, intent(in) :: source(:)   !! s, gas fed in (p h per time) [Pa m/s]
+    real(wp), contiguous, intent(out) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
+    real(wp), contiguous, intent(out) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
+    real(wp), contiguous, intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
+
+    if (size(pressure) == film_nodes) then
+      call sum_jacobian(film_nodes, film_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, flow, pressure, gap, excess, source, by_pressure, &
+                        by_gap, by_excess)
+    else
+      call sum_jacobian(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, flow, pressure, gap, excess, source, by_pressure, &
+                        by_gap, by_excess)
+    end if
+  end subroutine reynolds_jacobian
+
+  !> The derivatives' sums over the Gauss points, of which there are as many as nodes.
+  pure subroutine sum_jacobian(nodes, shapes, gradients, areas, stream_length, flow, pressure, &
+                               gap, excess, source, by_pressure, by_gap, by_excess)
+    integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
+    real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
+    real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
+    real(wp), intent(in) :: areas(nodes)               !! of the points [m2]
+    real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
+    real(wp), intent(in) :: excess(nodes)               !! at the points [m]
+    real(wp), intent(in) :: source(nodes)               !! at the nodes [Pa m/s]
+    real(wp), intent(out) :: by_pressure(nodes, nodes)  !! [m3/s]
+    real(wp), intent(out) :: by_gap(nodes, nodes)       !! [Pa m2/s]
+    real(wp), intent(out) :: by_excess(nodes, nodes)    !! [Pa m2/s]
 
     type(film_state_type) :: state
-    real(wp), dimension(film_nodes) :: x_by_p, z_by_p, x_by_slope
+    real(wp), dimension(nodes) :: x_by_p, z_by_p, x_by_slope
     real(wp) :: mobility, speed, x_by_h, z_by_h
     integer :: point, b
 
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
     speed = flow%entraining_speed
-    do point = 1, film_points
-      associate (shape => film_shape(:, point), gradient => geometry%gradient(:, :, point), &
-                 area => geometry%area(point))
+    do point = 1, nodes
+      associate (shape => shapes(:, point), gradient => gradients(:, :, point), &
+                 area => areas(point))
         state = film_state(shape, gradient, pressure, gap, excess(point))
         mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
         x_by_p = shape*(mobility/state%p*state%p_x - state%h*speed) + mobility*gradient(1, :)
@@ -102,11 +154,11 @@ contains
         z_by_h = 3.0_wp*mobility/state%h*state%p_z
         x_by_slope = 0.0_wp
         if (flow%upwind) then
-          call add_upwind_derivatives(flow, geometry%stream_length(point), shape, gradient, state, &
+          call add_upwind_derivatives(flow, stream_length(point), shape, gradient, state, &
                                       dot_product(shape, source), x_by_p, x_by_h, x_by_slope)
         end if
         by_excess(:, point) = area*(x_by_h*gradient(1, :) + z_by_h*gradient(2, :))
-        do b = 1, film_nodes
+        do b = 1, nodes
           by_pressure(:, b) = by_pressure(:, b) &
             + area*(x_by_p(b)*gradient(1, :) + z_by_p(b)*gradient(2, :))
           by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, point) &
@@ -114,23 +166,23 @@ contains
         end do
       end associate
     end do
-  end subroutine reynolds_jacobian
+  end subroutine sum_jacobian
 
   !> Adds the derivatives of the upwind term's flux along x: by nodal pressures, by the gap at the
   !> point, and by the nodal gaps through the gap's slope.
   pure subroutine add_upwind_derivatives(flow, stream_length, shape, gradient, state, fed, &
                                          x_by_p, x_by_h, x_by_slope)
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: stream_length           !! the element's length along x [m]
-    real(wp), intent(in) :: shape(film_nodes)       !! shape functions [1]
-    real(wp), intent(in) :: gradient(2, film_nodes) !! their gradients [1/m]
+    real(wp), intent(in) :: stream_length  !! the element's length along x [m]
+    real(wp), intent(in) :: shape(:)       !! shape functions [1]
+    real(wp), intent(in) :: gradient(:, :) !! (2, nodes) their gradients [1/m]
     type(film_state_type), intent(in) :: state
-    real(wp), intent(in) :: fed                     !! source at the point [Pa m/s]
-    real(wp), intent(inout) :: x_by_p(film_nodes)     !! flux along x by nodal pressure
-    real(wp), intent(inout) :: x_by_h                 !! flux along x by the gap
-    real(wp), intent(inout) :: x_by_slope(film_nodes) !! flux along x by nodal gap, slope alone
+    real(wp), intent(in) :: fed                !! source at the point [Pa m/s]
+    real(wp), intent(inout) :: x_by_p(:)       !! flux along x by nodal pressure
+    real(wp), intent(inout) :: x_by_h          !! flux along x by the gap
+    real(wp), intent(inout) :: x_by_slope(:)   !! flux along x by nodal gap, slope alone
 
-    real(wp), dimension(film_nodes) :: strong_by_p, along_p, along_h
+    real(wp), dimension(size(shape)) :: strong_by_p, along_p, along_h
     real(wp) :: peclet, weight, slope, strong, strong_by_h, slope_p, cross, twelfth
 
     peclet = cell_peclet(flow, stream_length, state%p, state%h)
@@ -208,11 +260,11 @@ contains
 
   !> Pressure, gap and their gradients at a Gauss point.
   pure function film_state(shape, gradient, pressure, gap, excess) result(state)
-    real(wp), intent(in) :: shape(film_nodes)       !! shape functions [1]
-    real(wp), intent(in) :: gradient(2, film_nodes) !! their gradients [1/m]
-    real(wp), intent(in) :: pressure(film_nodes)    !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(film_nodes)         !! at the nodes [m]
-    real(wp), intent(in) :: excess                  !! of the gap over the bilinear one [m]
+    real(wp), intent(in) :: shape(:)       !! shape functions [1]
+    real(wp), intent(in) :: gradient(:, :) !! (2, nodes) their gradients [1/m]
+    real(wp), intent(in) :: pressure(:)    !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)         !! at the nodes [m]
+    real(wp), intent(in) :: excess         !! of the gap over what its nodal values give [m]
     type(film_state_type) :: state
 
     state%p = dot_product(shape, pressure)

@@ -3,15 +3,19 @@ module gfb_film_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: uniform_film_mesh, film_mesh_at, cell_nodes, find_film_place
+  public :: uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
+            find_film_place
 
   !> A film mesh by its stations along the shaft's motion and its rows along the axis.
   !>
-  !> Node (station i, row j), both from 1, is number (i - 1)*rows + j.
+  !> Node (station i, row j), both from 1, is number (i - 1)*rows + j. Between neighbouring stations
+  !> and rows lies a cell. A bilinear element is a cell; a biquadratic one is two by two of them, so
+  !> there are twice as many cells each way as elements then.
   type, public :: film_mesh_type
     real(wp) :: radius = 0.0_wp                !! of the bearing [m]
     logical :: periodic = .false.              !! the last station's neighbour is the first
     logical :: half = .false.                  !! z >= 0 only, the other half is its mirror
+    integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     real(wp), allocatable :: row_axial(:)      !! z of the rows, 0 at the midplane [m]
   contains
@@ -27,7 +31,7 @@ contains
 
   !> Mesh of equal elements over the pad.
   pure function uniform_film_mesh(radius, length, leading_edge_angle, pad_angle, circumferential, &
-                                  axial, periodic, half) result(mesh)
+                                  axial, periodic, half, order) result(mesh)
     real(wp), intent(in) :: radius             !! of the bearing [m]
     real(wp), intent(in) :: length             !! whole width of the bearing [m]
     real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
@@ -36,32 +40,41 @@ contains
     integer, intent(in) :: axial               !! elements along the whole width
     logical, intent(in) :: periodic            !! a ring without edges
     logical, intent(in) :: half                !! mesh z >= 0 only; axial is even then
+    integer, intent(in), optional :: order     !! of the elements; default: 1
     type(film_mesh_type) :: mesh
-    integer :: i, stations, first
+    integer :: i, around, along, first
 
     mesh%radius = radius
     mesh%periodic = periodic
     mesh%half = half
-    stations = merge(circumferential, circumferential + 1, periodic)
-    mesh%station_angle = [(leading_edge_angle + pad_angle*real(i, wp)/real(circumferential, wp), &
-                           i=0, stations - 1)]
-    first = merge(axial/2, 0, half)
+    if (present(order)) mesh%order = order
+    around = mesh%order*circumferential
+    along = mesh%order*axial
+    mesh%station_angle = [(leading_edge_angle + pad_angle*real(i, wp)/real(around, wp), &
+                           i=0, merge(around - 1, around, periodic))]
+    first = merge(along/2, 0, half)
     ! Symmetric to the last digit about z = 0, so that mirrored scenes give mirrored answers.
-    mesh%row_axial = [(0.5_wp*length*real(2*i - axial, wp)/real(axial, wp), i=first, axial)]
+    mesh%row_axial = [(0.5_wp*length*real(2*i - along, wp)/real(along, wp), i=first, along)]
   end function uniform_film_mesh
 
-  !> Mesh of a pad with given stations.
-  pure function film_mesh_at(station_angle, radius, length, axial, half) result(mesh)
-    real(wp), intent(in) :: station_angle(:) !! theta, rising [rad]
+  !> Mesh of a pad with given sides of elements.
+  pure function film_mesh_at(side_angle, radius, length, axial, half, order) result(mesh)
+    real(wp), intent(in) :: side_angle(:)    !! theta where elements meet, rising [rad]
     real(wp), intent(in) :: radius           !! of the bearing [m]
     real(wp), intent(in) :: length           !! whole width of the bearing [m]
     integer, intent(in) :: axial             !! elements along the whole width
     logical, intent(in) :: half              !! mesh z >= 0 only; axial is even then
+    integer, intent(in), optional :: order   !! of the elements; default: 1
     type(film_mesh_type) :: mesh
+    integer :: i
 
-    mesh = uniform_film_mesh(radius, length, station_angle(1), 0.0_wp, size(station_angle) - 1, &
-                             axial, .false., half)
-    mesh%station_angle = station_angle
+    mesh = uniform_film_mesh(radius, length, side_angle(1), 0.0_wp, size(side_angle) - 1, &
+                             axial, .false., half, order)
+    mesh%station_angle(1::mesh%order) = side_angle
+    if (mesh%order == 1) return
+    do i = 2, mesh%stations() - 1, 2 ! nodes in the middle of an element
+      mesh%station_angle(i) = 0.5_wp*(mesh%station_angle(i - 1) + mesh%station_angle(i + 1))
+    end do
   end function film_mesh_at
 
   !> Nodes of a cell, counter-clockwise in (x, z).
@@ -75,6 +88,62 @@ contains
     next = modulo(column, stations)*rows + row
     nodes = [here, next, next + 1, here + 1]
   end function cell_nodes
+
+  !> Nodes of the elements that a part of the mesh's cells make up: counter-clockwise where they are
+  !> bilinear, else station by station.
+  pure function gather_elements(mesh, mesh_node, cells) result(element_nodes)
+    type(film_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: mesh_node(:)     !! number in the whole mesh of each node of the part
+    integer, intent(in) :: cells(:, :) !! (4, cells) nodes of the part
+    integer, allocatable :: element_nodes(:, :) !! (4 or 9, elements) nodes of the part
+    integer :: place(minval(mesh_node):maxval(mesh_node)), nodes(9)
+    integer :: cell, station, row, i, j, found
+
+    if (mesh%order == 1) then
+      element_nodes = cells
+      return
+    end if
+    place = 0
+    place(mesh_node) = [(i, i=1, size(mesh_node))]
+    allocate (element_nodes(size(nodes), size(cells, 2)/mesh%order**2))
+    found = 0
+    do cell = 1, size(cells, 2)
+      associate (first => mesh_node(cells(1, cell)))
+        station = (first - 1)/mesh%rows()
+        row = modulo(first - 1, mesh%rows())
+      end associate
+      if (modulo(station, mesh%order) /= 0 .or. modulo(row, mesh%order) /= 0) cycle
+      if (found == size(element_nodes, 2)) exit
+      found = found + 1
+      nodes = [((modulo(station + i, mesh%stations())*mesh%rows() + row + j + 1, j=0, mesh%order), &
+                i=0, mesh%order)]
+      if (any(nodes < lbound(place, 1) .or. nodes > ubound(place, 1))) exit
+      element_nodes(:, found) = place(nodes)
+      if (any(place(nodes) == 0)) exit
+    end do
+    if (cell <= size(cells, 2) .or. found < size(element_nodes, 2)) then
+      error stop 'cells of a film element lie on several ranks'
+    end if
+  end function gather_elements
+
+  !> Lengths of the axis that make up a field's integral along it: by the trapezoidal rule, or
+  !> Simpson's.
+  pure function row_weights(mesh) result(weight)
+    type(film_mesh_type), intent(in) :: mesh
+    real(wp) :: weight(size(mesh%row_axial)) !! of the rows [m]
+    integer :: j
+
+    weight = 0.0_wp
+    do j = 1, mesh%axial(), mesh%order
+      associate (length => mesh%row_axial(j + mesh%order) - mesh%row_axial(j))
+        if (mesh%order == 1) then
+          weight(j:j + 1) = weight(j:j + 1) + 0.5_wp*length
+        else
+          weight(j:j + 2) = weight(j:j + 2) + [1.0_wp, 4.0_wp, 1.0_wp]*length/6.0_wp
+        end if
+      end associate
+    end do
+  end function row_weights
 
   !> The nodes around a place, and their bilinear shares of it.
   pure subroutine find_film_place(mesh, angle, axial, node, share)
@@ -143,14 +212,14 @@ contains
     nodes = self%stations()*self%rows()
   end function film_mesh_nodes
 
-  !> Elements along the shaft's motion.
+  !> Cells along the shaft's motion.
   pure function film_circumferential(self) result(elements)
     class(film_mesh_type), intent(in) :: self
     integer :: elements
     elements = merge(self%stations(), self%stations() - 1, self%periodic)
   end function film_circumferential
 
-  !> Elements along the axis of the part that is meshed.
+  !> Cells along the axis of the part that is meshed.
   pure function film_axial(self) result(elements)
     class(film_mesh_type), intent(in) :: self
     integer :: elements

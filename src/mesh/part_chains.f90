@@ -10,26 +10,37 @@ module gfb_part_chains
   use gfb_partition, only: chain_type, chain
   implicit none (type, external)
   private
-  public :: film_chain, strip_chain, strip_columns, strip_kinds
+  public :: film_chain, film_columns, strip_chain, strip_columns, strip_kinds
 
   integer, parameter :: shell_unknowns = 5 !! of a node
 
 contains
 
-  !> Columns of the film, and of the top foil of shells below it where there is one.
+  !> Columns of the film's elements, and of the top foil of shells below them where there is one.
   pure function film_chain(film, shells) result(columns)
     type(film_mesh_type), intent(in) :: film
     logical, intent(in) :: shells !! on a top foil of shells
     type(chain_type) :: columns
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-    real(wp), allocatable :: bound(:)
-    real(wp) :: weight(film%circumferential())
+    real(wp), allocatable :: bound(:), weight(:)
 
     bound = film%radius*(film%station_angle - film%station_angle(1))
     if (film%periodic) bound = [bound, film%radius*turn]
-    weight = real(film%rows()*merge(1 + shell_unknowns, 1, shells), wp)
+    bound = bound(1::film%order)
+    allocate (weight(size(bound) - 1))
+    weight = real(film%order*film%rows()*merge(1 + shell_unknowns, 1, shells), wp)
     columns = chain(bound, weight, film%periodic)
   end function film_chain
+
+  !> Part of every column of the film's cells from the parts of its elements' columns.
+  pure function film_columns(film, part) result(column_part)
+    type(film_mesh_type), intent(in) :: film
+    integer, intent(in) :: part(:) !! of the chain's pieces
+    integer :: column_part(film%order*size(part))
+    integer :: i
+
+    column_part = [(spread(part(i), 1, film%order), i=1, size(part))]
+  end function film_columns
 
   !> Substructures of a bump foil, or its columns where it is not condensed.
   pure function strip_chain(shape, rows, reduced) result(pieces)

@@ -114,7 +114,7 @@ contains
     call show_tilt_response(log, record%tilted)
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then
       call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
-                       'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg''')
+                       'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
     end if
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)

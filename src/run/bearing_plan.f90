@@ -8,7 +8,8 @@ module gfb_bearing_plan
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, &
                             meshes_foils, reduction_guyan, half_width_auto, half_width_yes, &
-                            film_scheme_supg, film_scheme_auto, foundation_pressure_axial_mean
+                            film_scheme_supg, film_scheme_auto, film_order_biquadratic, &
+                            foundation_pressure_axial_mean
   use gfb_bearing_case, only: pad_length
   use gfb_operation_case, only: angular_speed
   use gfb_sweep_case, only: sweep_speed
@@ -39,6 +40,7 @@ contains
     type(bearing_plan_type), intent(out) :: plan
     integer :: nodes
 
+    plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
     if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
       plan%circumferential = size(plate_stations(scene)) - 1
@@ -55,8 +57,9 @@ contains
     else
       call log%line('shaft: position given, no shaft unknowns')
     end if
-    nodes = (plan%circumferential + 1)*(merge(plan%axial/2, plan%axial, plan%half) + 1)
-    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
+    nodes = (plan%order*plan%circumferential + 1)*solved_rows(plan)
+    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)//trim(merge( &
+                  ' biquadratic', '            ', plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved, about '// &
                   text(real(nodes, wp)*bytes_a_film_node*1.0e-6_wp, 3)//' MB')
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
@@ -67,6 +70,13 @@ contains
       call log%line('sweep: '//text(size(scene%sweep%values))//' points')
     end if
   end subroutine plan_bearing
+
+  !> Rows of nodes in the part of the width that is solved.
+  pure function solved_rows(plan) result(rows)
+    type(bearing_plan_type), intent(in) :: plan
+    integer :: rows
+    rows = plan%order*merge(plan%axial/2, plan%axial, plan%half) + 1
+  end function solved_rows
 
   !> Sizes of foils of shells and the memory that the matrix and its factors take.
   subroutine show_foil_sizes(scene, plan, nodes, log)
@@ -79,7 +89,7 @@ contains
     real(wp) :: unknowns, row_entries, bytes
     logical :: reduced
 
-    rows = merge(plan%axial/2, plan%axial, plan%half) + 1
+    rows = solved_rows(plan)
     reduced = scene%model%reduction == reduction_guyan
     call count_bumps(scene, rows, reduced, stations, unknowns, row_entries)
     bytes = unknowns*merge(row_entries*bytes_an_entry, bytes_an_unknown, reduced)
@@ -147,6 +157,10 @@ contains
     type(bearing_plan_type), intent(inout) :: plan
     real(wp) :: peclet
 
+    if (plan%order == film_order_biquadratic) then
+      call log%line('film: Galerkin, because upwinding is for bilinear elements')
+      return
+    end if
     plan%upwind = scene%model%film_scheme == film_scheme_supg
     plan%may_upwind = scene%model%film_scheme == film_scheme_auto
     if (.not. plan%may_upwind) then

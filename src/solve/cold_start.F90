@@ -159,6 +159,10 @@ contains
     integer :: solved
 
     solved = merge(plan%axial/2, plan%axial, plan%half)
+    if (plan%order > 1) then
+      can = plan%may_coarsen
+      return
+    end if
     can = plan%may_coarsen .and. modulo(plan%circumferential, 2) == 0 .and. modulo(solved, 2) == 0 .and. &
       plan%circumferential >= 2*least_circumferential .and. solved >= 2*least_axial
   end function can_coarsen
@@ -174,7 +178,7 @@ contains
       modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
   end function can_halve
 
-  !> The plan with half the width, or else with half the elements each way.
+  !> The plan with half the width, or else with half the nodes each way.
   pure function smaller(plan) result(coarse)
     type(bearing_plan_type), intent(in) :: plan
     type(bearing_plan_type) :: coarse
@@ -184,8 +188,12 @@ contains
       coarse%half = .true.
       return
     end if
+    coarse%upwind = .true.
+    if (plan%order > 1) then ! bilinear elements on the corners of the others
+      coarse%order = 1
+      return
+    end if
     coarse%circumferential = plan%circumferential/2
     coarse%axial = plan%axial/2
-    coarse%upwind = .true.
   end function smaller
 end module gfb_cold_start

@@ -18,7 +18,6 @@ module gfb_stability
   use petscksp
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_film_geometry, only: film_shape
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: foil_unit
@@ -99,7 +98,7 @@ contains
     associate (film => bearing%film)
       do element = 1, size(film%element_nodes, 2)
         associate (nodes => film%element_nodes(:, element))
-          area(nodes) = area(nodes) + matmul(film_shape, film%geometry(element)%area)
+          area(nodes) = area(nodes) + matmul(film%shape, film%geometry(element)%area)
         end associate
       end do
     end associate

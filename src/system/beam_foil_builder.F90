@@ -10,6 +10,7 @@ module gfb_beam_foil_builder
   use gfb_scene, only: scene_type
   use gfb_top_foil_case, only: top_foil_leading
   use gfb_bump_foil_case, only: fixed_edge_trailing
+  use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
@@ -40,7 +41,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh  !! this rank's part of the film
-    integer, intent(in) :: element_nodes(:, :) !! (4, elements) its elements, local nodes
+    integer, intent(in) :: element_nodes(:, :) !! (nodes, elements) its elements, local nodes
     type(beam_foil_type), intent(out) :: foil
 
     integer :: unknowns, window(2), i
@@ -68,7 +69,7 @@ contains
     call create_stiffness(scene, foil)
     call place_unknowns(foil, merge(0, unknowns, mine), &
                         [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
-    call add_pressure(film, mesh, element_nodes, foil)
+    call add_pressure(film, mesh, element_nodes, scene%model%coupling == coupling_partitioned, foil)
     call size_unknowns(scene, film, turning(foil), foil)
     foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
     call count_entries(foil, film)
@@ -255,9 +256,9 @@ contains
     type(beam_foil_type), intent(inout) :: foil
     type(film_mesh_type), intent(in) :: film
 
-    integer, parameter :: around = 3 !! a station and its neighbours
-    integer :: tally(0:size(foil%global_unknown)), i
+    integer :: tally(0:size(foil%global_unknown)), i, around
 
+    around = 2*film%order + 1 ! a station and those of the elements beside it
     foil%couplings = around
     tally = 0
     do i = 1, size(foil%contacts%point)
@@ -265,6 +266,6 @@ contains
         tally(unknown) = tally(unknown) + count(unknown > 0)
       end associate
     end do
-    foil%row_entries = foil%row_entries + around*film%rows() + tally(foil%own_place)
+    foil%row_entries = foil%row_entries + around*film%rows() + merge(around, 0, foil%has_room) + tally(foil%own_place)
   end subroutine count_entries
 end module gfb_beam_foil_builder

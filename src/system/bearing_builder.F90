@@ -14,7 +14,7 @@ module gfb_bearing_builder
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations, shape_on_pad
   use gfb_partition, only: division_type, divide, no_chain
-  use gfb_part_chains, only: film_chain, strip_chain
+  use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
   use gfb_shell_foil, only: shell_foil_type
   use gfb_shell_foil_builder, only: create_shell_foil
@@ -40,6 +40,7 @@ module gfb_bearing_builder
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
     logical :: may_coarsen = .true. !! coarser meshes may find the way
+    integer :: order = 1           !! of film elements: bilinear, biquadratic
   end type bearing_plan_type
 
 contains
@@ -85,6 +86,7 @@ contains
     else
       call divide(film_chain(film, .false.), no_chain(), parts, division, error)
     end if
+    if (.not. allocated(error)) division%film = film_columns(film, division%film)
   end subroutine divide_bearing
 
   !> The film's mesh: equal elements, or stations above the crests.
@@ -96,11 +98,11 @@ contains
     associate (bearing => scene%bearing)
       if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
-                            bearing%length, plan%axial, plan%half)
+                            bearing%length, plan%axial, plan%half, plan%order)
       else
         mesh = uniform_film_mesh(bearing%radius, bearing%length, bearing%leading_edge_angle, &
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
-                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half)
+                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order)
       end if
     end associate
   end function film_mesh_of

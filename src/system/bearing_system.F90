@@ -17,7 +17,7 @@ module gfb_bearing_system
   use gfb_film_load, only: film_forces
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank, rank_count, fetch_entries
   use gfb_partition, only: division_type, divide, no_chain
-  use gfb_part_chains, only: film_chain
+  use gfb_part_chains, only: film_chain, film_columns
   use gfb_foil_model, only: foil_model_type
   use gfb_free_edge, only: free_edge_type, find_free_edge
   use gfb_cost_events, only: cost_events_type, register_cost_events
@@ -94,6 +94,7 @@ contains
     else
       call divide(film_chain(whole, .false.), no_chain(), rank_count(), division, error)
       if (allocated(error)) return
+      division%film = film_columns(whole, division%film)
     end if
     call distribute_mesh(PETSC_COMM_WORLD, whole%stations(), whole%rows(), whole%periodic, division%film, bearing%mesh)
     call create_gas_film(whole, bearing%mesh%mesh_node, bearing%mesh%element_nodes, clearance, &
@@ -124,7 +125,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%right, ierr))
     call create_exchange(layout%global, bearing%state, bearing%exchange)
-    call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%jacobian)
+    call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%whole%order, bearing%jacobian)
     call scale_unknowns(bearing)
     if (bearing%foil%has_elastic) call fill_constant(bearing, layout)
   end subroutine create_bearing_system

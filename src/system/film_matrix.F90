@@ -4,7 +4,6 @@ module gfb_film_matrix
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_film_geometry, only: film_nodes
   use gfb_gas_film, only: gas_film_type
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
@@ -28,13 +27,14 @@ contains
     type(operating_point_type), intent(in) :: point
     Mat, intent(in) :: matrix
 
-    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
-    real(wp) :: by_pressure(film_nodes, film_nodes), by_gap(film_nodes, film_nodes)
-    real(wp) :: by_eccentricity(film_nodes, shaft_unknowns)
-    real(wp) :: block(columns, film_nodes) ! a row of the matrix in each column, as PETSc reads it
-    PetscInt :: row(film_nodes), column(columns)
-    integer :: element, b, node
+    real(wp), dimension(size(film%shape, 1), size(film%shape, 1)) :: by_pressure, by_gap
+    real(wp) :: by_eccentricity(size(film%shape, 1), shaft_unknowns)
+    ! a row of the matrix in each column, as PETSc reads it
+    real(wp) :: block(2*size(film%shape, 1) + shaft_unknowns, size(film%shape, 1))
+    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
+    integer :: element, b, node, film_nodes
 
+    film_nodes = size(film%shape, 1)
     do element = 1, size(film%element_nodes, 2)
       call element_columns(film, foil, shaft, element, row, column)
       associate (nodes => film%element_nodes(:, element))
@@ -93,9 +93,8 @@ contains
     logical, intent(in) :: owned(:) !! nodes that are this rank's
     Mat, intent(in) :: matrix
 
-    integer, parameter :: columns = 2*film_nodes + shaft_unknowns
-    PetscInt :: row(film_nodes), column(columns)
-    real(wp) :: zero(columns, film_nodes)
+    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
+    real(wp) :: zero(size(column), size(row))
     integer :: element, node
 
     zero = 0.0_wp
@@ -116,9 +115,11 @@ contains
     class(foil_model_type), intent(in) :: foil
     integer, intent(in) :: shaft !! local unknowns before e_x, `no_shaft` where it is held for good
     integer, intent(in) :: element
-    PetscInt, intent(out) :: row(film_nodes), column(2*film_nodes + shaft_unknowns)
-    integer :: b
+    PetscInt, intent(out) :: row(:)    !! (nodes)
+    PetscInt, intent(out) :: column(:) !! (2 nodes + shaft)
+    integer :: b, film_nodes
 
+    film_nodes = size(row)
     column = -1 ! PETSc skips negative numbers
     if (shaft /= no_shaft) column(2*film_nodes + 1:) = [(int(shaft + b, pint), b=0, 1)]
     associate (nodes => film%element_nodes(:, element))

@@ -116,28 +116,43 @@ contains
   end function place_of
 
   !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
-  subroutine add_pressure(film, mesh, element_nodes, foil)
+  !>
+  !> The pressure is that of the film's element, the displacement bilinear in each of its cells.
+  subroutine add_pressure(film, mesh, element_nodes, partitioned, foil)
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: element_nodes(:, :) !! (4, elements), local nodes
+    integer, intent(in) :: element_nodes(:, :) !! (4 or 9, elements), local nodes
+    logical, intent(in) :: partitioned         !! film and foil are solved in turns
     class(shell_foil_type), intent(inout) :: foil
 
-    real(wp), parameter :: bilinear(corners, corners) = reshape([ &
-      4.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 1.0_wp, &
-      1.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 4.0_wp], [corners, corners])/36.0_wp
-    integer :: i, station(corners), row(corners)
-    real(wp) :: area
+    ! Integrals over a line of length one: linear function, of halves where the pressure is quadratic,
+    ! times the pressure's.
+    real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
+    real(wp), parameter :: quadratic(3, 3) = reshape( &
+      [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
+    integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
+    integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3], row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
+    integer :: i, nodes, station(size(element_nodes, 1)), row(size(element_nodes, 1))
+    real(wp) :: area, unit(size(element_nodes, 1), size(element_nodes, 1))
 
+    nodes = size(element_nodes, 1)
+    if (nodes == corners) then
+      unit = linear(along, along)*linear(across, across)
+    else
+      unit = quadratic(station_of, station_of)*quadratic(row_of, row_of)
+    end if
+    ! Pressures that yield to the foil couple its nodes; those of a cell are coupled anyway.
+    foil%has_room = partitioned .and. nodes > corners
     foil%pressed = element_nodes
-    allocate (foil%pushed(corners, size(element_nodes, 2)))
-    allocate (foil%weight(corners, corners, size(element_nodes, 2)))
+    allocate (foil%pushed(nodes, size(element_nodes, 2)))
+    allocate (foil%weight(nodes, nodes, size(element_nodes, 2)))
     do i = 1, size(element_nodes, 2)
       foil%pushed(:, i) = -foil%source(element_nodes(:, i))
       station = (mesh%mesh_node(element_nodes(:, i)) - 1)/film%rows() + 1
       row = modulo(mesh%mesh_node(element_nodes(:, i)) - 1, film%rows()) + 1
       area = film%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
              (maxval(film%row_axial(row)) - minval(film%row_axial(row)))
-      foil%weight(:, :, i) = area*bilinear
+      foil%weight(:, :, i) = area*unit
     end do
   end subroutine add_pressure
 
@@ -152,7 +167,7 @@ contains
     scale = 1.0_wp
     scale(place_of(foil%global_unknown, turning)) = scene%bump_foil%half_length
     force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
-            scene%bearing%length/scene%mesh%axial_elements
+            scene%bearing%length/(film%order*scene%mesh%axial_elements)
     foil%unknown_scale = scene%bearing%clearance/scale
     foil%equation_scale = force*scale
   end subroutine size_unknowns

@@ -9,7 +9,7 @@ module gfb_foundation_foil
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_foil_model, only: foil_model_type
-  use gfb_film_mesh, only: film_mesh_type
+  use gfb_film_mesh, only: film_mesh_type, row_weights
   use gfb_mesh_dm, only: local_mesh_type
   implicit none (type)
   private
@@ -60,11 +60,12 @@ contains
     type(foundation_foil_type), intent(out) :: foil
 
     integer, allocatable :: local_of(:)
-    integer :: first, last, i, station, row
+    real(wp), allocatable :: weight(:)
+    integer :: first, last, i, row
 
     foil%stiffness = stiffness
     foil%ambient_pressure = ambient_pressure
-    foil%couplings = 3 ! its own station and the two beside it
+    foil%couplings = 2*film%order + 1 ! its own station and those of the elements beside it
     foil%stations = film%stations()
     first = rank*film%stations()/ranks + 1
     last = (rank + 1)*film%stations()/ranks
@@ -89,13 +90,12 @@ contains
     allocate (foil%origin(size(foil%source)), source=0.0_wp)
     foil%averaged = pack([(i, i=1, size(mesh%owned))], mesh%owned)
     allocate (foil%share(size(foil%averaged)))
-    associate (z => film%row_axial)
-      do i = 1, size(foil%averaged)
-        station = mesh%mesh_node(foil%averaged(i))
-        row = modulo(station - 1, film%rows()) + 1
-        foil%share(i) = 0.5_wp*(z(min(row + 1, size(z))) - z(max(row - 1, 1)))/(z(size(z)) - z(1))
-      end do
-    end associate
+    weight = row_weights(film)
+    weight = weight/sum(weight)
+    do i = 1, size(foil%averaged)
+      row = modulo(mesh%mesh_node(foil%averaged(i)) - 1, film%rows()) + 1
+      foil%share(i) = weight(row)
+    end do
   end subroutine create_mean_foundation
 
   !> Equations of the stations: spring pressure less mean overpressure [Pa].

@@ -2,16 +2,17 @@
 module gfb_gas_film
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_nodes, film_points, &
-                               film_shape
+  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
   use gfb_film_gap, only: rigid_gap, rigid_gap_excess
   use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
   use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
-  use gfb_film_mesh, only: film_mesh_type
+  use gfb_film_mesh, only: film_mesh_type, gather_elements
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
   public :: create_gas_film
+
+  integer, parameter :: corners = 4 !! of a cell
 
   !> Film elements and nodes of this rank.
   type, public :: gas_film_type
@@ -20,7 +21,9 @@ module gfb_gas_film
     real(wp) :: clearance = 0.0_wp        !! C [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
-    integer, allocatable :: element_nodes(:, :)   !! (4, elements), local nodes
+    integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
+    integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
+    real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
     real(wp), allocatable :: angle(:)             !! theta of the nodes [rad]
     real(wp), allocatable :: axial(:)             !! z of the nodes [m]
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
@@ -46,11 +49,11 @@ contains
   !> The film over a part of its mesh.
   !>
   !> Fails when an element is folded over.
-  subroutine create_gas_film(whole, mesh_node, element_nodes, clearance, ambient_pressure, &
+  subroutine create_gas_film(whole, mesh_node, cell_nodes, clearance, ambient_pressure, &
                              viscosity, upwind, film, error)
     type(film_mesh_type), intent(in) :: whole
     integer, intent(in) :: mesh_node(:)        !! number in the whole mesh of each local node
-    integer, intent(in) :: element_nodes(:, :) !! (4, elements), local nodes
+    integer, intent(in) :: cell_nodes(:, :)    !! (4, cells), local nodes
     real(wp), intent(in) :: clearance          !! C [m]
     real(wp), intent(in) :: ambient_pressure   !! p_a [Pa]
     real(wp), intent(in) :: viscosity          !! of the gas [Pa s]
@@ -65,7 +68,9 @@ contains
     film%flow%viscosity = viscosity
     film%flow%upwind = upwind
     film%copies = merge(2.0_wp, 1.0_wp, whole%half)
-    film%element_nodes = element_nodes
+    film%cell_nodes = cell_nodes
+    film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
+    film%shape = film_shapes(size(film%element_nodes, 1))
     allocate (film%angle(size(mesh_node)), film%axial(size(mesh_node)))
     allocate (film%fixed(size(mesh_node)))
     do i = 1, size(mesh_node)
@@ -84,13 +89,13 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     real(wp), parameter :: pi = acos(-1.0_wp)
-    real(wp) :: position(2, film_nodes), weight(film_forces, film_nodes)
+    real(wp) :: position(2, size(film%shape, 1)), weight(film_forces, size(film%shape, 1))
     integer :: element
 
-    allocate (film%corner_angle(film_nodes, size(film%element_nodes, 2)))
+    allocate (film%corner_angle(size(film%shape, 1), size(film%element_nodes, 2)))
     allocate (film%geometry(size(film%element_nodes, 2)))
     allocate (film%force_weight(film_forces, size(film%angle)), source=0.0_wp)
-    allocate (film%gap_excess(4, film_points, size(film%element_nodes, 2)))
+    allocate (film%gap_excess(4, size(film%shape, 2), size(film%element_nodes, 2)))
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element), angle => film%corner_angle(:, element))
         angle = film%angle(nodes)
@@ -119,15 +124,20 @@ contains
                                  point%eccentricity(2), point%tilt(1), point%tilt(2))
   end function film_node_gap
 
-  !> What the rigid gap at an element's Gauss points has beyond the bilinear one [m].
+  !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
   pure function film_excess(self, element, point) result(excess)
     class(gas_film_type), intent(in) :: self
     integer, intent(in) :: element
     type(operating_point_type), intent(in) :: point
-    real(wp) :: excess(film_points)
+    real(wp) :: excess(most_film_nodes) !! the first ones are its points'
+    real(wp) :: way(4)
+    integer :: i
 
-    excess = matmul([point%eccentricity, point%tilt(2), -point%tilt(1)], self%gap_excess(:, :, &
-      element))
+    way = [point%eccentricity, point%tilt(2), -point%tilt(1)]
+    excess = 0.0_wp
+    do i = 1, size(self%shape, 2)
+      excess(i) = dot_product(way, self%gap_excess(:, i, element))
+    end do
   end function film_excess
 
   !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.
@@ -137,13 +147,23 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point
     logical :: open
-    integer :: element
+    real(wp), dimension(most_film_nodes) :: here, excess
+    integer :: element, i, n
 
+    n = size(self%shape, 1)
     open = all(pressure > 0.0_wp) .and. all(gap > 0.0_wp)
     do element = 1, size(self%element_nodes, 2)
       if (.not. open) exit
-      open = all(matmul(gap(self%element_nodes(:, element)), film_shape) + self%excess(element, &
-        point) > 0.0_wp)
+      excess = self%excess(element, point)
+      here(:n) = gap(self%element_nodes(:, element))
+      do i = 1, n
+        open = open .and. dot_product(here(:n), self%shape(:, i)) + excess(i) > 0.0_wp
+      end do
+      if (n == corners) cycle ! bilinear pressure lies between its nodal values
+      here(:n) = pressure(self%element_nodes(:, element))
+      do i = 1, n
+        open = open .and. dot_product(here(:n), self%shape(:, i)) > 0.0_wp
+      end do
     end do
   end function is_open
 
@@ -154,15 +174,19 @@ contains
     real(wp), intent(in) :: gap(:)         !! at the nodes [m]
     type(operating_point_type), intent(in) :: point
     real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
-    real(wp), parameter :: no_source(film_nodes) = 0.0_wp
-    real(wp) :: element_residual(film_nodes)
-    integer :: element
+    real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
+    real(wp), dimension(most_film_nodes) :: p, h, excess, share
+    integer :: element, n
 
+    n = size(self%shape, 1)
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
-        call reynolds_residual(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
-                               self%excess(element, point), no_source, element_residual)
-        residual(nodes) = residual(nodes) + element_residual
+        p(:n) = pressure(nodes)
+        h(:n) = gap(nodes)
+        excess = self%excess(element, point)
+        call reynolds_residual(self%geometry(element), self%flow, p(:n), h(:n), excess(:n), &
+                               no_source(:n), share(:n))
+        residual(nodes) = residual(nodes) + share(:n)
       end associate
     end do
     where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
@@ -176,19 +200,28 @@ contains
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
     type(operating_point_type), intent(in) :: point
-    real(wp), intent(out) :: by_pressure(film_nodes, film_nodes) !! [m3/s]
-    real(wp), intent(out) :: by_gap(film_nodes, film_nodes)      !! [Pa m2/s]
-    real(wp), intent(out) :: by_eccentricity(film_nodes, 2)      !! [Pa m2/s]
-    real(wp), parameter :: no_source(film_nodes) = 0.0_wp
-    real(wp) :: by_excess(film_nodes, film_points)
+    real(wp), contiguous, intent(out) :: by_pressure(:, :) !! (nodes, nodes) [m3/s]
+    real(wp), contiguous, intent(out) :: by_gap(:, :)      !! (nodes, nodes) [Pa m2/s]
+    real(wp), intent(out) :: by_eccentricity(:, :)         !! (nodes, 2) [Pa m2/s]
+    real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
+    real(wp), dimension(most_film_nodes) :: p, h, excess
+    real(wp) :: by_excess(size(self%shape, 1), size(self%shape, 2))
+    integer :: n, i
 
+    n = size(self%shape, 1)
     associate (nodes => self%element_nodes(:, element))
-      call reynolds_jacobian(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
-                             self%excess(element, point), no_source, by_pressure, by_gap, by_excess)
-      by_eccentricity(:, 1) = matmul(by_gap, cos(self%angle(nodes)))
-      by_eccentricity(:, 2) = matmul(by_gap, sin(self%angle(nodes)))
-      by_eccentricity = by_eccentricity + matmul(by_excess, transpose(self%gap_excess(1:2, :, &
-        element)))
+      p(:n) = pressure(nodes)
+      h(:n) = gap(nodes)
+      excess = self%excess(element, point)
+      call reynolds_jacobian(self%geometry(element), self%flow, p(:n), h(:n), excess(:n), &
+                             no_source(:n), by_pressure, by_gap, by_excess)
+      by_eccentricity = 0.0_wp
+      do i = 1, n
+        by_eccentricity(:, 1) = by_eccentricity(:, 1) + by_gap(:, i)*cos(self%angle(nodes(i))) &
+          + by_excess(:, i)*self%gap_excess(1, i, element)
+        by_eccentricity(:, 2) = by_eccentricity(:, 2) + by_gap(:, i)*sin(self%angle(nodes(i))) &
+          + by_excess(:, i)*self%gap_excess(2, i, element)
+      end do
     end associate
   end subroutine film_element_jacobian
 
@@ -227,14 +260,16 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point
     real(wp) :: drag
+    real(wp) :: excess(most_film_nodes)
     integer :: element
 
     drag = 0.0_wp
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
+        excess = self%excess(element, point)
         drag = drag + self%copies* &
           film_friction(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
-                        self%excess(element, point))
+                        excess(:size(nodes)))
       end associate
     end do
   end function film_drag
@@ -252,10 +287,10 @@ contains
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
-        do point = 1, film_points
+        do point = 1, size(self%shape, 2)
           peclet = max(peclet, abs(cell_peclet(self%flow, geometry%stream_length(point), &
-                                               dot_product(film_shape(:, point), pressure(nodes)), &
-                                               dot_product(film_shape(:, point), gap(nodes)))))
+                                               dot_product(self%shape(:, point), pressure(nodes)), &
+                                               dot_product(self%shape(:, point), gap(nodes)))))
         end do
       end associate
     end do
@@ -267,13 +302,13 @@ contains
     real(wp), intent(in) :: gap(:) !! at the nodes [m]
     real(wp) :: smallest
     real(wp) :: share
-    integer :: element, a, b
+    integer :: cell, a, b
 
     smallest = huge(1.0_wp)
-    do element = 1, size(self%element_nodes, 2)
-      associate (nodes => self%element_nodes(:, element))
-        do a = 1, film_nodes
-          b = modulo(a, film_nodes) + 1
+    do cell = 1, size(self%cell_nodes, 2)
+      associate (nodes => self%cell_nodes(:, cell))
+        do a = 1, corners
+          b = modulo(a, corners) + 1
           associate (z_a => self%axial(nodes(a)), z_b => self%axial(nodes(b)))
             if (z_a*z_b > 0.0_wp .or. abs(z_b - z_a) <= 0.0_wp) cycle
             share = z_a/(z_a - z_b)

@@ -16,16 +16,16 @@ module gfb_shell_foil
   implicit none (type)
   private
 
-  integer, parameter :: corners = 4 !! of a film element
 
   !> Both foils and this rank's part of their equations.
   type, extends(foil_model_type), public :: shell_foil_type
     type(foil_structure_type) :: top, bumps
     type(contact_set_type) :: contacts        !! its unknowns are the local foil unknowns
     real(wp) :: ambient_pressure = 0.0_wp     !! p_a [Pa]
-    integer, allocatable :: pressed(:, :)     !! (4, elements) film nodes of an element, local
-    integer, allocatable :: pushed(:, :)      !! (4, elements) local foil unknown v there, 0: held
-    real(wp), allocatable :: weight(:, :, :)  !! (4, 4, elements) of p - p_a in the force on v [m2]
+    integer, allocatable :: pressed(:, :)     !! (nodes, elements) film nodes of an element, local
+    integer, allocatable :: pushed(:, :)      !! (nodes, elements) local foil unknown v there, 0: held
+    real(wp), allocatable :: weight(:, :, :)  !! (nodes, nodes, elements) of p - p_a in the force on v [m2]
+    logical :: has_room = .false.             !! in the matrix, between all unknowns that an element pushes
     integer, allocatable :: own_place(:)      !! local foil unknown of each owned one
     real(wp) :: first_hardness = 1.0_wp       !! of contacts that are little harder than the bumps
     Vec :: state, force                       !! of the owned unknowns, in SI
@@ -57,7 +57,7 @@ contains
     real(wp), intent(in) :: unknown(:)
     real(wp), intent(inout) :: residual(:)
 
-    real(wp) :: contact(self%local_unknowns()), load(corners)
+    real(wp) :: contact(self%local_unknowns()), load(size(self%pressed, 1))
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
     integer :: element, i
@@ -72,7 +72,7 @@ contains
 
     do element = 1, size(self%pressed, 2)
       load = matmul(self%weight(:, :, element), unknown(self%pressed(:, element)) - self%ambient_pressure)
-      do i = 1, corners
+      do i = 1, size(load)
         if (self%pushed(i, element) == 0) cycle
         associate (row => self%first + self%pushed(i, element))
           residual(row) = residual(row) + load(i) ! pressure pushes against v
@@ -131,14 +131,16 @@ contains
   subroutine shell_constant(self, jacobian)
     class(shell_foil_type), intent(in) :: self
     Mat, intent(in) :: jacobian
-    PetscInt :: row(corners), column(corners)
+    PetscInt :: row(size(self%pressed, 1)), column(size(self%pressed, 1))
     PetscErrorCode :: ierr
     integer :: i
 
     do i = 1, size(self%pressed, 2)
       row = int(merge(self%first + self%pushed(:, i) - 1, -1, self%pushed(:, i) > 0), pint)
       column = int(self%pressed(:, i) - 1, pint)
-      PetscCallA(MatSetValuesLocal(jacobian, int(corners, pint), row, int(corners, pint), column, [transpose(self%weight(:, :, i))], ADD_VALUES, ierr))
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(column), pint), column, [transpose(self%weight(:, :, i))], ADD_VALUES, ierr))
+      if (.not. self%has_room) cycle
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(row), pint), row, [0.0_wp*self%weight(:, :, i)], ADD_VALUES, ierr))
     end do
     do i = 1, size(self%contacts%point)
       call add_contact(self, i, 0.0_wp, jacobian)

@@ -8,6 +8,7 @@ module gfb_shell_foil_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
+  use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_partition, only: division_type
   use gfb_part_chains, only: strip_columns, strip_kinds
@@ -51,7 +52,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
-    integer, intent(in) :: element_nodes(:, :)       !! (4, elements) its elements, local nodes
+    integer, intent(in) :: element_nodes(:, :)       !! (nodes, elements) its elements, local nodes
     type(division_type), intent(in) :: division      !! of film and bumps
     logical, intent(in) :: reduced                   !! bumps are condensed
     type(shell_foil_type), intent(out) :: foil
@@ -72,9 +73,9 @@ contains
     call add_contacts(scene, film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
-    call add_pressure(film, mesh, element_nodes, foil)
+    call add_pressure(film, mesh, element_nodes, scene%model%coupling == coupling_partitioned, foil)
     call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
-    call count_entries(foil)
+    call count_entries(foil, film)
   end subroutine create_shell_foil
 
   !> The top foil on the film's nodes.
@@ -359,16 +360,17 @@ contains
   end function has_master
 
   !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
-  subroutine count_entries(foil)
+  subroutine count_entries(foil, film)
     type(shell_foil_type), intent(inout) :: foil
-    integer, parameter :: around = 9    !! a node and its neighbours
+    type(film_mesh_type), intent(in) :: film
     integer, parameter :: per_crest = 15 !! unknowns of a contact
-    integer :: crests
+    integer :: around, crests
 
+    around = (2*film%order + 1)**2 ! a node and those of the elements around it
     foil%couplings = around
     ! Elements of the film that are wide against the bumps can hold several crests.
     crests = 4*(1 + maxval([0, count_crests(foil)]))
-    foil%row_entries = foil%row_entries + around + per_crest*crests
+    foil%row_entries = foil%row_entries + around + merge(around, 0, foil%has_room) + per_crest*crests
   end subroutine count_entries
 
   !> Crests over the element that has most of them, on this rank.

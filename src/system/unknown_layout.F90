@@ -89,18 +89,20 @@ contains
   end subroutine find_owner
 
   !> Matrix with room for what each row couples: film nodes around, foil, shaft.
-  subroutine create_coupled_matrix(layout, mesh, foil, matrix)
+  subroutine create_coupled_matrix(layout, mesh, foil, order, matrix)
     type(unknown_layout_type), intent(in) :: layout
     type(local_mesh_type), intent(in) :: mesh
     class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: order !! of the film's elements
     Mat, intent(out) :: matrix
 
-    integer, parameter :: film_row = 9 ! a node and its neighbours
     ISLocalToGlobalMapping :: map
     PetscInt, allocatable :: inside(:), outside(:)
     PetscInt :: owned
     PetscErrorCode :: ierr
+    integer :: film_row
 
+    film_row = (2*order + 1)**2 ! a node and those of the elements around it
     owned = layout%owned
     allocate (inside(owned), source=int(film_row + foil%couplings + layout%shaft, pint))
     inside(mesh%owned_unknowns + 1:mesh%owned_unknowns + foil%owned) = foil%row_entries

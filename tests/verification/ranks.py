@@ -23,6 +23,9 @@ CASES = {
     "rigid balanced": (BEARING, {"load": LOAD}),
     "ring balanced": (RING, {"load": LOAD}),
     "upwind": (BEARING, {"eccentricity": PLACE, "groups": {"model": {"film_scheme": "supg"}}}),
+    "biquadratic": (BEARING, {"load": LOAD, "tilt": (1.0e-4, -2.0e-4), "groups": {"model": {"film_order": 2}}}),
+    "biquadratic ring on a mean foundation": (RING, {"load": LOAD, "foil": "elastic_foundation", "groups": {
+        "model": {**MEAN["groups"]["model"], "film_order": 2}}}),
     "local foundation": (BEARING, {"load": LOAD, **LOCAL}),
     "mean foundation": (BEARING, {"load": LOAD, **MEAN}),
     "mean foundation on a ring, held": (RING, {"eccentricity": PLACE, **MEAN}),

@@ -23,6 +23,9 @@ def foundation(pressure):
 def check_half_width(checks, folder):
     """Half the width, with symmetry at z = 0, gives the whole bearing's answer."""
     foils = {"rigid": ("rigid", {}), "upwind": ("rigid", {"film_scheme": "supg"}),
+             "biquadratic": ("rigid", {"film_order": 2}),
+             "biquadratic, local foundation": ("elastic_foundation", {"film_order": 2, **foundation("local")}),
+             "biquadratic, mean foundation": ("elastic_foundation", {"film_order": 2, **foundation("axial_mean")}),
              "local foundation": ("elastic_foundation", foundation("local")),
              "mean foundation": ("elastic_foundation", foundation("axial_mean"))}
     for name, (foil, model) in foils.items():
