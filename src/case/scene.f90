@@ -18,7 +18,8 @@ module gfb_scene
                             analysis_strip, analysis_modes
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
                              check_rigid_position, check_strip, check_plates, &
-                             check_friction_memory, check_stability, check_restart
+                             check_friction_memory, check_stability, check_restart, &
+                             check_linear_solver
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -95,6 +96,7 @@ contains
     call check_turn_folds(keys, scene%sweep, scene%model)
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
     call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
+    call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text

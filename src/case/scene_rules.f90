@@ -8,13 +8,13 @@ module gfb_scene_rules
   use gfb_contact_case, only: contact_case_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
-                            meshes_foils, half_width_yes
+                            meshes_foils, half_width_yes, reduction_guyan
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_modes, is_bearing
-  use gfb_solver_case, only: solver_case_type
+  use gfb_solver_case, only: solver_case_type, linear_solver_direct, linear_solver_iterative
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
@@ -23,7 +23,7 @@ module gfb_scene_rules
   private
   public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
   public :: check_shell_bearing, check_friction_memory
-  public :: check_plates, check_stability, check_restart, is_symmetric
+  public :: check_plates, check_stability, check_restart, check_linear_solver, is_symmetric
 
 contains
 
@@ -111,6 +111,28 @@ contains
                          'nothing else has steps to go on from')
     end if
   end subroutine check_restart
+
+  !> Iterations are those of shells whose matrix is sparse; modes have a solver of their own.
+  subroutine check_linear_solver(keys, solver, model, analysis)
+    type(case_keys_type), intent(inout) :: keys
+    type(solver_case_type), intent(in) :: solver
+    type(model_case_type), intent(in) :: model
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    character(len=*), parameter :: name = 'linear_solver'
+
+    if (solver%linear_solver == linear_solver_direct .or. analysis == 0) return
+    if (analysis == analysis_modes) then
+      call keys%complain('solver', name, "must be 'direct' for modes")
+    else if (solver%linear_solver /= linear_solver_iterative) then
+      return
+    else if (is_bearing(analysis)) then
+      call keys%complain('solver', name, "'iterative' needs a strip: the matrix of film, foils "// &
+                         "and shaft has no definite sign; 'out_of_core' saves memory, too")
+    else if (model%reduction == reduction_guyan) then
+      call keys%complain('solver', name, "'iterative' needs reduction = 'none' in &model: rows "// &
+                         'of condensed bumps are full, and hold more than their factors')
+    end if
+  end subroutine check_linear_solver
 
   !> An elastic foundation needs its stiffness, or what it is computed from.
   subroutine check_foundation(keys, model)

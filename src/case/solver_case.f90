@@ -12,6 +12,13 @@ module gfb_solver_case
   real(wp), parameter :: touch_down_part = 1.0e-4_wp !! of the clearance, smallest film
   real(wp), parameter :: most_iterations = 1.0e6_wp
 
+  integer, parameter, public :: linear_solver_direct = 1
+  integer, parameter, public :: linear_solver_out_of_core = 2 !! direct, with factors in files
+  integer, parameter, public :: linear_solver_iterative = 3
+
+  character(len=*), parameter :: linear_words(*) = [character(len=11) :: &
+                                                    'direct', 'out_of_core', 'iterative']
+
   !> Tolerances and limits.
   type :: solver_case_type
     real(wp) :: residual_tolerance = 1.0e-10_wp !! of the scaled residual [1]
@@ -21,6 +28,8 @@ module gfb_solver_case
     real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole way [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
     logical :: stability = .false.              !! count the foils' modes that grow
+    integer :: linear_solver = linear_solver_direct
+    logical :: memory_check = .true.            !! refuse what the machine cannot hold
   end type solver_case_type
 
 contains
@@ -53,6 +62,11 @@ contains
     end if
     call keys%logical_key('stability', solver%stability, &
                           'count the modes of the foils that grow while the shaft is held')
+    call keys%choice_key('linear_solver', solver%linear_solver, linear_words, &
+                         'factors in memory, factors in files, or iterations (strips of shells '// &
+                         'that are not condensed)')
+    call keys%logical_key('memory_check', solver%memory_check, &
+                          'refuse a scene that needs more memory than the machine has')
     call keys%finish_group()
   end subroutine read_solver_case
 end module gfb_solver_case

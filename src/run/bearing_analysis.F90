@@ -4,6 +4,7 @@ module gfb_bearing_analysis
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_memory_check, only: check_memory
   use gfb_text, only: text, exact_text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity
@@ -70,6 +71,8 @@ contains
 
     converged = .false.
     call plan_bearing(scene, log, plan)
+    call check_memory(scene, plan%memory, error)
+    if (allocated(error)) return
     call log%heading('solution')
     call solve_scene(scene, plan, restart, log, bearing, newton, record, converged, error)
     if (allocated(error)) return

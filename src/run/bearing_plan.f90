@@ -17,6 +17,9 @@ module gfb_bearing_plan
   use gfb_bearing_builder, only: bearing_plan_type, foundation_stiffness
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps
+  use gfb_solver_case, only: linear_solver_out_of_core
+  use gfb_memory_estimate, only: film_memory, bearing_memory
+  use gfb_memory_check, only: show_memory
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -26,10 +29,6 @@ module gfb_bearing_plan
   !> above it both have the same error in the force, but Galerkin misses the smallest pressure by
   !> percents.
   real(wp), parameter :: galerkin_limit = 2.0_wp
-  ! Memory of foils measured with MUMPS on the bearing of [Gu2020].
-  real(wp), parameter :: bytes_an_unknown = 6.0e3_wp  !! of shells that are not condensed [B]
-  real(wp), parameter :: bytes_an_entry = 100.0_wp    !! of condensed bumps' rows [B]
-  real(wp), parameter :: bytes_a_film_node = 4.0e3_wp !! measured with MUMPS on film meshes [B]
 
 contains
 
@@ -60,9 +59,13 @@ contains
     nodes = (plan%order*plan%circumferential + 1)*solved_rows(plan)
     call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)//trim(merge( &
                   ' biquadratic', '            ', plan%order == film_order_biquadratic))// &
-                  ' elements over the whole pad, '//text(nodes)//' nodes solved, about '// &
-                  text(real(nodes, wp)*bytes_a_film_node*1.0e-6_wp, 3)//' MB')
+                  ' elements over the whole pad, '//text(nodes)//' nodes solved')
+    plan%memory = film_memory(nodes)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
+    if (scene%solver%linear_solver == linear_solver_out_of_core) then
+      call log%line('linear solver: LU with factors in files, as linear_solver asks')
+    end if
+    call show_memory(plan%memory, log)
     if (scene%sweep%friction_memory) then
       call log%line('sweep: '//text(size(scene%sweep%values))// &
                     ' points, friction carries its slip along from one to the next')
@@ -78,24 +81,23 @@ contains
     rows = plan%order*merge(plan%axial/2, plan%axial, plan%half) + 1
   end function solved_rows
 
-  !> Sizes of foils of shells and the memory that the matrix and its factors take.
+  !> Sizes of foils of shells, and their memory.
   subroutine show_foil_sizes(scene, plan, nodes, log)
     type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
+    type(bearing_plan_type), intent(inout) :: plan
     integer, intent(in) :: nodes !! of the film, and of the top foil
     type(run_log_type), intent(in) :: log
     integer, parameter :: node_unknowns = 5
     integer :: rows, stations
-    real(wp) :: unknowns, row_entries, bytes
+    real(wp) :: unknowns
     logical :: reduced
 
     rows = solved_rows(plan)
     reduced = scene%model%reduction == reduction_guyan
-    call count_bumps(scene, rows, reduced, stations, unknowns, row_entries)
-    bytes = unknowns*merge(row_entries*bytes_an_entry, bytes_an_unknown, reduced)
-    bytes = bytes + real(node_unknowns*nodes, wp)*bytes_an_unknown
+    call count_bumps(scene, rows, reduced, stations, unknowns)
+    plan%memory = bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
     call log%line('foils: about '//text(nint(unknowns) + node_unknowns*nodes)// &
-                  ' unknowns before supports, about '//text(bytes*1.0e-6_wp, 2)//' MB')
+                  ' unknowns before supports')
   end subroutine show_foil_sizes
 
   !> The foil model and what it is made of.

@@ -2,6 +2,7 @@
 module gfb_branch_analysis
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
+  use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, count_quantity
@@ -68,6 +69,8 @@ contains
     searched%sweep%present = .false. ! its points are not looked at
     searched%solver%stability = .true.
     call plan_bearing(searched, log, plan)
+    call check_memory(searched, plan%memory, error)
+    if (allocated(error)) return
     call log%heading('search for equilibria')
     call search_from_starts(searched, plan, log, bearing, newton, search, error)
     if (allocated(error)) return

@@ -26,6 +26,7 @@ module gfb_divided_sweep
   use gfb_bearing_summary, only: cost_type
   use gfb_bearing_analysis, only: solve_scene, write_bearing
   use gfb_restart, only: restart_type, find_restart, drop_restart
+  use gfb_memory_check, only: check_memory
   use gfb_foil_output, only: foil_contact_arrays
   use gfb_command_line, only: command_line_type
   use gfb_group_log, only: open_group_log, close_group_log
@@ -153,6 +154,8 @@ contains
     if (size(part%sweep%values) > points) then
       call log%line('its last point here is the next group''s first, to see that both find the same')
     end if
+    call check_memory(scene, plan%memory, error)
+    if (allocated(error)) return
     call find_restart(part, line%folder, line%restart, line%words, log, restart, error)
     if (allocated(error)) return
     call log%heading('solution')

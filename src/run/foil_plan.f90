@@ -9,14 +9,14 @@ module gfb_foil_plan
   use gfb_modes_case, only: part_words, part_strip
   use gfb_bump_foil_case, only: fixed_edge_none, has_flats
   use gfb_strip_load_case, only: support_held, load_plates
+  use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
+  use gfb_memory_estimate, only: strip_memory, modes_memory
+  use gfb_memory_check, only: show_memory
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
   public :: plan_foil, count_bumps
 
-  ! Memory measured with MUMPS on strips of 50 to 200 elements over the width.
-  real(wp), parameter :: bytes_an_unknown = 3.0e3_wp !! of a full strip [B]
-  real(wp), parameter :: bytes_an_entry = 35.0_wp    !! of a condensed strip's matrix [B]
   integer, parameter :: node_unknowns = 5
 
 contains
@@ -113,27 +113,54 @@ contains
   !> Sizes of a strip and the memory they take.
   subroutine show_sizes(scene, plan, log)
     type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
+    type(foil_plan_type), intent(inout) :: plan
     type(run_log_type), intent(in) :: log
     integer :: stations, rows
-    real(wp) :: unknowns, row_entries, bytes
+    real(wp) :: unknowns, retained
 
     rows = merge(scene%mesh%axial_elements/2, scene%mesh%axial_elements, plan%half) + 1
-    call count_bumps(scene, rows, plan%reduced, stations, unknowns, row_entries)
-    bytes = unknowns*merge(row_entries*bytes_an_entry, bytes_an_unknown, plan%reduced)
+    call count_bumps(scene, rows, plan%reduced, stations, unknowns)
+    if (scene%general%analysis == analysis_strip) then
+      plan%memory = strip_memory(unknowns, stations, rows, plan%reduced, has_friction(scene), &
+                                 scene%solver%linear_solver)
+    else
+      call count_bumps(scene, rows, .true., stations, retained)
+      plan%memory = modes_memory(unknowns, retained, stations, rows)
+    end if
     call log%line('strip mesh: '//text(stations)//' x '//text(rows)//' nodes solved, about '// &
-                  text(nint(unknowns))//' unknowns before supports, about '// &
-                  text(bytes*1.0e-6_wp, 2)//' MB')
+                  text(nint(unknowns))//' unknowns before supports')
+    call show_linear_solver(scene, plan, log)
+    call show_memory(plan%memory, log)
   end subroutine show_sizes
 
-  !> Stations and unknowns of the bump foil, before supports, and the entries of a condensed row.
-  pure subroutine count_bumps(scene, rows, reduced, stations, unknowns, row_entries)
+  !> How a strip's linear systems are solved.
+  subroutine show_linear_solver(scene, plan, log)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(run_log_type), intent(in) :: log
+    character(len=:), allocatable :: words
+
+    words = 'LU, because friction makes the matrix unsymmetric'
+    if (.not. has_friction(scene)) words = 'Cholesky, because the matrix is symmetric and definite'
+    select case (scene%solver%linear_solver)
+    case (linear_solver_out_of_core)
+      words = words//'; factors in files, as linear_solver asks'
+    case (linear_solver_iterative)
+      words = 'conjugate gradients'
+      if (has_friction(scene)) words = 'GMRES'
+      words = words//' on two levels, as linear_solver asks'
+    case default ! factors in memory
+    end select
+    if (plan%memory > 0.0_wp) call log%line('linear solver: '//words)
+  end subroutine show_linear_solver
+
+  !> Stations and unknowns of the bump foil, before supports.
+  pure subroutine count_bumps(scene, rows, reduced, stations, unknowns)
     type(scene_type), intent(in) :: scene
     integer, intent(in) :: rows           !! that are solved
     logical, intent(in) :: reduced        !! bumps are condensed
     integer, intent(out) :: stations
     real(wp), intent(out) :: unknowns     !! may be more than an integer holds
-    real(wp), intent(out) :: row_entries  !! of a line, and the two beside it
     integer :: lines
 
     associate (foil => scene%bump_foil, mesh => scene%mesh)
@@ -141,6 +168,5 @@ contains
       lines = foil%bumps*merge(3, 2, has_flats(foil)) + 1
     end associate
     unknowns = real(node_unknowns*merge(lines, stations, reduced), wp)*rows
-    row_entries = real(3*node_unknowns*rows, wp)
   end subroutine count_bumps
 end module gfb_foil_plan

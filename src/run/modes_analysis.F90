@@ -4,6 +4,7 @@ module gfb_modes_analysis
   use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
@@ -60,6 +61,8 @@ contains
     integer :: i
 
     call plan_foil(scene, log, plan)
+    call check_memory(scene, plan%memory, error)
+    if (allocated(error)) return
     call log%heading('solution')
     call build_part(scene, plan, part, error)
     if (allocated(error)) return

@@ -15,6 +15,8 @@ module gfb_run_case
   use gfb_foil_builder, only: foil_plan_type
   use gfb_foil_plan, only: plan_foil
   use gfb_scene_case, only: analysis_strip, analysis_modes, is_bearing
+  use gfb_solver_case, only: linear_solver_out_of_core
+  use gfb_direct_solver, only: keep_factors_on_disk
   use gfb_bearing_analysis, only: run_bearing
   use gfb_branch_analysis, only: run_branches
   use gfb_strip_analysis, only: run_strip
@@ -97,6 +99,7 @@ contains
     call log%line(version_text())
     call log%line(scene%file//': '//scene%general%title)
     call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
+    if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     converged = .false.
     if (.not. line%branches) then
       call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)

@@ -4,6 +4,7 @@ module gfb_strip_analysis
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity
@@ -20,6 +21,7 @@ module gfb_strip_analysis
   use gfb_strip_system, only: strip_system_type, destroy_strip_system
   use gfb_strip_answer, only: strip_answer_type, strip_recorder_type, start_recorder, read_answer, &
                               destroy_recorder
+  use gfb_solver_case, only: linear_solver_iterative
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
                         destroy_newton
   use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path
@@ -69,6 +71,8 @@ contains
     converged = .false.
     plates = scene%strip_load%kind == load_plates
     call plan_foil(scene, log, plan)
+    call check_memory(scene, plan%memory, error)
+    if (allocated(error)) return
     call log%heading('solution')
     call enter_stage('set-up')
     call build_strip(scene, plan, strip, error)
@@ -76,6 +80,7 @@ contains
     if (allocated(error)) return
     call log%line('super-elements: '//text(kind_count(strip%foil%substructure))//' distinct of '// &
                   text(size(strip%foil%substructure))//', '//text(strip%unknowns)//' unknowns')
+    if (scene%solver%linear_solver == linear_solver_iterative) call strip%find_motions()
     call create_newton(newton, strip, 'strip_', newton_settings_type(scene%solver%residual_tolerance, &
                        scene%solver%step_tolerance, scene%solver%maximum_iterations), log)
     call load_and_unload(scene, restart, strip, newton, log, run, error)

@@ -8,6 +8,7 @@
 module gfb_load_step
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_petsc_session, only: any_rank
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_strip_system, only: strip_system_type
   implicit none (type)
@@ -88,14 +89,16 @@ contains
     real(wp), intent(in) :: from, to !! load factors
     type(newton_report_type) :: first
     real(wp) :: stretch
+    logical :: touches
     PetscErrorCode :: ierr
 
     call strip%set_factor(to)
+    touches = any_rank(size(strip%contacts%point) > 0)
     PetscCallA(VecCopy(path%here, strip%state, ierr))
     if (.not. abs(to) > 0.0_wp) then
       ! Without load nothing presses, so nothing rubs: the foil is at rest.
       PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
-    else if (path%answers == 0) then
+    else if (path%answers == 0 .and. touches) then
       strip%contacts%glued = .true.
       call solve_newton(newton, first)
       strip%contacts%glued = .false.

@@ -15,7 +15,8 @@ module gfb_newton
   use gfb_run_log, only: run_log_type
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: use_factors, factor_matrix
+  use gfb_direct_solver, only: use_factors, factor_matrix, factor_failure
+  use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
   use gfb_old_factors, only: old_factors_type, use_old_factors, judge_factors
   implicit none (type)
   private
@@ -58,11 +59,14 @@ module gfb_newton
     SNES, private :: snes
     Vec, private :: residual
     logical, private :: created = .false.
+    logical, private :: iterates = .false.   !! linear systems are solved by iterations
     class(nonlinear_system_type), pointer, private :: system => null()
     logical, private :: keep = .false.       !! use the present factors again
     logical, private :: ready = .false.      !! they belong to an answer, and no solve has begun since
     integer, private :: filled = 0           !! times that the matrix had been filled then
     type(old_factors_type), private :: old   !! what GMRES has cost with the present factors
+    type(coarse_level_type), private :: level !! of an iterative solver
+    character(len=:), allocatable, private :: unsolved !! why a linear system was not, in words
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
@@ -107,9 +111,14 @@ contains
     PetscCallA(SNESLineSearchSetType(search, SNESLINESEARCHSHELL, ierr))
     PetscCallA(SNESLineSearchShellSetUserFunc(search, search_line, newton, ierr))
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
-    call use_factors(linear, prefix, system%symmetric, system%dense_rows)
+    newton%iterates = system%has_motions
+    if (newton%iterates) then
+      call use_multigrid(linear, prefix, system%symmetric, system%motions)
+    else
+      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite)
+    end if
     if (system%slow_change) then
-      call use_old_factors(linear)
+      if (.not. newton%iterates) call use_old_factors(linear)
       PetscCallA(SNESSetMaxLinearSolveFailures(newton%snes, huge(1_pint), ierr))
     end if
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
@@ -130,6 +139,7 @@ contains
     newton%keep = newton%ready .and. newton%filled == newton%system%times_filled
     newton%ready = .false.
     newton%impossible = .false.
+    newton%unsolved = ''
     newton%step = huge(1.0_wp)
     newton%step_before = huge(1.0_wp)
     newton%length = 1.0_wp
@@ -206,12 +216,14 @@ contains
 
     if (reason > 0) then
       words = 'converged'
+    else if (newton%unsolved /= '') then
+      words = newton%unsolved
     else if (newton%impossible) then
       words = 'every trial along the step closed the gap or emptied the film'
     else if (reason == int(GFB_REASON(SNES_DIVERGED_FUNCTION_DOMAIN))) then
       words = 'the gap or the pressure was not positive at the start'
     else if (reason == int(GFB_REASON(SNES_DIVERGED_LINEAR_SOLVE))) then
-      words = 'the matrix is singular'
+      words = newton_linear_failure(newton)
     else if (reason == int(GFB_REASON(SNES_DIVERGED_MAX_IT))) then
       words = 'no convergence in '//text(newton%settings%maximum_iterations)//' iterations'
     else if (reason == int(GFB_REASON(SNES_DIVERGED_LINE_SEARCH)) .or. &
@@ -221,6 +233,18 @@ contains
       words = 'SNES stopped with reason '//text(reason)
     end if
   end function reason_in_words
+
+  !> Why PETSc gave up a linear system, in words.
+  function newton_linear_failure(newton) result(words)
+    type(newton_type), intent(in) :: newton
+    character(len=:), allocatable :: words
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    words = factor_failure(linear)
+    if (words == '') words = 'the matrix is singular'
+  end function newton_linear_failure
 
   !> SNES callback. A state that cannot be evaluated is a domain error, so that the line search
   !> shortens the step; it is not a PETSc error.
@@ -253,8 +277,8 @@ contains
     call newton%system%begin_step()
     if (newton%system%slow_change) then
       ! To PETSc -2 is: new factors now, -1: none until told.
-      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%old%outdated), ierr))
-      newton%fresh = newton%old%outdated
+      newton%fresh = merge(newton%level%outdated, newton%old%outdated, newton%iterates)
+      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, newton%fresh), ierr))
       if (newton%fresh) newton%factorizations = newton%factorizations + 1
     else
       newton%fresh = .not. newton%keep
@@ -297,12 +321,15 @@ contains
     newton%impossible = .true.
     if (newton%system%slow_change) then
       PetscCall(SNESGetKSP(snes, linear, ierr))
-      call judge_factors(newton%old, linear, newton%fresh, solved, ierr)
+      call judge_linear(newton, linear, f, y, trial, solved, ierr)
       CHKERRQ(ierr)
       if (.not. solved) then ! again with new factors
         newton%length = 0.0_wp
         newton%impossible = .false.
         PetscCall(SNESLineSearchComputeNorms(search, ierr))
+        if (newton%unsolved /= '') then
+          PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
+        end if
         return
       end if
     end if
@@ -338,6 +365,27 @@ contains
     call choose_factors(newton)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine search_line
+
+  !> Whether a linear system was solved; says why where new factors could not do it.
+  subroutine judge_linear(newton, linear, right, solution, work, solved, ierr)
+    type(newton_type), intent(inout) :: newton
+    KSP, intent(in) :: linear
+    Vec, intent(in) :: right, solution
+    Vec, intent(in) :: work !! overwritten
+    logical, intent(out) :: solved
+    PetscErrorCode, intent(out) :: ierr
+
+    if (newton%iterates) then
+      call judge_iterations(newton%level, linear, newton%system%jacobian, right, solution, work, newton%fresh, solved, ierr)
+      CHKERRQ(ierr)
+      if (newton%fresh .and. .not. solved) newton%unsolved = "the linear iterations did not converge: linear_solver = 'direct' needs none"
+    else
+      call judge_factors(newton%old, linear, newton%fresh, solved, ierr)
+      CHKERRQ(ierr)
+      newton%unsolved = factor_failure(linear)
+      solved = solved .and. newton%unsolved == ''
+    end if
+  end subroutine judge_linear
 
   !> Shortens a step along which contacts change their state, where the forces on the structure turn
   !> against it: to where they do little work along it. Without friction and film that is a search

@@ -41,6 +41,7 @@ module gfb_bearing_builder
     logical :: floats = .false.    !! the shaft's position is unknown
     logical :: may_coarsen = .true. !! coarser meshes may find the way
     integer :: order = 1           !! of film elements: bilinear, biquadratic
+    real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
   end type bearing_plan_type
 
 contains

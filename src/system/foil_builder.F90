@@ -31,6 +31,7 @@ module gfb_foil_builder
     logical :: half = .false.    !! half the width is solved
     logical :: reduced = .false. !! substructures are condensed
     logical :: pinned = .false.  !! nothing but one node keeps a strip from gliding
+    real(wp) :: memory = 0.0_wp  !! that the equations take, about; 0 where it is not known [B]
   end type foil_plan_type
 
 contains

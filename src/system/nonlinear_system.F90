@@ -12,6 +12,9 @@ module gfb_nonlinear_system
     Mat :: jacobian !! df/dx, scaled; owned by the system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
     logical :: symmetric = .false.  !! the matrix is, at every state
+    logical :: definite = .false.   !! it is positive definite too, and says so to PETSc
+    Mat :: motions  !! coarse space of an iterative solver, (unknowns, motions); owned by the system
+    logical :: has_motions = .false. !! there is one
     logical :: slow_change = .false. !! matrices differ in few entries: old factors precondition well
     integer :: times_filled = 0     !! the matrix, by whomever
     logical :: settled = .true.     !! no contact is linearised away from where it is

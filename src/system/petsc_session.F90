@@ -9,7 +9,7 @@ module gfb_petsc_session
   use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
-  public :: start_petsc, stop_petsc, this_rank, rank_count, petsc_version_text, wall_time, &
+  public :: start_petsc, stop_petsc, this_rank, rank_count, ranks_on_node, petsc_version_text, wall_time, &
             sum_over_ranks, largest_over_ranks, any_rank, share_failure, fetch_entries
 
 contains
@@ -46,6 +46,19 @@ contains
     PetscErrorCode :: ierr
     call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
   end function rank_count
+
+  !> Ranks that share the memory of a machine, on the machine with most of them.
+  function ranks_on_node() result(ranks)
+    integer :: ranks
+    GFB_COMM :: node
+    integer :: here
+    PetscErrorCode :: ierr
+
+    call MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, node, ierr)
+    call MPI_Comm_size(node, here, ierr)
+    call MPI_Comm_free(node, ierr)
+    ranks = nint(maxval(largest_over_ranks([real(here, wp)])))
+  end function ranks_on_node
 
   !> Versions of PETSc and SLEPc.
   function petsc_version_text() result(words)

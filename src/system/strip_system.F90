@@ -13,6 +13,7 @@ module gfb_strip_system
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_local_exchange, only: local_exchange_type, create_exchange
+  use gfb_rigid_modes, only: create_rigid_modes
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
@@ -49,6 +50,7 @@ module gfb_strip_system
   contains
     procedure :: evaluate
     procedure :: linearise
+    procedure :: find_motions
     procedure :: settle
     procedure :: begin_step
     procedure :: virtual_work
@@ -86,6 +88,7 @@ contains
     call strip%exchange%get(strip%unit, strip%local_unit)
     call create_matrices(strip, owned)
     strip%symmetric = all(strip%contacts%law%friction <= 0.0_wp)
+    strip%definite = strip%symmetric
     strip%dense_rows = strip%plate == plate_forced
     strip%slow_change = .true. ! contacts that change their state
     strip%created = .true.
@@ -239,7 +242,18 @@ contains
     end do
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    if (self%definite) then ! each assembly makes PETSc forget it
+      PetscCallA(MatSetOption(self%jacobian, MAT_SPD, PETSC_TRUE, ierr))
+    end if
   end subroutine linearise
+
+  !> Finds the motions that an iterative solver needs.
+  subroutine find_motions(self)
+    class(strip_system_type), intent(inout) :: self
+
+    call create_rigid_modes(self%foil, self%unit, self%elastic, self%motions)
+    self%has_motions = .true.
+  end subroutine find_motions
 
   !> Linearises every contact where the strip has gone.
   subroutine settle(self, state, moved)
@@ -352,6 +366,9 @@ contains
 
     if (.not. strip%created) return
     call strip%exchange%destroy()
+    if (strip%has_motions) then
+      PetscCallA(MatDestroy(strip%motions, ierr))
+    end if
     PetscCallA(MatDestroy(strip%jacobian, ierr))
     PetscCallA(MatDestroy(strip%elastic, ierr))
     PetscCallA(VecDestroy(strip%work, ierr))

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Iterations and factors in files against factors in memory; what iterations, memory and machine cannot do is said;
+estimates of memory against peaks."""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from contact_strips import SMALL, pressed, squeezed
+from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summary_difference
+from strips import fields, solve
+
+FACTOR = 1.5  # between estimate and peak, as the log states it
+HELD = {"support": "held", "pressure": 0.2e6, "steps_up": 1}
+FULL = {"reduction": "none"}
+UNIT = {"MB": 1.0e6, "GB": 1.0e9}
+
+
+def check_same(checks, folder):
+    """The three solvers have one answer: symmetric, unilateral, with friction, with a plate's full row, on two ranks."""
+
+    def held(name, **groups):
+        return solve(folder, name, strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), **groups)
+
+    def resting(name, **groups):
+        return pressed(folder, name, mesh=SMALL, model=dict(FULL), strip_load={"pressure": 0.2e6, "steps_up": 2}, **groups)
+
+    def rubbing(name, **groups):
+        return pressed(folder, name, top=0.1, sleeve=0.1, mesh=SMALL, model=dict(FULL),
+                       strip_load={"pressure": 0.2e6, "steps_up": 2}, **groups)
+
+    def forced(name, **groups):
+        return squeezed(folder, name, steps=2, down=0, mesh=SMALL, model=dict(FULL), **groups)
+
+    for words, make in (("held", held), ("resting on the sleeve", resting), ("with friction", rubbing),
+                        ("forced plate", forced)):
+        base = make("direct")
+        for solver in ("iterative", "out_of_core"):
+            other = make(solver, solver={"linear_solver": solver})
+            checks.below(f"{words}, {solver}: summary", summary_difference(other, base)[0], 1.0e-9)
+            checks.below(f"{words}, {solver}: displacement",
+                         largest_difference(fields(other)["displacement"], fields(base)["displacement"]), 1.0e-9)
+    two = held("ranks", solver={"linear_solver": "iterative"}, ranks=2)
+    checks.below("held, iterative, 2 ranks: summary", summary_difference(two, held("direct"))[0], 1.0e-9)
+
+
+def run_with(path, folder, *petsc):
+    """Status and log of a case with options of PETSc's."""
+    done = subprocess.run([GFB, "--quiet", "--output", str(folder), str(path), "--petsc", *petsc],
+                          capture_output=True, text=True, timeout=SECONDS, check=False)
+    return done.returncode, done.stdout
+
+
+def iterations(path, folder):
+    """Iterations of each linear solve of a case."""
+    _, log = run_with(path, folder, "-strip_ksp_converged_reason")
+    return [int(number) for number in re.findall(r"iterations ([0-9]+)", log)]
+
+
+def check_growth(checks, folder):
+    """Twice as fine a mesh does not need more iterations."""
+    counts = []
+    for name, arc, flat, axial in (("coarse", 8, 2, 48), ("fine", 16, 4, 96)):
+        solve(folder, name, strip_load=dict(HELD), model=dict(FULL), solver={"linear_solver": "iterative"},
+              mesh={"arc_elements": arc, "flat_elements": flat, "axial_elements": axial})
+        counts.append(iterations(pathlib.Path(folder)/f"{name}.nml", folder))
+    checks.that(f"iterations {counts[0]}, on half the element size {counts[1]}",
+                counts[0] and counts[1] and max(counts[1]) <= 1.2*max(counts[0]))
+
+
+def check_failures(checks, folder):
+    """Iterations that do not converge, and factors that do not fit, are sentences and no answers."""
+    for solver, words, petsc in (("iterative", "the linear iterations did not converge", ("-strip_ksp_max_it", "2")),
+                                 ("direct", "MUMPS ran out of memory", ("-strip_mat_mumps_icntl_23", "1"))):
+        solve(folder, "failing", strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), solver={"linear_solver": solver})
+        for file in pathlib.Path(folder).glob("failing.*"):
+            if file.suffix != ".nml":
+                file.unlink()
+        status, log = run_with(pathlib.Path(folder)/"failing.nml", folder, *petsc)
+        checks.that(f"{solver}: status 2 and '{words}'", status == 2 and words in log)
+        checks.that(f"{solver}: no answer is written", not (pathlib.Path(folder)/"failing.summary").exists())
+
+
+def estimate(path):
+    """What `--check` says of a case's memory [B]."""
+    done = subprocess.run([GFB, "--check", str(path)], capture_output=True, text=True, timeout=SECONDS, check=True)
+    found = re.search(r"memory: about ([0-9.e+]+) (MB|GB) in all", done.stdout)
+    return float(found[1])*UNIT[found[2]]
+
+
+def check_estimates(checks, folder):
+    """Estimates and peaks of strips and bearings differ by no more than the stated factor."""
+    middle = {"arc_elements": 24, "flat_elements": 6, "axial_elements": 80}
+    answers = {}
+    for solver in ("direct", "out_of_core", "iterative"):
+        answers[f"strip, small, {solver}"] = solve(folder, f"small_{solver}", mesh=SMALL, model=dict(FULL),
+                                                   strip_load=dict(HELD), solver={"linear_solver": solver})
+        answers[f"strip, {solver}"] = solve(folder, f"strip_{solver}", mesh=middle, model=dict(FULL),
+                                            strip_load=dict(HELD), solver={"linear_solver": solver})
+    answers["strip, condensed"] = solve(folder, "condensed", mesh=middle, strip_load=dict(HELD))
+    answers["strip, full, friction"] = pressed(folder, "friction", top=0.1, sleeve=0.1, mesh=middle, model=dict(FULL),
+                                               strip_load={"pressure": 0.2e6, "steps_up": 1})
+    answers["rigid bearing"] = run(folder, "rigid", Bearing(), mesh=(600, 100), eccentricity=(0.5e-5, 0.2e-5),
+                                   number=1.0)
+    for words, answer in answers.items():
+        ratio = estimate(answer.stem.with_suffix(".nml"))/answer["peak_memory"]
+        checks.within(f"estimate over peak, {words}, {answer['peak_memory']/1.0e6:.0f} MB", ratio, 1.0/FACTOR, FACTOR)
+
+
+def check_machine(checks, folder):
+    """A scene that no machine holds is refused before it is begun; `--check` prints what it needs."""
+    keys = {"arc_elements": 1000, "flat_elements": 200, "axial_elements": 4000}
+    answer = solve(folder, "huge", status=1, mesh=keys, model=dict(FULL), strip_load=dict(HELD))
+    checks.that("a strip of 240 million unknowns: a sentence with its memory and what helps",
+                re.search(r"needs about [0-9.]+(e[0-9]+)? GB of memory .* linear_solver = 'iterative'", answer.complaint))
+    path = pathlib.Path(folder)/"huge.nml"
+    checks.that("--check: more than 200 GB", estimate(path) > 2.0e11)
+    checks.that("nothing is written", [file.name for file in pathlib.Path(folder).glob("huge.*")] == ["huge.nml"])
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_same(checks, folder)
+        check_growth(checks, folder)
+        check_failures(checks, folder)
+        check_estimates(checks, folder)
+        check_machine(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
