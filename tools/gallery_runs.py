@@ -40,7 +40,7 @@ class Result:
     def reason(self):
         """Why there is no answer, in gfb's words."""
         found = REASON.search(self.said)
-        return found[0].replace("\n", "; ") if found else self.said.strip().splitlines()[-1]
+        return found[0].replace("\n", "; ") if found else "gfb found no answer"
 
     @functools.cached_property
     def summary(self):
