@@ -8,6 +8,11 @@
 #define GFB_VecRestoreArrayRead VecRestoreArrayReadF90
 #define GFB_MatDenseGetArray MatDenseGetArrayF90
 #define GFB_MatDenseRestoreArray MatDenseRestoreArrayF90
+#define PETSC_NULL_INTEGER_ARRAY PETSC_NULL_INTEGER
+#define PETSC_NULL_SCALAR_ARRAY PETSC_NULL_SCALAR
+#define PETSC_NULL_INTEGER_POINTER PETSC_NULL_INTEGER
+#define PETSC_NULL_SCALAR_POINTER PETSC_NULL_SCALAR
+#define SNESLineSearchShellSetApply SNESLineSearchShellSetUserFunc
 #define GFB_COMM MPI_Comm
 #define GFB_REASON(r) r
 #else

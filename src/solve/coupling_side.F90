@@ -92,7 +92,7 @@ contains
     PetscCallA(VecDuplicate(side%state, side%held, ierr))
     PetscCallA(VecDuplicate(side%state, side%moved, ierr))
     PetscCallA(VecGetLocalSize(side%state, unknowns, ierr))
-    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, behind - first, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER, one, PETSC_NULL_INTEGER, side%yielding, ierr))
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, behind - first, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, one, PETSC_NULL_INTEGER_ARRAY, side%yielding, ierr))
     PetscCallA(MatCreateSubMatrix(side%bearing%jacobian, side%part, side%film_part, MAT_INITIAL_MATRIX, side%felt, ierr))
   end subroutine create_yielding
 

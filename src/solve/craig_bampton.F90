@@ -124,7 +124,7 @@ contains
     PetscScalar, pointer :: values(:, :)
     PetscErrorCode :: ierr
 
-    PetscCallA(MatCreateSeqDense(PETSC_COMM_SELF, int(size(basis, 1), pint), int(size(basis, 2), pint), PETSC_NULL_SCALAR, dense, ierr))
+    PetscCallA(MatCreateSeqDense(PETSC_COMM_SELF, int(size(basis, 1), pint), int(size(basis, 2), pint), PETSC_NULL_SCALAR_ARRAY, dense, ierr))
     PetscCallA(GFB_MatDenseGetArray(dense, values, ierr))
     values = basis
     PetscCallA(GFB_MatDenseRestoreArray(dense, values, ierr))
@@ -161,8 +161,8 @@ contains
     do i = 1, size(foil%substructure)
       k = k + size(kinds(foil%substructure(i)%kind)%eigenvalue)
     end do
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER, stiffness, ierr))
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER, mass, ierr))
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER_ARRAY, stiffness, ierr))
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER_ARRAY, mass, ierr))
     do i = 1, size(foil%substructure)
       associate (piece => foil%substructure(i), kind => kinds(foil%substructure(i)%kind))
         list = [reshape(number(:, pack(piece%nodes, piece%retained)), [node_unknowns*count(piece%retained)]) - 1, &

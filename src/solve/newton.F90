@@ -109,7 +109,7 @@ contains
     PetscCallA(SNESSetConvergenceTest(newton%snes, test_convergence, newton, PETSC_NULL_FUNCTION, ierr))
     PetscCallA(SNESGetLineSearch(newton%snes, search, ierr))
     PetscCallA(SNESLineSearchSetType(search, SNESLINESEARCHSHELL, ierr))
-    PetscCallA(SNESLineSearchShellSetUserFunc(search, search_line, newton, ierr))
+    PetscCallA(SNESLineSearchShellSetApply(search, search_line, newton, ierr))
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     newton%iterates = system%has_motions
     if (newton%iterates) then

@@ -12,6 +12,7 @@ module gfb_path_system
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_matrix_rows, only: copy_row, row_length
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
@@ -96,16 +97,14 @@ contains
   subroutine create_bordered_matrix(path, owned)
     type(path_system_type), intent(inout) :: path
     PetscInt, intent(in) :: owned !! with lambda
-    PetscInt :: first, last, row, entries
+    PetscInt :: first, last, row
     PetscInt, allocatable :: room(:)
     PetscErrorCode :: ierr
 
     allocate (room(owned))
     PetscCallA(MatGetOwnershipRange(path%bearing%jacobian, first, last, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(path%bearing%jacobian, row, entries, PETSC_NULL_INTEGER, PETSC_NULL_SCALAR, ierr))
-      room(row - first + 1) = entries + 1
-      PetscCallA(MatRestoreRow(path%bearing%jacobian, row, entries, PETSC_NULL_INTEGER, PETSC_NULL_SCALAR, ierr))
+      room(row - first + 1) = row_length(path%bearing%jacobian, row) + 1
     end do
     if (path%last_rank) room(owned) = path%bearing%unknowns + 1
     PetscCallA(MatCreate(PETSC_COMM_WORLD, path%jacobian, ierr))
@@ -227,9 +226,8 @@ contains
     PetscCallA(GFB_VecGetArrayRead(self%high, column, ierr))
     PetscCallA(MatGetOwnershipRange(self%bearing%jacobian, first, last, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(self%bearing%jacobian, row, entries, number, value, ierr))
+      call copy_row(self%bearing%jacobian, row, entries, number, value)
       PetscCallA(MatSetValues(self%jacobian, 1_pint, [row], entries, number, value, INSERT_VALUES, ierr))
-      PetscCallA(MatRestoreRow(self%bearing%jacobian, row, entries, number, value, ierr))
       PetscCallA(MatSetValues(self%jacobian, 1_pint, [row], 1_pint, [border], [column(row - first + 1)], INSERT_VALUES, ierr))
     end do
     PetscCallA(GFB_VecRestoreArrayRead(self%high, column, ierr))

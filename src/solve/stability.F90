@@ -183,7 +183,7 @@ contains
     PetscCallA(VecGetOwnershipRange(damping, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(damping, values, ierr))
     place = pack([(i, i=1, last - first)], values(:last - first) > 0.0_wp)
-    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, size(place, kind=pint), last - first, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER, none, PETSC_NULL_INTEGER, gather, ierr))
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, size(place, kind=pint), last - first, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, none, PETSC_NULL_INTEGER_ARRAY, gather, ierr))
     PetscCallA(MatGetOwnershipRange(gather, first_row, last_row, ierr))
     do i = 1, size(place, kind=pint)
       PetscCallA(MatSetValue(gather, first_row + i - 1, first + place(i) - 1, sqrt(values(place(i))), INSERT_VALUES, ierr))

@@ -135,8 +135,8 @@ contains
     PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
     PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER, 0_pint, PETSC_NULL_INTEGER, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
     if (foil%owned > 0) then
       ! Film and crests see the top foil as a straight line between stations, the bumps show nodes only.
       call add_beam(foil%top%mesh, section(1), .false., foil%top_number, foil%elastic)

@@ -26,6 +26,7 @@ module gfb_bearing_system
   use gfb_unknown_layout, only: unknown_layout_type, shaft_unknowns, create_layout, &
                                 create_coupled_matrix
   use gfb_local_exchange, only: local_exchange_type, create_exchange
+  use gfb_matrix_rows, only: copy_row
   implicit none (type)
   private
   public :: create_film_part, create_bearing_system, film_values
@@ -143,10 +144,9 @@ contains
 
     PetscCallA(MatGetOwnershipRange(bearing%foil%elastic, first, last, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(bearing%foil%elastic, row, entries, number, value, ierr))
+      call copy_row(bearing%foil%elastic, row, entries, number, value)
       renumbered = [(int(layout%of_foil(int(number(i)) + 1), pint), i=1, int(entries))]
       PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(layout%of_foil(int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
-      PetscCallA(MatRestoreRow(bearing%foil%elastic, row, entries, number, value, ierr))
     end do
     call bearing%foil%add_constant(bearing%jacobian)
     call make_film_room(bearing%film, bearing%foil, shaft_place(bearing), bearing%mesh%owned, bearing%jacobian)

@@ -99,7 +99,7 @@ contains
         number(component, i) = unknowns
       end do
     end do
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER, matrix, ierr))
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER_ARRAY, matrix, ierr))
     do i = 1, size(substructure%elements)
       associate (places => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
                  geometry => element_geometry(mesh, substructure%elements(i)))

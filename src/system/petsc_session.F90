@@ -16,10 +16,16 @@ contains
 
   !> Starts MPI, PETSc and SLEPc.
   subroutine start_petsc()
+    PetscBool :: given
     PetscErrorCode :: ierr
 
     call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
     if (ierr /= 0) error stop 'PETSc could not be started'
+    ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
+    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-options_left', given, ierr))
+    if (.not. given) then
+      PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, '-options_left', 'no', ierr))
+    end if
     if (storage_size(0.0_wp) /= storage_size(0.0_preal)) then
       error stop 'this PETSc was not built for double precision'
     end if

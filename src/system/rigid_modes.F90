@@ -67,8 +67,8 @@ contains
     PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
     PetscCallA(MatSetSizes(matrix, last - first, own, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(matrix, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER, 0_pint, PETSC_NULL_INTEGER, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
     PetscCallA(MatGetOwnershipRangeColumn(matrix, before, last, ierr))
     do i = 1, patches
       associate (mode => patch(i)%mode)

@@ -13,6 +13,7 @@ module gfb_shell_foil_builder
   use gfb_partition, only: division_type
   use gfb_part_chains, only: strip_columns, strip_kinds
   use gfb_mesh_dm, only: local_mesh_type, columns_window
+  use gfb_matrix_rows, only: copy_row
   use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_substructures, only: substructure_type
@@ -218,10 +219,9 @@ contains
 
     PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
+      call copy_row(structure%stiffness, row, found, column)
       inside(row - first + 1) = count(column(:found) >= first .and. column(:found) < last)
       outside(row - first + 1) = found - inside(row - first + 1)
-      PetscCallA(MatRestoreRow(structure%stiffness, row, found, column, PETSC_NULL_SCALAR, ierr))
     end do
   end subroutine count_rows
 
@@ -239,14 +239,13 @@ contains
 
     PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(structure%stiffness, row, entries, column, value, ierr))
+      call copy_row(structure%stiffness, row, entries, column, value)
       shifted = row + int(merge(ranges%bump_shift, ranges%top_shift, of_bumps), pint) - 1_pint
       if (of_bumps) then
         PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_bumps(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
       else
         PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_top(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
       end if
-      PetscCallA(MatRestoreRow(structure%stiffness, row, entries, column, value, ierr))
     end do
   end subroutine copy_rows
 

@@ -14,6 +14,7 @@ module gfb_strip_system
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_rigid_modes, only: create_rigid_modes
+  use gfb_matrix_rows, only: copy_row
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
@@ -140,10 +141,9 @@ contains
     allocate (inside(owned), outside(owned), source=0_pint)
     allocate (column(strip%foil%row_entries()), value(strip%foil%row_entries()))
     do row = first, last - 1
-      PetscCallA(MatGetRow(strip%foil%stiffness, row, entries, column, PETSC_NULL_SCALAR, ierr))
+      call copy_row(strip%foil%stiffness, row, entries, column)
       inside(row - first + 1) = count(column(:entries) >= begin .and. column(:entries) < finish)
       outside(row - first + 1) = entries - inside(row - first + 1)
-      PetscCallA(MatRestoreRow(strip%foil%stiffness, row, entries, column, PETSC_NULL_SCALAR, ierr))
     end do
     if (strip%plate == plate_forced) then ! it touches every crest
       if (last_rank()) then
@@ -160,9 +160,8 @@ contains
     PetscCallA(MatSeqAIJSetPreallocation(strip%elastic, 0_pint, inside, ierr))
     PetscCallA(MatMPIAIJSetPreallocation(strip%elastic, 0_pint, inside, 0_pint, outside, ierr))
     do row = first, last - 1
-      PetscCallA(MatGetRow(strip%foil%stiffness, row, entries, column, value, ierr))
+      call copy_row(strip%foil%stiffness, row, entries, column, value)
       PetscCallA(MatSetValues(strip%elastic, 1_pint, [row], entries, column, value, INSERT_VALUES, ierr))
-      PetscCallA(MatRestoreRow(strip%foil%stiffness, row, entries, column, value, ierr))
     end do
     PetscCallA(MatAssemblyBegin(strip%elastic, MAT_FLUSH_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(strip%elastic, MAT_FLUSH_ASSEMBLY, ierr))

@@ -100,6 +100,13 @@ expect 3 'Error: no such variable' 'a build that fails shows the error'
 expect 3 'FAILED: film.o' 'a build that fails shows nothing else'
 rm -- "$scratch/broken"
 
+# --- tools/check_petsc ---
+for wrong in '--version 3.26' '--version newest' '--jobs 0' '--folder' ''; do # its own folder has a blank here
+  # shellcheck disable=SC2086 # several words
+  call "$copy/tools/check_petsc" $wrong
+  expect 1 'tools/check_petsc:' "check_petsc refuses '$wrong'"
+done
+
 # --- tools/check: with the real findent and fortitude, where the build folder has them ---
 venv=$project/build/venv
 if [[ -x $venv/bin/fortitude ]] && command -v findent >/dev/null; then
