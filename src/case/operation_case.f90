@@ -26,10 +26,11 @@ module gfb_operation_case
 contains
 
   !> Reads the group; what it must hold depends on the analysis.
-  subroutine read_operation_case(keys, operation, analysis)
+  subroutine read_operation_case(keys, operation, analysis, may_rest)
     type(case_keys_type), intent(inout) :: keys
     type(operation_case_type), intent(out) :: operation
     integer, intent(in) :: analysis  !! 0 where it is not known
+    logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
 
     call keys%start_group('operation', required=is_bearing(analysis), &
                           optional=is_structure(analysis), &
@@ -37,9 +38,9 @@ contains
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
                        not_negative, is_bearing(analysis))
     if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &
-        .not. operation%speed_rpm > 0.0_wp) then
+        .not. (operation%speed_rpm > 0.0_wp .or. may_rest)) then
       call keys%complain('operation', 'speed_rpm', 'must be positive: a film without speed '// &
-                         'carries no load')
+                         'carries no load; &shaft_contact does')
     end if
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
                               required=analysis == analysis_equilibrium, &

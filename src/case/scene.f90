@@ -20,6 +20,8 @@ module gfb_scene
                              check_rigid_position, check_strip, check_plates, &
                              check_friction_memory, check_stability, check_restart, &
                              check_linear_solver
+  use gfb_shaft_contact_case, only: shaft_contact_case_type, read_shaft_contact_case, &
+                                    check_shaft_contact
   use gfb_solver_case, only: solver_case_type, read_solver_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
@@ -45,6 +47,7 @@ module gfb_scene
     type(bump_foil_case_type) :: bump_foil
     type(strip_load_case_type) :: strip_load
     type(contact_case_type) :: contact
+    type(shaft_contact_case_type) :: shaft_contact
     type(modes_case_type) :: modes
     type(model_case_type) :: model
     type(mesh_case_type) :: mesh
@@ -82,7 +85,10 @@ contains
     call keys%open_text(words, file)
     call read_groups(keys, scene)
     call keys%finish()
-    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis)
+    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis, &
+                     scene%shaft_contact%present)
+    call check_shaft_contact(keys, scene%shaft_contact, scene%model, scene%operation, scene%sweep, &
+                             scene%general%analysis)
     call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
@@ -134,7 +140,8 @@ contains
       call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
                              is_bearing(analysis), bearing_misplaced(analysis, part))
       call read_gas_case(keys, scene%gas, analysis)
-      call read_operation_case(keys, scene%operation, analysis)
+      call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
+      call read_operation_case(keys, scene%operation, analysis, scene%shaft_contact%present)
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
@@ -144,7 +151,7 @@ contains
                              scene%bearing%clearance, analysis, scene%model%foil)
     end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-    call read_solver_case(keys, scene%solver, scene%bearing)
+    call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
     call read_output_case(keys, scene%output)
   end subroutine read_groups
 

@@ -28,11 +28,12 @@ module gfb_scene_rules
 contains
 
   !> A sweep needs an analysis that fits to its parameter.
-  subroutine check_sweep(keys, sweep, operation, analysis)
+  subroutine check_sweep(keys, sweep, operation, analysis, may_rest)
     type(case_keys_type), intent(inout) :: keys
     type(sweep_case_type), intent(in) :: sweep
     type(operation_case_type), intent(in) :: operation
     integer, intent(in) :: analysis  !! 0 where it is not known
+    logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
     integer :: point
 
     if (.not. sweep%present .or. analysis == 0) return
@@ -54,7 +55,7 @@ contains
         call keys%complain('sweep', 'parameter', "needs analysis = 'fixed_position'")
       end if
     case (sweep_speed)
-      if (analysis /= analysis_equilibrium .or. sweep%hold_position) return
+      if (analysis /= analysis_equilibrium .or. sweep%hold_position .or. may_rest) return
       do point = 1, size(sweep%values)
         if (sweep%values(point) > 0.0_wp) cycle
         call keys%complain('sweep', 'values', 'must be positive: a film without speed carries '// &

@@ -35,10 +35,11 @@ module gfb_solver_case
 contains
 
   !> Reads the group; the touch-down gap's default is a part of the clearance.
-  subroutine read_solver_case(keys, solver, bearing)
+  subroutine read_solver_case(keys, solver, bearing, touches)
     type(case_keys_type), intent(inout) :: keys
     type(solver_case_type), intent(out) :: solver
     type(bearing_case_type), intent(in) :: bearing
+    logical, intent(in) :: touches !! solid contact carries the shaft where the film does not
 
     call keys%start_group('solver')
     call keys%real_key('residual_tolerance', solver%residual_tolerance, '1', &
@@ -52,10 +53,10 @@ contains
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
                        'load step, as a part of the whole way, below which it is given up', &
                        between(0.0_wp, 1.0_wp))
-    solver%touch_down_gap = touch_down_part*bearing%clearance
+    if (.not. touches) solver%touch_down_gap = touch_down_part*bearing%clearance
     call keys%real_key('touch_down_gap', solver%touch_down_gap, 'm', &
                        'smallest film below which an equilibrium is refused', positive, &
-                       default='1e-4 of the clearance')
+                       default='1e-4 of the clearance; none with &shaft_contact')
     if (bearing%clearance > 0.0_wp .and. solver%touch_down_gap >= bearing%clearance) then
       call keys%complain('solver', 'touch_down_gap', 'must be less than the clearance, '// &
                          text(bearing%clearance)//' m')

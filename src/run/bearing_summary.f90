@@ -32,7 +32,15 @@ contains
     real(wp), intent(in) :: clearance        !! C [m]
     real(wp), intent(in) :: force_scale      !! size of a force [N]
     type(quantity_type), allocatable :: list(:)
+    character(len=:), allocatable :: who !! presses on sleeve and shaft
+    character(len=:), allocatable :: braking
 
+    who = 'film'
+    braking = 'torque with which the film brakes the shaft'
+    if (answer%has_solid_contact) then
+      who = 'film and solid contact'
+      braking = 'torque with which film and solid contact brake the shaft'
+    end if
     list = [word_quantity('analysis', analysis, 'kind of analysis'), &
             truth_quantity('converged', converged, 'whether the answer was found'), &
             number_quantity('eccentricity_x', answer%eccentricity(1), 'm', &
@@ -46,18 +54,18 @@ contains
                               'from the load to the thinnest film, positive in +theta'))
     end if
     list = [list, &
-            number_quantity('force_x', answer%force(1), 'N', 'film force on the sleeve, x'), &
-            number_quantity('force_y', answer%force(2), 'N', 'film force on the sleeve, y'), &
+            number_quantity('force_x', answer%force(1), 'N', who//' force on the sleeve, x'), &
+            number_quantity('force_y', answer%force(2), 'N', who//' force on the sleeve, y'), &
             number_quantity('torque_x', answer%force(3), 'N m', &
-            'film torque on the shaft about x'), &
+            who//' torque on the shaft about x'), &
             number_quantity('torque_y', answer%force(4), 'N m', &
-            'film torque on the shaft about y'), &
+            who//' torque on the shaft about y'), &
             number_quantity('torque_x_without_suction', answer%force_without_suction(3), 'N m', &
                             'torque_x of the pressure above ambient'), &
             number_quantity('torque_y_without_suction', answer%force_without_suction(4), 'N m', &
                             'torque_y of the pressure above ambient'), &
             number_quantity('friction_torque', answer%friction_torque, 'N m', &
-                            'torque with which the film brakes the shaft'), &
+                            braking), &
             number_quantity('power_loss', answer%power_loss, 'W', 'friction torque times speed')]
     list = [list, &
             number_quantity('minimum_gap', answer%minimum_gap, 'm', 'smallest film thickness'), &
@@ -72,7 +80,23 @@ contains
             number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
                             'largest cell Peclet number of the film')]
     if (answer%has_foils) list = [list, foil_quantities(answer)]
+    if (answer%has_solid_contact) list = [list, solid_quantities(answer)]
   end function answer_quantities
+
+  !> What asperities of the shaft add.
+  function solid_quantities(answer) result(list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type) :: list(4)
+
+    list(1) = number_quantity('solid_contact_force_x', answer%solid_force(1), 'N', &
+                              'share of force_x that the solid contact carries')
+    list(2) = number_quantity('solid_contact_force_y', answer%solid_force(2), 'N', &
+                              'share of force_y that the solid contact carries')
+    list(3) = number_quantity('solid_contact_torque', answer%solid_torque, 'N m', &
+                              'share of friction_torque that the solid contact has')
+    list(4) = number_quantity('maximum_solid_contact_pressure', answer%maximum_solid_pressure, &
+                              'Pa', 'largest pressure of the solid contact')
+  end function solid_quantities
 
   !> What foils that are structures add.
   function foil_quantities(answer) result(list)
@@ -133,6 +157,7 @@ contains
     type(cost_type), intent(in) :: cost
     integer, intent(in) :: ranks
     character(len=*), intent(in) :: blas  !! library in use
+    character(len=4) :: who
 
     if (converged) then
       call log%heading('answer')
@@ -143,8 +168,9 @@ contains
                   '   over C '//text(answer%eccentricity(1)/clearance, 5)//', '// &
                   text(answer%eccentricity(2)/clearance, 5))
     call log%line('attitude angle   '//engineering_text(attitude_angle(answer), 'deg', degrees))
-    call log%line('film force       '//pair(answer%force(1:2), 'N', 1.0_wp))
-    call log%line('film torque      '//pair(answer%force(3:4), 'N m', &
+    who = merge('full', 'film', answer%has_solid_contact)
+    call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
+    call log%line(who//' torque      '//pair(answer%force(3:4), 'N m', &
       1.0_wp)//'   without suction '// &
                   pair(answer%force_without_suction(3:4), 'N m', 1.0_wp))
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
@@ -158,6 +184,11 @@ contains
                     lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
+    end if
+    if (answer%has_solid_contact) then
+      call log%line('solid contact    '//pair(answer%solid_force(1:2), 'N', 1.0_wp)// &
+                    ' of the force, friction torque '// &
+                    engineering_text(answer%solid_torque, 'N m', 1.0_wp))
     end if
     call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
                   '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))

@@ -38,6 +38,9 @@ contains
       if (output%deflection) then
         call add('deflection', 'm', 'of the foil, away from the shaft', bearing%foil%deflection(unknown))
       end if
+      if (bearing%contact%present) then
+        call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
+      end if
     end associate
     allocate (film%cell_field(0))
     call add_rank(bearing, film)

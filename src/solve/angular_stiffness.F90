@@ -11,6 +11,7 @@ module gfb_angular_stiffness
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_load, only: film_forces
+  use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_shell_foil, only: shell_foil_type
   use gfb_bearing_system, only: bearing_system_type
@@ -53,7 +54,7 @@ contains
       call differentiate(bearing, axis, change)
       PetscCallA(KSPSolve(linear, change, response, ierr))
       PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
-      if (GFB_REASON(reason) > 0) stiffness(:, axis) = -torque_of(bearing, response)
+      if (GFB_REASON(reason) > 0) stiffness(:, axis) = -torque_of(bearing, axis, response)
     end do
     PetscCallA(VecDestroy(response, ierr))
     PetscCallA(VecDestroy(change, ierr))
@@ -120,15 +121,17 @@ contains
     PetscCallA(VecDestroy(residual, ierr))
   end subroutine differentiate
 
-  !> Torque of the pressures in a change of the state [N m].
-  function torque_of(bearing, response) result(torque)
+  !> Torque of the pressures in a change of the state against a tilt [N m].
+  function torque_of(bearing, axis, response) result(torque)
     type(bearing_system_type), intent(inout) :: bearing !! its state is kept
+    integer, intent(in) :: axis !! of the tilt
     Vec, intent(in) :: response
     real(wp) :: torque(2)
     Vec :: state
-    real(wp) :: unknown(bearing%local_size()), force(film_forces)
+    real(wp) :: unknown(bearing%local_size()), here(bearing%local_size()), force(film_forces)
     PetscErrorCode :: ierr
 
+    call bearing%get_unknowns(here)
     PetscCallA(VecDuplicate(bearing%state, state, ierr))
     PetscCallA(VecCopy(bearing%state, state, ierr))
     PetscCallA(VecCopy(response, bearing%state, ierr))
@@ -136,8 +139,33 @@ contains
     PetscCallA(VecCopy(state, bearing%state, ierr))
     PetscCallA(VecDestroy(state, ierr))
     associate (film => bearing%film)
-      force = sum_over_ranks(film%force(film%ambient_pressure + unknown(:size(film%angle))))
+      force = sum_over_ranks(film%force(film%ambient_pressure + unknown(:size(film%angle)) &
+                                        + solid_change(bearing, axis, here, unknown)))
     end associate
     torque = force(3:4)
   end function torque_of
+
+  !> How much less the asperities press: their pressure follows the gap, that is foil, shaft and tilt.
+  function solid_change(bearing, axis, here, change) result(pressure)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: axis          !! of the tilt
+    real(wp), intent(in) :: here(:)      !! local unknowns, in SI
+    real(wp), intent(in) :: change(:)    !! of them, against the tilt [per radian]
+    real(wp) :: pressure(size(bearing%film%angle)) !! [Pa/rad]
+    real(wp) :: gap(size(pressure))
+    integer :: node
+
+    pressure = 0.0_wp
+    if (.not. bearing%contact%present) return
+    associate (film => bearing%film, foil => bearing%foil)
+      gap = film%axial*merge(sin(film%angle), -cos(film%angle), axis == 1)
+      if (bearing%floats) then
+        gap = gap + change(bearing%first_shaft + 1)*cos(film%angle) + change(bearing%first_shaft + 2)*sin(film%angle)
+      end if
+      do node = 1, size(gap)
+        if (foil%source(node) > 0) gap(node) = gap(node) + foil%rate(node)*change(foil%source(node))
+      end do
+    end associate
+    pressure = contact_pressure_rate(bearing%contact, bearing%gap(here))*gap
+  end function solid_change
 end module gfb_angular_stiffness

@@ -146,10 +146,20 @@ contains
       call find_film_place(coarse%whole, fine%film%angle(node), fine%film%axial(node), around(:, node), share(:, node))
     end do
     unknown = 0.0_wp
-    unknown(:size(share, 2)) = sum(share*reshape(film_values(coarse, rough(:size(coarse%mesh%mesh_node)), [around]), shape(share)), 1)
+    unknown(:size(share, 2)) = taken(rough(:size(coarse%mesh%mesh_node)) + coarse%solid_pressure(rough))
     call fine%foil%estimate(unknown)
+    unknown(:size(share, 2)) = taken(rough(:size(coarse%mesh%mesh_node)))
     if (fine%floats) unknown(fine%first_shaft + 1:) = coarse%eccentricity()
     call fine%set_unknowns(unknown)
+
+  contains
+
+    !> A field of the coarse film at the fine one's nodes.
+    function taken(value) result(there)
+      real(wp), intent(in) :: value(:)
+      real(wp) :: there(size(share, 2))
+      there = sum(share*reshape(film_values(coarse, value, [around]), shape(share)), 1)
+    end function taken
   end subroutine refine
 
   !> Whether half the elements each way still make a mesh.

@@ -168,7 +168,7 @@ contains
     real(wp) :: gap
 
     gap = bearing%smallest_gap()
-    report%touched = gap < closing_gap*bearing%film%clearance
+    report%touched = gap < closing_gap*bearing%film%clearance .and. .not. bearing%contact%present
     if (report%touched) then
       report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
         ' um, beyond that '//report%reason

@@ -2,10 +2,11 @@
 !> Where a search for an answer begins: a held shaft, brought from rest to speed, and let go.
 module gfb_start_position
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: largest_over_ranks
+  use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: film_forces
+  use gfb_solid_contact, only: contact_pressure
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
@@ -137,9 +138,44 @@ contains
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
+      if (bearing%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load) > 0.0_wp) then
+        bearing%point%eccentricity = resting_position(bearing, target)
+      end if
     end if
     unknown = 0.0_wp
     unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
     call bearing%set_unknowns(unknown)
   end subroutine guess_position
+
+  !> Where the asperities of a shaft that does not turn carry its load on a rigid sleeve: the gap that
+  !> halves, as often as it takes, between the clearance and none.
+  function resting_position(bearing, target) result(eccentricity)
+    type(bearing_system_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: target
+    real(wp) :: eccentricity(2)
+    integer, parameter :: halvings = 40
+    type(operating_point_type) :: there
+    real(wp) :: undeflected(size(bearing%film%angle)), gap(size(undeflected)), direction(2)
+    real(wp) :: near, far, way, force(film_forces), smallest(1)
+    integer :: i
+
+    there = target
+    undeflected = 0.0_wp
+    direction = -target%load/norm2(target%load)
+    near = 0.0_wp
+    far = bearing%film%clearance
+    do i = 1, halvings
+      way = 0.5_wp*(near + far)
+      there%eccentricity = way*direction
+      gap = bearing%film%gap(there, undeflected)
+      smallest = largest_over_ranks([-minval(gap)])
+      force = sum_over_ranks(bearing%film%force(bearing%film%ambient_pressure + contact_pressure(bearing%contact, gap)))
+      if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load) < norm2(target%load)**2) then
+        near = way
+      else
+        far = way
+      end if
+    end do
+    eccentricity = near*direction
+  end function resting_position
 end module gfb_start_position

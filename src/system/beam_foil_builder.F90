@@ -69,7 +69,8 @@ contains
     call create_stiffness(scene, foil)
     call place_unknowns(foil, merge(0, unknowns, mine), &
                         [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
-    call add_pressure(film, mesh, element_nodes, scene%model%coupling == coupling_partitioned, foil)
+    call add_pressure(film, mesh, element_nodes, &
+                      scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
     call size_unknowns(scene, film, turning(foil), foil)
     foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
     call count_entries(foil, film)

@@ -14,7 +14,8 @@ module gfb_bearing_answer
   !> Numbers of one state.
   type, public :: bearing_answer_type
     real(wp) :: eccentricity(2) = 0.0_wp           !! [m]
-    real(wp) :: force(film_forces) = 0.0_wp        !! F_x, F_y on the sleeve, M_x, M_y on the shaft
+    real(wp) :: force(film_forces) = 0.0_wp        !! F_x, F_y on the sleeve, M_x, M_y on the shaft;
+    !! with the asperities'
     real(wp) :: force_without_suction(film_forces) = 0.0_wp !! the same, p > p_a only
     real(wp) :: friction_torque = 0.0_wp           !! that brakes the shaft [N m]
     real(wp) :: power_loss = 0.0_wp                !! [W]
@@ -28,6 +29,10 @@ module gfb_bearing_answer
     real(wp) :: leading_edge_lift(2) = 0.0_wp  !! towards the shaft, at z = 0 and at the ends [m]
     real(wp) :: trailing_edge_lift(2) = 0.0_wp     !! the same of the other edge [m]
     real(wp) :: lifted_length = 0.0_wp         !! crest length without contact over all of it [1]
+    logical :: has_solid_contact = .false.         !! the shaft's asperities may touch
+    real(wp) :: solid_force(film_forces) = 0.0_wp  !! their share of `force`
+    real(wp) :: solid_torque = 0.0_wp              !! with which they brake the shaft [N m]
+    real(wp) :: maximum_solid_pressure = 0.0_wp    !! [Pa]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
   end type bearing_answer_type
 
@@ -58,10 +63,11 @@ contains
       largest = largest_over_ranks(largest)
     end associate
     if (bearing%foil%has_elastic) call read_lifts(bearing, unknown, answer)
+    if (bearing%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
-    answer%force = total(1:film_forces)
-    answer%force_without_suction = total(film_forces + 1:2*film_forces)
-    answer%friction_torque = total(size(total))*bearing%film%radius
+    answer%force = total(1:film_forces) + answer%solid_force
+    answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
+    answer%friction_torque = total(size(total))*bearing%film%radius + answer%solid_torque
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
     answer%minimum_gap_midplane = -largest(2)
@@ -71,6 +77,26 @@ contains
     answer%maximum_peclet = largest(6)
     answer%rough_peclet = largest(7)
   end function bearing_answer
+
+  !> What the shaft's asperities carry, and how they rub: the shaft turns, or begins to.
+  subroutine read_solid_contact(bearing, unknown, answer)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(bearing_answer_type), intent(inout) :: answer
+    real(wp) :: pressure(size(bearing%mesh%mesh_node)), sums(film_forces + 1), largest(1)
+
+    pressure = bearing%solid_pressure(unknown)
+    associate (film => bearing%film)
+      sums(:film_forces) = film%force(film%ambient_pressure + pressure)
+      sums(film_forces + 1) = film%integral(pressure)
+      sums = sum_over_ranks(sums)
+      largest = largest_over_ranks([maxval(pressure)])
+      answer%has_solid_contact = .true.
+      answer%solid_force = sums(:film_forces)
+      answer%solid_torque = bearing%contact%friction*film%radius*sums(film_forces + 1)
+      answer%maximum_solid_pressure = largest(1)
+    end associate
+  end subroutine read_solid_contact
 
   !> How far the edges of the top foil stand off the bumps, and how much of the crests touches
   !> nothing.

@@ -16,6 +16,7 @@ module gfb_bearing_builder
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
+  use gfb_solid_contact, only: solid_contact_type
   use gfb_shell_foil, only: shell_foil_type
   use gfb_shell_foil_builder, only: create_shell_foil
   use gfb_beam_foil, only: beam_foil_type
@@ -65,6 +66,9 @@ contains
                           scene%gas%viscosity, plan%upwind, bearing, error, division%film)
     if (allocated(error)) return
     bearing%point = operating_point(scene%operation)
+    associate (contact => scene%shaft_contact)
+      bearing%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
+    end associate
     call create_foil(scene, bearing, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)

@@ -13,6 +13,8 @@ module gfb_bearing_system
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
   use gfb_gas_film, only: gas_film_type, create_gas_film
+  use gfb_solid_contact, only: solid_contact_type, contact_pressure
+  use gfb_solid_rows, only: add_solid_rows
   use gfb_film_matrix, only: no_shaft, make_film_room, add_film_rows, add_shaft_rows
   use gfb_film_load, only: film_forces
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank, rank_count, fetch_entries
@@ -39,6 +41,7 @@ module gfb_bearing_system
     type(film_mesh_type) :: whole          !! the film's mesh
     type(local_mesh_type) :: mesh          !! this rank's part of it
     type(gas_film_type) :: film
+    type(solid_contact_type) :: contact    !! of the shaft with the foil
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
     integer :: unknowns = 0                !! of the bearing, on all ranks
@@ -63,6 +66,7 @@ module gfb_bearing_system
     procedure :: add_up => add_up_unknowns
     procedure :: local_size
     procedure :: gap => bearing_gap
+    procedure :: solid_pressure
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
     procedure :: smallest_gap
@@ -119,6 +123,9 @@ contains
     bearing%floats = floats
     bearing%dense_rows = floats
     bearing%first_shaft = size(bearing%mesh%mesh_node) + bearing%foil%local_unknowns()
+    if (bearing%contact%present .and. floats) then ! the shaft presses on the foil
+      bearing%foil%row_entries = bearing%foil%row_entries + shaft_unknowns
+    end if
     call create_layout(bearing%mesh, bearing%foil, floats, layout)
     bearing%unknowns = layout%unknowns
     bearing%last_rank = layout%last_rank
@@ -154,6 +161,8 @@ contains
       call add_shaft_rows(bearing%film, bearing%first_shaft, bearing%last_rank, hold_stiffness(bearing), 0.0_wp, &
                           bearing%jacobian)
     end if
+    call add_solid_rows(bearing%contact, bearing%film, bearing%foil, shaft_place(bearing), .true., &
+                        spread(bearing%film%clearance, 1, size(bearing%film%angle)), 0.0_wp, bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
@@ -224,6 +233,7 @@ contains
     logical, intent(out) :: valid
 
     real(wp) :: unknown(self%local_size()), value(self%local_size())
+    real(wp) :: loading(self%local_size()) ! the unknowns, with all pressure that loads foil and shaft
     real(wp) :: gap(size(self%mesh%mesh_node)), force(film_forces)
     type(operating_point_type) :: point
     integer :: nodes, shaft
@@ -249,12 +259,14 @@ contains
       end where
       PetscCallA(PetscLogEventEnd(self%events%film, ierr))
       PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
-      call self%foil%add_residual(unknown, value)
+      loading = unknown
+      if (self%contact%present) loading(:nodes) = loading(:nodes) + contact_pressure(self%contact, gap)
+      call self%foil%add_residual(loading, value)
       call self%edge%add_pull(point%edge_pull, value)
       call self%edge%add_tension(point%edge_tension, unknown, value)
       PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
       if (self%floats .and. .not. self%held) then
-        force = self%film%force(unknown(:nodes))
+        force = self%film%force(loading(:nodes))
         value(shaft + 1:) = force(1:2)
       end if
       if (self%floats .and. self%last_rank) then
@@ -295,6 +307,7 @@ contains
     if (self%floats) then
       call add_shaft_rows(self%film, self%first_shaft, self%last_rank, hold_stiffness(self), 1.0_wp, self%jacobian)
     end if
+    call add_solid_rows(self%contact, self%film, self%foil, shaft_place(self), self%held, gap, 1.0_wp, self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%film, ierr))
     PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
     call self%foil%add_jacobian(unknown, self%jacobian)
@@ -385,6 +398,14 @@ contains
     gap = self%film%gap(self%position(unknown), self%foil%deflection(unknown))
   end function bearing_gap
 
+  !> Pressure of the shaft's asperities at this rank's nodes [Pa].
+  function solid_pressure(self, unknown) result(pressure)
+    class(bearing_system_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: pressure(size(self%mesh%mesh_node))
+    pressure = contact_pressure(self%contact, self%gap(unknown))
+  end function solid_pressure
+
   !> The operating point with the eccentricity that is found or held.
   pure function bearing_position(self, unknown) result(point)
     class(bearing_system_type), intent(in) :: self
@@ -418,14 +439,14 @@ contains
     gap = -depth(1)
   end function smallest_gap
 
-  !> Force and torque of the film at the present state, over all ranks [N], [N m].
+  !> Force and torque of film and asperities at the present state, over all ranks [N], [N m].
   function reaction(self) result(force)
     class(bearing_system_type), intent(in) :: self
     real(wp) :: force(film_forces)
     real(wp) :: unknown(self%local_size())
 
     call self%get_unknowns(unknown)
-    force = sum_over_ranks(self%film%force(unknown(:size(self%mesh%mesh_node))))
+    force = sum_over_ranks(self%film%force(unknown(:size(self%mesh%mesh_node)) + self%solid_pressure(unknown)))
   end function reaction
 
   !> A film field, known at each rank's nodes, at any nodes of the whole mesh.

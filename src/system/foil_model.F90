@@ -32,6 +32,7 @@ module gfb_foil_model
     procedure(add_jacobian), deferred :: add_jacobian
     procedure(estimate), deferred :: estimate
     procedure :: add_constant
+    procedure :: add_load_rates
     procedure :: settle
     procedure :: begin_step
     procedure :: set_hardness
@@ -80,6 +81,15 @@ contains
     class(foil_model_type), intent(in) :: self
     Mat, intent(in) :: jacobian
   end subroutine add_constant
+
+  !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
+  !> node that depends on up to three unknowns of the bearing. Here there are no such equations.
+  subroutine add_load_rates(self, column, slope, jacobian)
+    class(foil_model_type), intent(in) :: self
+    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by them
+    Mat, intent(in) :: jacobian
+  end subroutine add_load_rates
 
   !> Moves the contacts' places on their laws to where the foils have gone. `moved` where it has
   !> any; `settled` where each is linearised where it is. Here none.

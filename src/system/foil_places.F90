@@ -118,11 +118,11 @@ contains
   !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
   !>
   !> The pressure is that of the film's element, the displacement bilinear in each of its cells.
-  subroutine add_pressure(film, mesh, element_nodes, partitioned, foil)
+  subroutine add_pressure(film, mesh, element_nodes, yields, foil)
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh
     integer, intent(in) :: element_nodes(:, :) !! (4 or 9, elements), local nodes
-    logical, intent(in) :: partitioned         !! film and foil are solved in turns
+    logical, intent(in) :: yields !! pressures follow the foil: film and foil in turns, or asperities
     class(shell_foil_type), intent(inout) :: foil
 
     ! Integrals over a line of length one: linear function, of halves where the pressure is quadratic,
@@ -142,7 +142,7 @@ contains
       unit = quadratic(station_of, station_of)*quadratic(row_of, row_of)
     end if
     ! Pressures that yield to the foil couple its nodes; those of a cell are coupled anyway.
-    foil%has_room = partitioned .and. nodes > corners
+    foil%has_room = yields .and. nodes > corners
     foil%pressed = element_nodes
     allocate (foil%pushed(nodes, size(element_nodes, 2)))
     allocate (foil%weight(nodes, nodes, size(element_nodes, 2)))

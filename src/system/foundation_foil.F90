@@ -26,6 +26,7 @@ module gfb_foundation_foil
   contains
     procedure :: add_residual => foundation_residual
     procedure :: add_jacobian => foundation_jacobian
+    procedure :: add_load_rates => foundation_load_rates
     procedure :: estimate => foundation_estimate
   end type foundation_foil_type
 
@@ -136,6 +137,23 @@ contains
       PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, 1_pint, column, [-self%share(i)], ADD_VALUES, ierr))
     end do
   end subroutine foundation_jacobian
+
+  !> The mean of a pressure that depends on other unknowns.
+  subroutine foundation_load_rates(self, column, slope, jacobian)
+    class(foundation_foil_type), intent(in) :: self
+    integer, intent(in) :: column(:, :)
+    real(wp), intent(in) :: slope(:, :)
+    Mat, intent(in) :: jacobian
+    PetscErrorCode :: ierr
+    PetscInt :: row(1), place(size(column, 1))
+    integer :: i
+
+    do i = 1, size(self%averaged)
+      row = int(self%source(self%averaged(i)) - 1, pint)
+      place = int(column(:, self%averaged(i)), pint)
+      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, int(size(place), pint), place, [-self%share(i)*slope(:, self%averaged(i))], ADD_VALUES, ierr))
+    end do
+  end subroutine foundation_load_rates
 
   !> Deflection of the stations under the pressures as they are.
   subroutine foundation_estimate(self, unknown)

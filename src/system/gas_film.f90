@@ -40,6 +40,7 @@ module gfb_gas_film
     procedure :: force => film_node_force
     procedure :: force_without_suction
     procedure :: drag => film_drag
+    procedure :: integral => film_integral
     procedure :: peclet => film_peclet
     procedure :: midplane_gap
   end type gas_film_type
@@ -273,6 +274,22 @@ contains
       end associate
     end do
   end function film_drag
+
+  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
+  pure function film_integral(self, value) result(integral)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: value(:) !! at the nodes
+    real(wp) :: integral
+    integer :: element
+
+    integral = 0.0_wp
+    do element = 1, size(self%element_nodes, 2)
+      associate (here => value(self%element_nodes(:, element)))
+        integral = integral + self%copies*dot_product(matmul(here, self%shape), &
+                                                      self%geometry(element)%area)
+      end associate
+    end do
+  end function film_integral
 
   !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
   pure function film_peclet(self, pressure, gap, change) result(peclet)

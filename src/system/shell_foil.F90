@@ -34,6 +34,7 @@ module gfb_shell_foil
     procedure :: add_jacobian => shell_jacobian
     procedure :: estimate => shell_estimate
     procedure :: add_constant => shell_constant
+    procedure :: add_load_rates => shell_load_rates
     procedure :: settle => shell_settle
     procedure :: begin_step => shell_begin_step
     procedure :: set_hardness => shell_set_hardness
@@ -146,6 +147,32 @@ contains
       call add_contact(self, i, 0.0_wp, jacobian)
     end do
   end subroutine shell_constant
+
+  !> Load of a pressure that depends on other unknowns.
+  subroutine shell_load_rates(self, column, slope, jacobian)
+    class(shell_foil_type), intent(in) :: self
+    integer, intent(in) :: column(:, :)
+    real(wp), intent(in) :: slope(:, :)
+    Mat, intent(in) :: jacobian
+    ! a row of the matrix in each column, as PETSc reads it
+    real(wp) :: block(size(column, 1), size(self%pressed, 1), size(self%pressed, 1))
+    PetscInt :: row(size(self%pressed, 1)), place(size(column, 1), size(self%pressed, 1))
+    PetscErrorCode :: ierr
+    integer :: element, i, j
+
+    do element = 1, size(self%pressed, 2)
+      associate (nodes => self%pressed(:, element), number => self%pushed(:, element))
+        row = int(merge(self%first + number - 1, -1, number > 0), pint)
+        place = int(column(:, nodes), pint)
+        do i = 1, size(row)
+          do j = 1, size(nodes)
+            block(:, j, i) = self%weight(i, j, element)*slope(:, nodes(j))
+          end do
+        end do
+      end associate
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(place), pint), [place], [block], ADD_VALUES, ierr))
+    end do
+  end subroutine shell_load_rates
 
   !> The foils stay where they are: contacts find their way from there.
   subroutine shell_estimate(self, unknown)

@@ -74,7 +74,8 @@ contains
     call add_contacts(scene, film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
-    call add_pressure(film, mesh, element_nodes, scene%model%coupling == coupling_partitioned, foil)
+    call add_pressure(film, mesh, element_nodes, &
+                      scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
     call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
     call count_entries(foil, film)
   end subroutine create_shell_foil

@@ -199,7 +199,7 @@ def summary_difference(first, second, sizes=None):
 def natural_sizes(bearing):
     """What a difference of a quantity that may vanish is compared with."""
     force = bearing.force_unit
-    sizes = {f"force_{axis}": force for axis in "xy"}
+    sizes = {f"{share}force_{axis}": force for axis in "xy" for share in ("", "solid_contact_")}
     sizes |= {f"eccentricity_{axis}": bearing.clearance for axis in "xy"}
     for axis in "xy":
         sizes |= {f"torque_{axis}": force*bearing.length, f"torque_{axis}_without_suction": force*bearing.length}
