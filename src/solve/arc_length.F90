@@ -37,7 +37,6 @@ module gfb_arc_length
   real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
   real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
-  real(wp), parameter :: rough_step = 1.0e-6_wp    !! last Newton step of an answer on the way
   integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
   real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
   integer, parameter :: most_retreats = 6          !! before one, for shorter steps
@@ -105,7 +104,6 @@ contains
     call create_path_system(bearing, last, arc%path)
     call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
     arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
-    arc%newton%settings%step_tolerance = max(newton%settings%step_tolerance, rough_step)
     PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
