@@ -26,7 +26,7 @@ function(gfb_test_settings name)
     set(TEST_PROCESSORS 1)
   endif()
   if(NOT TEST_TIMEOUT)
-    set(TEST_TIMEOUT 300)
+    set(TEST_TIMEOUT 600)
   endif()
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "${gfb_test_environment};${TEST_ENVIRONMENT}" LABELS "${TEST_LABELS}"
