@@ -1,12 +1,14 @@
 !> The error of a number that was computed on nested meshes.
 !>
-!> With values f on meshes that are each twice as fine as the one before, the last three tell the order
-!> \( p = \log_2 |f_2 - f_1| / |f_3 - f_2| \), and the error of the finest one is estimated by
+!> With values f on meshes that are each twice as fine as the one before, the last three tell the
+!> order \( p = \log_2 |f_2 - f_1| / |f_3 - f_2| \), and the error of the finest one is estimated by
 !>
-!> $$ E = F_s \frac{|f_3 - f_2|}{2^p - 1} $$
+!> $$ E = F_s \frac{|f_3 - f_2|}{2^q - 1} $$
 !>
-!> Source: grid convergence index, [Roache1994]. Where the values do not approach a limit in that way,
-!> the order is not believed: the differences themselves, with a larger factor, stand for the error.
+!> Source: grid convergence index, [Roache1994]; F_s and q after [OberkampfRoy2010]: F_s = 1.25
+!> where p is within a tenth of the elements' order, otherwise 3; q is p, but not above the
+!> elements' order. On two meshes q is that order, and F_s = 3. Where the values do not approach a
+!> limit in that way three times the differences themselves stand for the error.
 module gfb_grid_convergence
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -15,6 +17,7 @@ module gfb_grid_convergence
 
   real(wp), parameter :: trusted_factor = 1.25_wp !! F_s where the order is as it should be [1]
   real(wp), parameter :: doubtful_factor = 3.0_wp !! where it is not, or is not known [1]
+  real(wp), parameter :: tolerance = 0.1_wp       !! of an order that is as it should be, relative
   real(wp), parameter :: lowest_order = 0.5_wp    !! an order below that is not believed [1]
   real(wp), parameter :: rounding = 1.0e-12_wp    !! differences that mean nothing, relative
 
@@ -23,7 +26,7 @@ module gfb_grid_convergence
     real(wp) :: value = 0.0_wp        !! on the finest mesh
     real(wp) :: error = huge(1.0_wp)  !! estimated, absolute; huge on one mesh
     real(wp) :: order = 0.0_wp        !! observed [1]; 0: not known
-    logical :: trusted = .false.      !! the order is as it should be
+    logical :: trusted = .false.      !! the values approach a limit with that order
   end type convergence_type
 
 contains
@@ -41,7 +44,7 @@ contains
     if (n < 2) return
     last = value(n) - value(n - 1)
     if (n == 2) then
-      found%error = doubtful_factor*abs(last)
+      found%error = doubtful_factor*abs(last)/(2.0_wp**formal_order - 1.0_wp)
       return
     end if
     before = value(n - 1) - value(n - 2)
@@ -54,7 +57,12 @@ contains
     found%trusted = found%order >= lowest_order
     if (found%trusted) then
       ! A number that happens to converge faster will not go on so.
-      found%error = trusted_factor*abs(last)/(2.0_wp**min(found%order, formal_order) - 1.0_wp)
+      found%error = abs(last)/(2.0_wp**min(found%order, formal_order) - 1.0_wp)
+      if (abs(found%order - formal_order) <= tolerance*formal_order) then
+        found%error = trusted_factor*found%error
+      else
+        found%error = doubtful_factor*found%error
+      end if
     else
       found%error = doubtful_factor*max(abs(last), abs(before))
     end if

@@ -3,6 +3,7 @@ module gfb_accuracy_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
+  use gfb_output_case, only: output_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_value_rules, only: between, from_to
   implicit none (type, external)
@@ -52,10 +53,11 @@ contains
   end subroutine read_accuracy_case
 
   !> The number must be one of the analysis, and of one answer.
-  subroutine check_accuracy(keys, accuracy, sweep, analysis)
+  subroutine check_accuracy(keys, accuracy, sweep, output, analysis)
     type(case_keys_type), intent(inout) :: keys
     type(accuracy_case_type), intent(in) :: accuracy
     type(sweep_case_type), intent(in) :: sweep
+    type(output_case_type), intent(in) :: output
     integer, intent(in) :: analysis !! 0 where it is not known
 
     if (.not. accuracy%present .or. analysis == 0) return
@@ -66,6 +68,10 @@ contains
     end if
     if (sweep%present) then
       call keys%complain('accuracy', 'quantity', 'needs a scene of one answer, without &sweep')
+    end if
+    if (output%restart_every > 0) then
+      call keys%complain('accuracy', 'quantity', 'is found on several meshes: no restart file '// &
+                         'goes on with them, so restart_every must be 0')
     end if
   end subroutine check_accuracy
 end module gfb_accuracy_case

@@ -1,6 +1,7 @@
 !> One case file as plain values: what was asked, in SI, checked.
 module gfb_scene
   use gfb_errors, only: error_type
+  use gfb_accuracy_case, only: accuracy_case_type, read_accuracy_case, check_accuracy
   use gfb_bearing_case, only: bearing_case_type, read_bearing_case
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_bump_foil_case, only: bump_foil_case_type, read_bump_foil_case
@@ -43,6 +44,7 @@ module gfb_scene
     type(gas_case_type) :: gas
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
+    type(accuracy_case_type) :: accuracy
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil
     type(strip_load_case_type) :: strip_load
@@ -103,6 +105,7 @@ contains
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
     call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
     call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
+    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text
@@ -153,6 +156,7 @@ contains
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
     call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
     call read_output_case(keys, scene%output)
+    call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
   end subroutine read_groups
 
   !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.

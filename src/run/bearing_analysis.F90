@@ -42,7 +42,7 @@ module gfb_bearing_analysis
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
-  public :: run_bearing, solve_scene, write_bearing
+  public :: run_bearing, solve_scene, write_bearing, cost_of
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
 

@@ -17,6 +17,7 @@ module gfb_run_case
   use gfb_scene_case, only: analysis_strip, analysis_modes, is_bearing
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_direct_solver, only: keep_factors_on_disk
+  use gfb_accuracy_analysis, only: run_accuracy
   use gfb_bearing_analysis, only: run_bearing
   use gfb_branch_analysis, only: run_branches
   use gfb_strip_analysis, only: run_strip
@@ -101,13 +102,23 @@ contains
     call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     converged = .false.
+    if (scene%accuracy%present) then
+      if (line%branches) then
+        call fail(error, scene%file//': &accuracy: is for one answer, not for all of --branches')
+      else
+        if (line%restart) call log%line('restart: not with &accuracy, the run starts anew')
+        call run_accuracy(scene, line%folder, line%words, start_time, log, converged, error, answer)
+      end if
+      return
+    end if
     if (.not. line%branches) then
       call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)
       if (allocated(error)) return
     end if
     select case (scene%general%analysis)
     case (analysis_strip)
-      call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error, answer)
+      call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error, &
+        answer)
     case (analysis_modes)
       call run_modes(scene, line%folder, line%words, start_time, log, converged, error, answer)
     case default

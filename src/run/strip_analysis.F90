@@ -7,9 +7,8 @@ module gfb_strip_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity
-  use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
-  use gfb_c_library, only: peak_memory
+  use gfb_quantity, only: quantity_type
+  use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
@@ -31,7 +30,7 @@ module gfb_strip_analysis
   use gfb_foil_stress, only: shell_stresses
   use gfb_foil_plan, only: plan_foil
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_strip_summary, only: step_quantities, answer_quantities, show_step, show_step_header
+  use gfb_strip_summary, only: step_quantities, answer_quantities, cost_quantities, show_step, show_step_header
   use gfb_restart, only: restart_type, drop_restart
   use gfb_strip_record, only: strip_run_type
   use gfb_strip_restart, only: keep_strip, recall_strip
@@ -40,7 +39,7 @@ module gfb_strip_analysis
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
-  public :: run_strip
+  public :: run_strip, solve_strip, write_answer
 
   real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a balance of forces, relative
@@ -66,14 +65,36 @@ contains
     type(newton_type), target :: newton
     type(strip_run_type) :: run
     type(quantity_type), allocatable :: summary(:)
-    logical :: plates
+    type(quantity_type) :: nothing(0)
 
     converged = .false.
-    plates = scene%strip_load%kind == load_plates
     call plan_foil(scene, log, plan)
     call check_memory(scene, plan%memory, error)
     if (allocated(error)) return
     call log%heading('solution')
+    call solve_strip(scene, plan, restart, log, strip, newton, run, error)
+    if (allocated(error)) return
+    converged = run%converged
+    call write_answer(scene, folder, command, start_time, log, strip, newton, run, nothing, summary, error)
+    if (converged .and. .not. allocated(error)) call drop_restart(restart)
+    if (present(answer)) call move_alloc(summary, answer)
+    call destroy_newton(newton)
+    call destroy_strip_system(strip)
+  end subroutine run_strip
+
+  !> Builds a strip and takes all load steps.
+  !>
+  !> Fails when the mesh cannot be made or a restart file cannot be read.
+  subroutine solve_strip(scene, plan, restart, log, strip, newton, run, error)
+    type(scene_type), intent(in) :: scene
+    type(foil_plan_type), intent(in) :: plan
+    type(restart_type), intent(in) :: restart
+    type(run_log_type), intent(in) :: log
+    type(strip_system_type), target, intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    type(strip_run_type), intent(inout) :: run
+    type(error_type), allocatable, intent(out) :: error
+
     call enter_stage('set-up')
     call build_strip(scene, plan, strip, error)
     call leave_stage()
@@ -84,9 +105,26 @@ contains
     call create_newton(newton, strip, 'strip_', newton_settings_type(scene%solver%residual_tolerance, &
                        scene%solver%step_tolerance, scene%solver%maximum_iterations), log)
     call load_and_unload(scene, restart, strip, newton, log, run, error)
-    if (allocated(error)) return
-    converged = run%converged
-    summary = [answer_quantities(run%full, run%last, plates, converged), &
+  end subroutine solve_strip
+
+  !> Shows the answer and writes all files.
+  !>
+  !> Fails when one cannot be written.
+  subroutine write_answer(scene, folder, command, start_time, log, strip, newton, run, more, summary, error)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: folder, command
+    real(wp), intent(in) :: start_time         !! of the run [s]
+    type(run_log_type), intent(in) :: log
+    type(strip_system_type), intent(in) :: strip
+    type(newton_type), intent(in) :: newton
+    type(strip_run_type), intent(inout) :: run
+    type(quantity_type), intent(in) :: more(:) !! for the summary
+    type(quantity_type), allocatable, intent(out) :: summary(:)
+    type(error_type), allocatable, intent(out) :: error
+    logical :: plates
+
+    plates = scene%strip_load%kind == load_plates
+    summary = [answer_quantities(run%full, run%last, plates, run%converged), more, &
                cost_quantities(scene, strip, newton, start_time)]
     run%companions = strip_companions(scene, run%full%force)
     call show_closing_block(log, run, plates)
@@ -94,11 +132,7 @@ contains
     call enter_stage('output')
     call write_strip(scene, folder, command, strip, run, summary, log, error)
     call leave_stage()
-    if (converged .and. .not. allocated(error)) call drop_restart(restart)
-    if (present(answer)) call move_alloc(summary, answer)
-    call destroy_newton(newton)
-    call destroy_strip_system(strip)
-  end subroutine run_strip
+  end subroutine write_answer
 
   !> All load steps, up and down again.
   subroutine load_and_unload(scene, restart, strip, newton, log, run, error)
@@ -279,31 +313,6 @@ contains
     call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
                           [grid], log, error)
   end subroutine write_strip
-
-  !> Quantities of what it cost.
-  function cost_quantities(scene, strip, newton, start_time) result(list)
-    type(scene_type), intent(in) :: scene
-    type(strip_system_type), intent(in) :: strip
-    type(newton_type), intent(in) :: newton
-    real(wp), intent(in) :: start_time !! [s]
-    type(quantity_type), allocatable :: list(:)
-    real(wp) :: memory(1)
-    integer :: stations, rows
-
-    stations = strip%foil%mesh%stations
-    rows = scene%mesh%axial_elements + 1
-    memory = sum_over_ranks([peak_memory()])
-    list = [count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'), &
-            count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
-                           'of the bump foil, whole width, before constraints'), &
-            count_quantity('foil_unknowns_retained', node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
-                           'of its retained lines, whole width, before constraints'), &
-            count_quantity('distinct_super_elements', kind_count(strip%foil%substructure), 'condensed once each'), &
-            count_quantity('newton_iterations', newton%iterations, 'of all load steps'), &
-            count_quantity('factorizations', newton%factorizations, 'of all load steps'), &
-            number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
-            number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
-  end function cost_quantities
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, run, plates)

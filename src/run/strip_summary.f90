@@ -5,10 +5,18 @@ module gfb_strip_summary
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
     truth_quantity
+  use gfb_c_library, only: peak_memory
+  use gfb_petsc_session, only: wall_time, sum_over_ranks
+  use gfb_scene, only: scene_type
+  use gfb_substructures, only: kind_count
+  use gfb_newton, only: newton_type
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_strip_answer, only: strip_answer_type
+  use gfb_strip_system, only: strip_system_type
   implicit none (type, external)
   private
-  public :: step_quantities, answer_quantities, show_step, show_step_header
+  public :: step_quantities, answer_quantities, cost_quantities, show_step, &
+            show_step_header
 
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
@@ -116,4 +124,31 @@ contains
       newton_iterations, factorizations
     call log%line(trim(line))
   end subroutine show_step
+
+  !> Quantities of what it cost.
+  function cost_quantities(scene, strip, newton, start_time) result(list)
+    type(scene_type), intent(in) :: scene
+    type(strip_system_type), intent(in) :: strip
+    type(newton_type), intent(in) :: newton
+    real(wp), intent(in) :: start_time !! [s]
+    type(quantity_type), allocatable :: list(:)
+    real(wp) :: memory(1)
+    integer :: stations, rows
+
+    stations = strip%foil%mesh%stations
+    rows = scene%mesh%axial_elements + 1
+    memory = sum_over_ranks([peak_memory()])
+    list = [count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'), &
+            count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
+                           'of the bump foil, whole width, before constraints'), &
+            count_quantity('foil_unknowns_retained', &
+                           node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
+                           'of its retained lines, whole width, before constraints'), &
+            count_quantity('distinct_super_elements', kind_count(strip%foil%substructure), &
+                           'condensed once each'), &
+            count_quantity('newton_iterations', newton%iterations, 'of all load steps'), &
+            count_quantity('factorizations', newton%factorizations, 'of all load steps'), &
+            number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
+            number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
+  end function cost_quantities
 end module gfb_strip_summary

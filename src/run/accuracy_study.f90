@@ -1,0 +1,225 @@
+!> What nested meshes say of one number: values, errors, and whether the target is met.
+module gfb_accuracy_study
+  use gfb_kinds, only: wp
+  use gfb_accuracy_case, only: accuracy_case_type, accuracy_words
+  use gfb_grid_convergence, only: convergence_type, estimate_error
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: start_study
+
+  integer, parameter :: least_meshes = 3 !! that show an order
+  character(len=*), parameter :: row_format = '(a16,a11,a18,a14,a7,a10)'
+
+  !> A mesh and its answer.
+  type :: mesh_answer_type
+    character(len=:), allocatable :: mesh  !! in words
+    logical :: found = .false.             !! it has an answer
+    integer :: unknowns = 0
+    real(wp) :: seconds = 0.0_wp           !! CPU time of all ranks [s]
+    type(convergence_type) :: estimate     !! with this mesh as the finest
+  end type mesh_answer_type
+
+  !> The meshes so far.
+  type, public :: accuracy_study_type
+    character(len=:), allocatable :: name  !! of the number
+    character(len=:), allocatable :: unit  !! its unit
+    real(wp) :: target = 0.0_wp            !! error allowed, relative
+    real(wp) :: formal_order = 0.0_wp      !! of the elements [1]
+    type(mesh_answer_type), allocatable :: answer(:)
+    real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
+  contains
+    procedure :: add => study_add
+    procedure :: add_failure => study_add_failure
+    procedure :: met => study_met
+    procedure :: quantities => study_quantities
+    procedure :: show => study_show
+    procedure :: needs => study_needs
+    procedure :: value_words => study_value_words
+    procedure, private :: has_error => study_has_error
+    procedure, private :: last => study_last
+  end type accuracy_study_type
+
+contains
+
+  !> A study without meshes.
+  pure function start_study(accuracy, formal_order) result(study)
+    type(accuracy_case_type), intent(in) :: accuracy
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(accuracy_study_type) :: study
+
+    study%name = trim(accuracy_words(accuracy%quantity))
+    study%unit = ''
+    study%target = accuracy%target
+    study%formal_order = formal_order
+    allocate (study%answer(0), study%value(0))
+  end function start_study
+
+  !> Takes a mesh's value, and judges all of them.
+  subroutine study_add(self, mesh, quantity, unknowns, seconds)
+    class(accuracy_study_type), intent(inout) :: self
+    character(len=*), intent(in) :: mesh     !! in words
+    type(quantity_type), intent(in) :: quantity
+    integer, intent(in) :: unknowns
+    real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
+    type(mesh_answer_type) :: one
+
+    self%unit = quantity%unit
+    self%value = [self%value, quantity%number]
+    one%mesh = mesh
+    one%found = .true.
+    one%unknowns = unknowns
+    one%seconds = seconds
+    one%estimate = estimate_error(self%value, self%formal_order)
+    self%answer = [self%answer, one]
+  end subroutine study_add
+
+  !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
+  subroutine study_add_failure(self, mesh, unknowns, seconds)
+    class(accuracy_study_type), intent(inout) :: self
+    character(len=*), intent(in) :: mesh     !! in words
+    integer, intent(in) :: unknowns
+    real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
+    type(mesh_answer_type) :: one
+
+    self%value = self%value(:0)
+    one%mesh = mesh
+    one%unknowns = unknowns
+    one%seconds = seconds
+    self%answer = [self%answer, one]
+  end subroutine study_add_failure
+
+  !> The finest mesh's estimate.
+  pure function study_last(self) result(estimate)
+    class(accuracy_study_type), intent(in) :: self
+    type(convergence_type) :: estimate
+    if (size(self%value) > 0) estimate = self%answer(size(self%answer))%estimate
+  end function study_last
+
+  !> Whether the finest mesh's error is known.
+  pure function study_has_error(self) result(has)
+    class(accuracy_study_type), intent(in) :: self
+    logical :: has
+    has = size(self%value) > 1
+  end function study_has_error
+
+  !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
+  !> an estimate without one is not enough.
+  pure function study_met(self) result(met)
+    class(accuracy_study_type), intent(in) :: self
+    logical :: met
+    type(convergence_type) :: last
+
+    last = self%last()
+    met = size(self%value) >= least_meshes .and. last%error <= self%target*abs(last%value)
+  end function study_met
+
+  !> What the summary says of the error.
+  function study_quantities(self) result(list)
+    class(accuracy_study_type), intent(in) :: self
+    type(quantity_type), allocatable :: list(:)
+    type(convergence_type) :: last
+
+    list = [truth_quantity('accuracy_met', self%met(), 'whether the estimated error of '// &
+                           self%name//' is as small as asked for'), &
+            count_quantity('meshes', size(self%answer), 'that were tried, each twice as fine')]
+    if (.not. self%has_error()) return
+    last = self%last()
+    list = [number_quantity(self%name//'_error', last%error, self%unit, &
+                            'estimated from nested meshes, absolute'), &
+            number_quantity(self%name//'_order', last%order, '1', &
+                            'observed order of convergence; 0: not known'), list]
+  end function study_quantities
+
+  !> The meshes as a table.
+  subroutine study_show(self, log)
+    class(accuracy_study_type), intent(in) :: self
+    type(run_log_type), intent(in) :: log
+    character(len=80) :: line
+    integer :: i
+
+    call log%heading('accuracy of '//self%name)
+    write (line, row_format) 'elements', 'unknowns', 'value ['//self%unit//']', 'estimate', &
+      'order', 'CPU [s]'
+    call log%line(trim(line))
+    do i = 1, size(self%answer)
+      associate (answer => self%answer(i))
+        if (answer%found) then
+          write (line, row_format) answer%mesh, text(answer%unknowns), &
+            text(answer%estimate%value, 8), error_words(answer%estimate), &
+            order_words(answer%estimate), text(answer%seconds, 3)
+        else
+          write (line, row_format) answer%mesh, text(answer%unknowns), 'no answer', '', '', &
+            text(answer%seconds, 3)
+        end if
+      end associate
+      call log%line(trim(line))
+    end do
+  end subroutine study_show
+
+  !> An estimate; none on one mesh.
+  pure function error_words(estimate) result(words)
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (estimate%error < huge(1.0_wp)) words = '+- '//text(estimate%error, 3)
+  end function error_words
+
+  !> An order; none where it is not believed.
+  pure function order_words(estimate) result(words)
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (estimate%trusted .and. estimate%order > 0.0_wp) words = text(estimate%order, 3)
+  end function order_words
+
+  !> The number with its error, in words.
+  function study_value_words(self) result(words)
+    class(accuracy_study_type), intent(in) :: self
+    character(len=:), allocatable :: words
+    type(convergence_type) :: last
+
+    last = self%last()
+    words = self%name//' = '//text(last%value, 6)//' '//self%unit
+    if (.not. self%has_error()) return
+    words = self%name//' = '//text(last%value, 6)//' +- '//text(last%error, 2)//' '//self%unit
+    if (abs(last%value) > 0.0_wp) then
+      words = words//' ('//text(100.0_wp*last%error/abs(last%value), 2)//' %'
+    else
+      words = words//' (a value of zero has no relative error'
+    end if
+    if (last%trusted .and. last%order > 0.0_wp) then
+      words = words//', observed order '//text(last%order, 3)//')'
+    else if (last%trusted) then
+      words = words//', finer meshes change nothing)'
+    else
+      words = words//', no order observed)'
+    end if
+  end function study_value_words
+
+  !> What a target that is not met would need, in words.
+  function study_needs(self) result(words)
+    class(accuracy_study_type), intent(in) :: self
+    character(len=:), allocatable :: words
+    type(convergence_type) :: last
+    real(wp) :: order, ratio
+
+    last = self%last()
+    if (size(self%value) < least_meshes) then
+      words = 'answers on '//text(least_meshes)//' meshes at least'
+    else if (.not. abs(last%value) > 0.0_wp) then
+      words = 'another quantity: a relative target has no meaning for zero'
+    else if (.not. last%trusted) then
+      words = 'finer meshes, on which the values approach a limit'
+    else
+      order = max(min(last%order, self%formal_order), tiny(1.0_wp))
+      ratio = last%error/(self%target*abs(last%value))
+      words = 'about '//text(ceiling(log(ratio)/(order*log(2.0_wp))))// &
+              ' more refinement(s), if the order stays'
+    end if
+  end function study_needs
+end module gfb_accuracy_study
