@@ -7,8 +7,8 @@
 !> Source: [GreenwoodWilliamson1966]. In theirs
 !> \( p_0 = \sqrt{\pi} \, \eta \beta^{1/2} \sigma^{3/2} E' \) with \( \eta \) asperities an area, of
 !> tip radius \( \beta \), and the reduced modulus \( E' \). The gap stays positive as long as the
-!> load
-!> is less than p_0 over the area that it presses on. Asperities rub with a constant coefficient.
+!> load is less than p_0 over the area that it presses on. Asperities rub with a constant
+!> coefficient.
 module gfb_solid_contact
   use gfb_kinds, only: wp
   implicit none (type, external)
