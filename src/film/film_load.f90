@@ -74,11 +74,12 @@ contains
 
     shapes = film_shapes(size(gap))
     drag = 0.0_wp
+    ! Less one node's pressure, so that an even pressure has no gradient to the last digit.
     do point = 1, size(geometry%area)
       h = dot_product(shapes(:, point), gap) + excess(point)
       drag = drag + geometry%area(point)*(2.0_wp*flow%viscosity*flow%entraining_speed/h &
                                           + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), &
-                                          pressure))
+                                          pressure - pressure(1)))
     end do
   end function film_friction
 

@@ -269,8 +269,9 @@ contains
 
     state%p = dot_product(shape, pressure)
     state%h = dot_product(shape, gap) + excess
-    state%p_x = dot_product(gradient(1, :), pressure)
-    state%p_z = dot_product(gradient(2, :), pressure)
+    ! Less one node's pressure: an even pressure has no gradient to the last digit.
+    state%p_x = dot_product(gradient(1, :), pressure - pressure(1))
+    state%p_z = dot_product(gradient(2, :), pressure - pressure(1))
     state%h_x = dot_product(gradient(1, :), gap)
     state%h_z = dot_product(gradient(2, :), gap)
   end function film_state

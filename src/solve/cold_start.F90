@@ -157,8 +157,11 @@ contains
     !> A field of the coarse film at the fine one's nodes.
     function taken(value) result(there)
       real(wp), intent(in) :: value(:)
-      real(wp) :: there(size(share, 2))
-      there = sum(share*reshape(film_values(coarse, value, [around]), shape(share)), 1)
+      real(wp) :: there(size(share, 2)), corner(corners, size(share, 2))
+
+      corner = reshape(film_values(coarse, value, [around]), shape(corner))
+      ! Less one corner's value: an even field stays so to the last digit.
+      there = corner(1, :) + sum(share*(corner - spread(corner(1, :), 1, corners)), 1)
     end function taken
   end subroutine refine
 

@@ -185,7 +185,8 @@ def arrays(path):
     found = {}
 
     def keep(name, item):
-        if isinstance(item, h5py.Dataset) and name.split("/")[0] in ("VTKHDF", "history", "contact"):
+        if isinstance(item, h5py.Dataset) and not name.endswith("/rank") \
+                and name.split("/")[0] in ("VTKHDF", "history", "contact"):
             found[name] = item[...]
     with h5py.File(path, "r") as file:
         file.visititems(keep)
