@@ -5,7 +5,6 @@
 !> Writes lines `name,value`; times are CPU times [s]. `tools/bench condensation` makes a table of
 !> them.
 program gfb_bench_condensation
-  use, intrinsic :: iso_fortran_env, only: output_unit
   use petscksp
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
@@ -16,39 +15,22 @@ program gfb_bench_condensation
   use gfb_foil_structure, only: foil_structure_type, create_foil_structure, destroy_foil_structure
   use gfb_foil_pieces, only: element_geometry, assemble_piece, retained_in_piece
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
-  use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost
+  use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost, argument, tell
   implicit none (type)
+
+  character(len=*), parameter :: usage = 'gfb_bench_condensation ARC FLAT AXIAL'
 
   type(strip_type) :: strip
 
   call start_petsc()
   if (rank_count() > 1) error stop 'one rank measures'
-  strip = make_strip(argument(1), argument(2), argument(3))
+  strip = make_strip(argument(1, usage), argument(2, usage), argument(3, usage))
   call measure_ways(strip)
   call measure_complements(strip)
   call measure_kernel(strip)
   call stop_petsc()
 
 contains
-
-  !> A whole positive number of the command line.
-  function argument(place) result(number)
-    integer, intent(in) :: place
-    integer :: number
-    character(len=20) :: word
-    integer :: status
-
-    call get_command_argument(place, word)
-    read (word, *, iostat=status) number
-    if (status /= 0) error stop 'use: gfb_bench_condensation ARC FLAT AXIAL'
-  end function argument
-
-  !> One result.
-  subroutine tell(name, value)
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: value
-    write (output_unit, '(a, ",", es22.15e3)') name, value
-  end subroutine tell
 
   !> Ends the program with a mistake of its own.
   subroutine stop_on(error)

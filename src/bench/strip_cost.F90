@@ -2,6 +2,7 @@
 !> What a bump strip costs on its way from the mesh to all displacements, step by step.
 module gfb_strip_cost
   use petscksp
+  use, intrinsic :: iso_fortran_env, only: output_unit
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -14,7 +15,7 @@ module gfb_strip_cost
   use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private
-  public :: make_strip, strip_cost
+  public :: make_strip, strip_cost, argument, tell
 
   !> A bump strip and how it is held.
   type, public :: strip_type
@@ -176,4 +177,24 @@ contains
     real(wp) :: seconds
     call cpu_time(seconds)
   end function now
+
+  !> A whole number of the command line.
+  function argument(place, usage) result(number)
+    integer, intent(in) :: place
+    character(len=*), intent(in) :: usage !! what the command line should be
+    integer :: number
+    character(len=20) :: word
+    integer :: status
+
+    call get_command_argument(place, word)
+    read (word, *, iostat=status) number
+    if (status /= 0) error stop 'use: '//usage
+  end function argument
+
+  !> One result: a line `name,value`.
+  subroutine tell(name, value)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: value
+    write (output_unit, '(a, ",", es23.15e3)') name, value
+  end subroutine tell
 end module gfb_strip_cost

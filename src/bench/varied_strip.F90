@@ -5,33 +5,22 @@
 !> width; bumps that grow along the strip. Writes lines `name,value`; what the steps cost, PETSc's
 !> log tells (`-log_view`). `tools/bench scaling` makes a table of it.
 program gfb_bench_varied_strip
-  use, intrinsic :: iso_fortran_env, only: output_unit
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank, sum_over_ranks, largest_over_ranks
   use gfb_c_library, only: peak_memory
-  use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost
+  use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost, argument, tell
   implicit none (type)
+
+  character(len=*), parameter :: usage = 'gfb_bench_varied_strip ARC FLAT AXIAL BUMPS'
 
   real(wp), parameter :: growth = 0.5_wp !! of the bumps along the strip
 
   call start_petsc()
-  call measure(make_strip(argument(1), argument(2), argument(3), argument(4), growth))
+  call measure(make_strip(argument(1, usage), argument(2, usage), argument(3, usage), argument(4, usage), growth))
   call stop_petsc()
 
 contains
-
-  !> A whole number of the command line.
-  function argument(place) result(number)
-    integer, intent(in) :: place
-    integer :: number
-    character(len=20) :: word
-    integer :: status
-
-    call get_command_argument(place, word)
-    read (word, *, iostat=status) number
-    if (status /= 0) error stop 'use: gfb_bench_varied_strip ARC FLAT AXIAL BUMPS'
-  end function argument
 
   !> Goes from the mesh to all displacements.
   subroutine measure(strip)
@@ -53,11 +42,4 @@ contains
     call tell('peak_memory', memory(1))
     call tell('largest_deflection', largest(1))
   end subroutine measure
-
-  !> One result.
-  subroutine tell(name, value)
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: value
-    write (output_unit, '(a, ",", es23.15e3)') name, value
-  end subroutine tell
 end program gfb_bench_varied_strip

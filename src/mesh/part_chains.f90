@@ -10,7 +10,7 @@ module gfb_part_chains
   use gfb_partition, only: chain_type, chain
   implicit none (type, external)
   private
-  public :: film_chain, film_columns, strip_chain, strip_columns, strip_kinds
+  public :: film_chain, film_columns, strip_chain, column_chain, strip_columns, strip_kinds
 
   integer, parameter :: shell_unknowns = 5 !! of a node
 
@@ -52,8 +52,17 @@ contains
 
     x = station_positions(shape)
     if (reduced) x = x(dividing_stations(shape))
-    pieces = chain(x, spread(real(shell_unknowns*rows, wp), 1, size(x) - 1), .false.)
+    pieces = column_chain(x, rows)
   end function strip_chain
+
+  !> Columns of shells, or what is condensed onto as many unknowns.
+  pure function column_chain(bound, rows) result(columns)
+    real(wp), intent(in) :: bound(:) !! of the columns, rising
+    integer, intent(in) :: rows      !! nodes of a station
+    type(chain_type) :: columns
+
+    columns = chain(bound, spread(real(shell_unknowns*rows, wp), 1, size(bound) - 1), .false.)
+  end function column_chain
 
   !> Part of every column of a bump foil from the parts of its chain.
   pure function strip_columns(shape, reduced, part) result(column_part)

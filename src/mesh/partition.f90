@@ -119,14 +119,8 @@ contains
 
     pieces = size(film%weight)
     below = size(bumps%weight)
-    list = [integer ::]
-    do i = 1, pieces - 1
-      list = [list, i, i + 1]
-    end do
+    list = [(i, i + 1, i=1, pieces - 1), (pieces + i, pieces + i + 1, i=1, below - 1)]
     if (film%closed .and. pieces > 2) list = [list, 1, pieces]
-    do i = 1, below - 1
-      list = [list, pieces + i, pieces + i + 1]
-    end do
     k = 1
     do i = 1, pieces
       do while (k < below)

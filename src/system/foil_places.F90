@@ -56,9 +56,18 @@ contains
     integer, allocatable :: needed(:)
     integer :: i, k
 
-    needed = sunk
+    k = size(sunk)
     do i = 1, size(foil%contacts%point)
-      needed = [needed, foil%contacts%point_unknowns(i)]
+      k = k + size(foil%contacts%point_unknowns(i))
+    end do
+    allocate (needed(k))
+    needed(:size(sunk)) = sunk
+    k = size(sunk)
+    do i = 1, size(foil%contacts%point)
+      associate (unknown => foil%contacts%point_unknowns(i))
+        needed(k + 1:k + size(unknown)) = unknown
+        k = k + size(unknown)
+      end associate
     end do
     needed = pack(needed, needed > 0 .and. (needed <= first .or. needed > first + foil%owned))
     call sort_once(needed)

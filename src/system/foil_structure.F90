@@ -108,7 +108,7 @@ contains
   !> Every column of elements goes to its rank.
   subroutine distribute_foil(structure)
     type(foil_structure_type), intent(inout) :: structure
-    integer, allocatable :: node_count(:)
+    integer, allocatable :: node_count(:), columns(:)
     integer :: i, k, node, width
 
     associate (mesh => structure%mesh, mine => structure%column_part == this_rank() + 1)
@@ -119,8 +119,8 @@ contains
       call distribute_mesh(PETSC_COMM_WORLD, mesh%stations, mesh%rows, .false., structure%column_part, &
                            structure%part, node_count)
       width = mesh%rows - 1
-      structure%my_elements = [((((i - 1)*width + k), k=1, width), i=1, merge(size(mine), 0, width > 0))]
-      structure%my_elements = pack(structure%my_elements, [((mine(i), k=1, width), i=1, size(mine))])
+      columns = pack([(i, i=1, size(mine))], mine)
+      structure%my_elements = [(((columns(i) - 1)*width + k, k=1, width), i=1, size(columns))]
       structure%mine = pack([(i, i=1, size(structure%substructure))], mine(structure%substructure%column))
       allocate (structure%local_node(lbound(node_count, 1):ubound(node_count, 1)), source=0)
     end associate

@@ -17,6 +17,12 @@ from gfb_run import (GFB, MPIEXEC, Bearing, Checks, case_text, natural_sizes, ru
 
 BEARING = Bearing()
 GOOD = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-20.0, 0.0))
+PLATE = """&scene analysis='modes' /
+&modes part='top_foil' /
+&bearing radius=0.02 length=0.04 /
+&top_foil thickness=1e-4 youngs_modulus=2e11 poissons_ratio=0.3 density=8000.0 /
+&mesh circumferential_elements=20 axial_elements=6 /
+"""
 SECONDS = 120
 
 
@@ -55,6 +61,11 @@ def check_options(checks, folder):
     checks.that("--partition: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
     status, words, wrong = call("--partition", "good.nml", folder=folder, ranks=2)
     checks.that("--partition: ranks of the job", status == 0 and len(re.findall(r"^ +[01] +24 ", words, re.M)) == 2)
+    (folder/"plate.nml").write_text(PLATE, encoding="utf-8")
+    status, words, wrong = call("--partition=3", "plate.nml", folder=folder)
+    rows = [line.split() for line in words.splitlines() if re.match(r"^ +[0-2] +0 +\d+ +\d+ +[\d.]+$", line)]
+    checks.that("--partition=3: a plate's columns add up", status == 0 and sum(int(row[2]) for row in rows) == 20)
+    (folder/"plate.nml").unlink()
     mistakes = {
         ("--partition=none", "good.nml"): "the number of ranks is a whole number above zero",
         ("--partition=0", "good.nml"): "the number of ranks is a whole number above zero",
