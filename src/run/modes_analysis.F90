@@ -19,6 +19,7 @@ module gfb_modes_analysis
   use gfb_foil_builder, only: foil_plan_type, build_part
   use gfb_foil_plan, only: plan_foil
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
+  use gfb_mode_energies, only: free_motions, sharpen_modes, exact
   use gfb_craig_bampton, only: craig_bampton_type, craig_bampton, assembled_eigenvalues
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -49,13 +50,13 @@ contains
 
     type(foil_plan_type) :: plan
     type(foil_structure_type) :: part
-    type(modes_type) :: modes
+    type(modes_type) :: modes, motions
     type(history_row_type), allocatable :: history(:)
     type(quantity_type), allocatable :: summary(:)
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type) :: grid
     real(wp), allocatable :: moved(:, :)
-    real(wp) :: shift
+    real(wp) :: shift, lost, left
     Mat :: mass
     PetscErrorCode :: ierr
     integer :: i
@@ -69,11 +70,17 @@ contains
     call part%assemble_mass(mass, error)
     if (allocated(error)) return
     shift = plate_eigenvalue(part)
-    call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes)
+    call free_motions(part, mass, motions)
+    call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes, motions)
+    call destroy_modes(motions)
+    call sharpen_modes(part, mass, rigid*shift, modes, lost, left, error)
+    if (allocated(error)) return
     converged = size(modes%eigenvalue) >= min(scene%modes%count, part%unknowns)
     if (.not. converged) call log%gave_up('only '//text(size(modes%eigenvalue))//' modes found')
-    summary = [mode_quantities(converged, modes, shift), cost_quantities(part, start_time)]
+    summary = [mode_quantities(converged, modes, shift), round_off_quantities(lost, left), &
+               cost_quantities(part, start_time)]
     call show_closing_block(log, scene, modes, part)
+    call warn_of_round_off(log, lost, left, scene%modes%part == part_strip)
     allocate (history(1))
     history(1)%quantity = summary
     call create_foil_grid(part, trim(merge('top_foil ', 'bump_foil', scene%modes%part == part_top_foil)), grid)
@@ -177,6 +184,29 @@ contains
             number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
             number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
   end function cost_quantities
+
+  !> What round-off leaves, where it is worth a word.
+  function round_off_quantities(lost, left) result(list)
+    real(wp), intent(in) :: lost, left !! of the eigenvalues, as `sharpen_modes` has it [1]
+    type(quantity_type), allocatable :: list(:)
+
+    allocate (list(0))
+    if (.not. lost > exact) return
+    list = [number_quantity('frequency_round_off', left, '1', 'relative error that round-off leaves, at most about')]
+  end function round_off_quantities
+
+  !> Says where the matrix had lost digits.
+  subroutine warn_of_round_off(log, lost, left, reduced)
+    type(run_log_type), intent(in) :: log
+    real(wp), intent(in) :: lost, left !! of the eigenvalues [1]
+    logical, intent(in) :: reduced     !! there is a reduced strip too
+
+    if (.not. lost > exact) return
+    call log%warning('the foil is so thin that round-off of its stretching stiffness moves frequencies by up to '// &
+                     text(0.5_wp*lost, 2)//' of themselves; the energies of strains put them right, to about '// &
+                     text(left, 2))
+    if (reduced) call log%warning('the Craig-Bampton matrices and frequencies keep that round-off')
+  end subroutine warn_of_round_off
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, scene, modes, part)

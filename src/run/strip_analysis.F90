@@ -43,6 +43,7 @@ module gfb_strip_analysis
 
   real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a balance of forces, relative
+  real(wp), parameter :: lost_digits = 1.0e-6_wp !! round-off of deflections that is worth a warning
 
 contains
 
@@ -180,6 +181,7 @@ contains
         call read_answer(strip, full_force(scene), recorder, run%last)
         call record_contacts(strip%contacts, step, steps, run%contacts)
         call strip%commit()
+        if (step == load%steps_up) run%last%round_off = max(strip%stiffness_round_off(), path%round_off)
         if (step <= load%steps_up) run%full = run%last
         run%steps = step
         iterations = newton%iterations - iterations
@@ -189,6 +191,10 @@ contains
         call show_step(log, run%last, step, iterations, factorizations)
         call keep_strip(scene, restart, log, strip, newton, path, run)
       end do
+      if (path%at_round_off > 0) then
+        call log%line(text(path%at_round_off)//' steps ended at round-off, where Newton''s moved by up to '// &
+                      text(path%round_off, 2)//' of the deflection')
+      end if
       if (path%homotopies + path%cuts > 0) then
         call log%line(text(path%homotopies)//' steps by a longer stick length, '//text(path%cuts)//' cuts')
       end if
@@ -278,6 +284,10 @@ contains
     if (largest > large_deflection*scene%bump_foil%height) then
       call log%warning('a crest moves by '//text(100.0_wp*largest/scene%bump_foil%height, 3)// &
                        ' % of the bump height: displacements were taken to be small')
+    end if
+    if (answer%round_off > lost_digits) then
+      call log%warning('round-off leaves an error of about '//text(answer%round_off, 2)//' of deflections and forces: '// &
+                       'the foil is so thin that the last digits of its stretching stiffness are a part of its bending stiffness')
     end if
   end subroutine warn
 

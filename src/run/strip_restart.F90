@@ -23,7 +23,7 @@ module gfb_strip_restart
   private
   public :: keep_strip, recall_strip
 
-  integer, parameter :: plain_numbers = 7 !! of an answer, before its counts and deflections
+  integer, parameter :: plain_numbers = 8 !! of an answer, before its counts and deflections
 
 contains
 
@@ -63,10 +63,10 @@ contains
     type(result_file_type), intent(inout) :: file
 
     call file%put_numbers('/step/counts', real([newton%iterations, newton%factorizations, path%homotopies, &
-                                                path%cuts, path%answers], wp), '1', &
-                          'Newton iterations, factorizations, homotopies, cuts, answers that are known')
-    call file%put_numbers('/step/factors', [path%at_here, path%at_before], '1', &
-                          'shares of the full load at the last two answers')
+                                                path%cuts, path%answers, path%at_round_off], wp), '1', &
+                          'Newton iterations, factorizations, homotopies, cuts, answers that are known, steps at round-off')
+    call file%put_numbers('/step/factors', [path%at_here, path%at_before, path%round_off], '1', &
+                          'shares of the full load at the last two answers, round-off')
     call file%group('/strip')
     call put_vector(strip_order(strip), path%here, '/strip/state', 'scaled unknowns: foil, plate', file)
     call put_vector(strip_order(strip), path%before, '/strip/state_before', 'the same of the answer before', file)
@@ -79,7 +79,7 @@ contains
     real(wp), allocatable :: numbers(:)
 
     numbers = [answer%factor, answer%force, answer%travel, answer%external_work, answer%strain_energy, &
-               answer%penalty_energy, answer%friction_work, &
+               answer%penalty_energy, answer%friction_work, answer%round_off, &
                real(reshape(answer%count, [size(answer%count)]), wp), answer%deflection]
   end function answer_numbers
 
@@ -96,7 +96,8 @@ contains
     answer%external_work = numbers(4)
     answer%strain_energy = numbers(5)
     answer%penalty_energy = numbers(6)
-    answer%friction_work = numbers(plain_numbers)
+    answer%friction_work = numbers(7)
+    answer%round_off = numbers(plain_numbers)
     answer%count = reshape(nint(numbers(plain_numbers + 1:plain_numbers + counts)), shape(answer%count))
     answer%deflection = numbers(plain_numbers + counts + 1:)
   end subroutine recall_answer
@@ -145,7 +146,7 @@ contains
 
     count = file%numbers('/step/counts')
     factor = file%numbers('/step/factors')
-    if (size(count) /= 5 .or. size(factor) /= 2) file%failed = .true.
+    if (size(count) /= 6 .or. size(factor) /= 3) file%failed = .true.
     if (.not. file%failed) then
       newton%iterations = nint(count(1))
       newton%factorizations = nint(count(2))
@@ -154,6 +155,8 @@ contains
       path%answers = nint(count(5))
       path%at_here = factor(1)
       path%at_before = factor(2)
+      path%at_round_off = nint(count(6))
+      path%round_off = factor(3)
     end if
     call read_vector(strip_order(strip), '/strip/state', file, path%here)
     call read_vector(strip_order(strip), '/strip/state_before', file, path%before)

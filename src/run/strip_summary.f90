@@ -19,6 +19,7 @@ module gfb_strip_summary
             show_step_header
 
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+  real(wp), parameter :: told_round_off = 1.0e-8_wp !! smaller is no matter
 
 contains
 
@@ -97,6 +98,10 @@ contains
     if (largest > 0.0_wp) then
       list = [list, number_quantity('loading_stiffness', full%force/largest, 'N/m', &
                                     'maximum force over maximum deflection')]
+    end if
+    if (full%round_off > told_round_off) then
+      list = [list, number_quantity('deflection_round_off', full%round_off, '1', &
+                                    'relative error of deflections that round-off leaves, about')]
     end if
     if (converged .and. full%factor > last%factor) then
       list = [list, number_quantity('dissipated_energy', last%external_work, 'J', &

@@ -24,13 +24,18 @@ module gfb_eigenmodes
 contains
 
   !> The lowest modes; fewer where the structure or the iteration has no more.
-  subroutine lowest_modes(communicator, stiffness, mass, shift, wanted, modes)
+  !>
+  !> Motions without strain that are known are taken as they are, and come first; the iteration looks
+  !> for what is at right angles to them.
+  subroutine lowest_modes(communicator, stiffness, mass, shift, wanted, modes, known)
     integer, intent(in) :: communicator !! MPI's, of the matrices
     Mat, intent(in) :: stiffness, mass
     real(wp), intent(in) :: shift       !! s, not negative [1/s2]
     integer, intent(in) :: wanted       !! modes asked for
     type(modes_type), intent(out) :: modes
+    type(modes_type), intent(in), optional :: known !! motions without strain, of unit modal mass
 
+    type(modes_type) :: rigid
     EPS :: solver
     ST :: spectral
     KSP :: linear
@@ -39,17 +44,28 @@ contains
     PetscScalar :: value, imaginary
     Vec :: unused
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, first
 
+    rigid%eigenvalue = [real(wp) ::]
+    allocate (rigid%shape(0))
+    if (present(known)) call copy_modes(known, wanted, rigid)
     PetscCallA(MatGetSize(stiffness, unknowns, columns, ierr))
+    unknowns = min(int(wanted, pint), unknowns) - size(rigid%shape, 1, pint)
+    if (unknowns <= 0) then
+      modes = rigid
+      return
+    end if
     PetscCallA(EPSCreate(communicator, solver, ierr))
     PetscCallA(EPSSetOptionsPrefix(solver, 'modes_', ierr))
     PetscCallA(EPSSetOperators(solver, stiffness, mass, ierr))
     PetscCallA(EPSSetProblemType(solver, EPS_GHEP, ierr))
     PetscCallA(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE, ierr))
     PetscCallA(EPSSetTarget(solver, -shift, ierr))
-    PetscCallA(EPSSetDimensions(solver, min(int(wanted, pint), unknowns), PETSC_DEFAULT_INTEGER, PETSC_DEFAULT_INTEGER, ierr))
+    PetscCallA(EPSSetDimensions(solver, unknowns, PETSC_DEFAULT_INTEGER, PETSC_DEFAULT_INTEGER, ierr))
     PetscCallA(EPSSetTolerances(solver, tolerance, PETSC_DEFAULT_INTEGER, ierr))
+    if (size(rigid%shape) > 0) then
+      PetscCallA(EPSSetDeflationSpace(solver, size(rigid%shape, 1, pint), rigid%shape, ierr))
+    end if
     PetscCallA(EPSGetST(solver, spectral, ierr))
     PetscCallA(STSetType(spectral, STSINVERT, ierr))
     PetscCallA(STGetKSP(spectral, linear, ierr))
@@ -60,17 +76,37 @@ contains
     PetscCallA(EPSSetFromOptions(solver, ierr))
     PetscCallA(EPSSolve(solver, ierr))
     PetscCallA(EPSGetConverged(solver, found, ierr))
-    allocate (modes%eigenvalue(min(int(found), wanted)), modes%shape(min(int(found), wanted)))
+    found = min(found, unknowns)
+    first = size(rigid%shape)
+    allocate (modes%eigenvalue(first + found), modes%shape(first + found))
+    modes%eigenvalue(:first) = rigid%eigenvalue
+    modes%shape(:first) = rigid%shape
     PetscCallA(MatCreateVecs(stiffness, unused, PETSC_NULL_VEC, ierr))
-    do i = 1, size(modes%eigenvalue)
-      PetscCallA(MatCreateVecs(stiffness, modes%shape(i), PETSC_NULL_VEC, ierr))
-      PetscCallA(EPSGetEigenpair(solver, int(i - 1, pint), value, imaginary, modes%shape(i), unused, ierr))
-      modes%eigenvalue(i) = real(value, wp)
+    do i = 1, int(found)
+      PetscCallA(MatCreateVecs(stiffness, modes%shape(first + i), PETSC_NULL_VEC, ierr))
+      PetscCallA(EPSGetEigenpair(solver, int(i - 1, pint), value, imaginary, modes%shape(first + i), unused, ierr))
+      modes%eigenvalue(first + i) = real(value, wp)
     end do
     PetscCallA(VecDestroy(unused, ierr))
     PetscCallA(EPSDestroy(solver, ierr))
     call normalise(mass, modes)
   end subroutine lowest_modes
+
+  !> Copies of the first modes.
+  subroutine copy_modes(modes, wanted, copies)
+    type(modes_type), intent(in) :: modes
+    integer, intent(in) :: wanted !! of them at most
+    type(modes_type), intent(out) :: copies
+    PetscErrorCode :: ierr
+    integer :: i
+
+    copies%eigenvalue = modes%eigenvalue(:min(wanted, size(modes%eigenvalue)))
+    allocate (copies%shape(size(copies%eigenvalue)))
+    do i = 1, size(copies%shape)
+      PetscCallA(VecDuplicate(modes%shape(i), copies%shape(i), ierr))
+      PetscCallA(VecCopy(modes%shape(i), copies%shape(i), ierr))
+    end do
+  end subroutine copy_modes
 
   !> Makes the modal masses one.
   subroutine normalise(mass, modes)

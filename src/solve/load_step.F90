@@ -25,6 +25,8 @@ module gfb_load_step
     integer :: answers = 0           !! of the last two, those that there are
     integer :: homotopies = 0        !! steps that needed one
     integer :: cuts = 0              !! steps that were shortened
+    integer :: at_round_off = 0      !! steps, cut ones too, that ended there
+    real(wp) :: round_off = 0.0_wp   !! Newton's largest relative step at their ends [1]
   end type load_path_type
 
 contains
@@ -69,6 +71,8 @@ contains
         step = 0.5_wp*step
         cycle
       end if
+      if (report%at_round_off) path%at_round_off = path%at_round_off + 1
+      path%round_off = max(path%round_off, report%round_off)
       if (abs(reached + step - target) <= 0.0_wp) exit
       call remember(strip, path, reached, reached + step)
       reached = reached + step

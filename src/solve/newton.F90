@@ -6,6 +6,12 @@
 !> differ in few entries they precondition GMRES instead, as long as that needs few iterations. The
 !> line search is non-monotone: a residual may grow for a while, but not beyond the largest of the
 !> last few.
+!>
+!> A residual cannot become smaller than what rounding leaves of the sums it is made of. Where it is
+!> no larger than that, and the steps shrink no more, there is nothing left to find: the state solves
+!> equations whose coefficients differ from the given ones in the last digits, by the theorem of
+!> Oettli and Prager. Such a solve is said to have converged at round-off, and its last step tells how
+!> many digits the equations have. A state that is no answer has a residual far above that.
 module gfb_newton
   use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, &
                                            ieee_set_halting_mode
@@ -17,6 +23,7 @@ module gfb_newton
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: use_factors, factor_matrix, factor_failure
   use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
+  use gfb_rounding, only: rounding_of
   use gfb_old_factors, only: old_factors_type, use_old_factors, judge_factors
   implicit none (type)
   private
@@ -34,6 +41,7 @@ module gfb_newton
   !! beginning, before and after that
   real(wp), parameter :: at_rest = 1.0e-2_wp       !! work at a step's beginning that is none, over that at its end
   real(wp), parameter :: stagnation = 1.0e-6_wp    !! steps this small that shrink no more are round-off
+  real(wp), parameter :: visible = 1.0e-2_wp       !! larger steps are no round-off
 
   !> When to stop.
   type, public :: newton_settings_type
@@ -48,6 +56,8 @@ module gfb_newton
     character(len=:), allocatable :: reason !! in words
     integer :: iterations = 0
     real(wp) :: residual = 0.0_wp !! root mean square of the scaled residual [1]
+    logical :: at_round_off = .false. !! the residual is above its tolerance, but all of it is rounding
+    real(wp) :: round_off = 0.0_wp !! then: the last relative step [1]
   end type newton_report_type
 
   !> The solver and its memory. It is handed to SNES by address: keep it where it is.
@@ -69,6 +79,7 @@ module gfb_newton
     character(len=:), allocatable, private :: unsolved !! why a linear system was not, in words
     logical, private :: fresh = .false.      !! the factors belong to the present state
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
+    logical, private :: rounded = .false.    !! the present solve has ended at round-off
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
     real(wp), private :: unknowns = 1.0_wp   !! their number
     integer, private :: steps = 0            !! of the present solve
@@ -139,6 +150,7 @@ contains
     newton%keep = newton%ready .and. newton%filled == newton%system%times_filled
     newton%ready = .false.
     newton%impossible = .false.
+    newton%rounded = .false.
     newton%unsolved = ''
     newton%step = huge(1.0_wp)
     newton%step_before = huge(1.0_wp)
@@ -159,6 +171,9 @@ contains
     report%iterations = int(iterations)
     report%residual = norm/sqrt(newton%unknowns)
     report%reason = reason_in_words(newton, int(GFB_REASON(reason)))
+    report%at_round_off = newton%rounded
+    if (GFB_REASON(reason) == GFB_REASON(SNES_DIVERGED_MAX_IT)) call blame_round_off(newton, norm, report%reason)
+    if (newton%rounded) report%round_off = newton%step
     newton%iterations = newton%iterations + report%iterations
   end subroutine solve_newton
 
@@ -214,7 +229,9 @@ contains
     integer, intent(in) :: reason
     character(len=:), allocatable :: words
 
-    if (reason > 0) then
+    if (newton%rounded) then
+      words = 'converged at round-off'
+    else if (reason > 0) then
       words = 'converged'
     else if (newton%unsolved /= '') then
       words = newton%unsolved
@@ -443,7 +460,7 @@ contains
     type(newton_type), intent(inout) :: newton
     PetscErrorCode, intent(out) :: ierr
 
-    real(wp) :: residual
+    real(wp) :: residual, rounding
     logical :: small
 
     ierr = 0
@@ -459,8 +476,32 @@ contains
     if ((newton%fresh .or. newton%system%slow_change) .and. newton%step <= stagnation) then
       small = small .or. newton%step > 0.5_wp*newton%step_before
     end if
-    if (small .and. residual <= newton%settings%residual_tolerance*newton%size_x) reason = SNES_CONVERGED_SNORM_RELATIVE
+    if (.not. small) return
+    if (residual <= newton%settings%residual_tolerance*newton%size_x) then
+      reason = SNES_CONVERGED_SNORM_RELATIVE
+    else if (newton%step > 0.5_wp*newton%step_before) then
+      rounding = rounding_of(newton%system%jacobian, newton%system%state)/sqrt(newton%unknowns)
+      newton%rounded = residual <= rounding
+      if (.not. newton%rounded) return
+      reason = SNES_CONVERGED_SNORM_RELATIVE
+      call newton%log%detail('converged at round-off: no more of the residual is left than the '//text(rounding, 2)// &
+                             ' that rounding may leave of its sums')
+    end if
   end subroutine test_convergence
+
+  !> Adds to the reason of a solve that ran out of iterations that nothing but rounding is left.
+  subroutine blame_round_off(newton, norm, reason)
+    type(newton_type), intent(in) :: newton
+    real(wp), intent(in) :: norm !! of the residual
+    character(len=:), allocatable, intent(inout) :: reason
+    real(wp) :: rounding
+
+    if (.not. newton%step <= visible) return
+    rounding = rounding_of(newton%system%jacobian, newton%system%state)
+    if (.not. norm <= rounding) return
+    reason = reason//': the residual is round-off alone, which moves the unknowns by '//text(newton%step, 2)// &
+      ' of themselves from step to step'
+  end subroutine blame_round_off
 
   !> A line of the table of iterations.
   subroutine show_iteration(newton, iteration, residual)

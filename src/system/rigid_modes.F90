@@ -9,13 +9,15 @@ module gfb_rigid_modes
   use gfb_petsc_kinds, only: pint
   use gfb_foil_structure, only: foil_structure_type
   use gfb_node_patches, only: cut_into_patches
+  use gfb_quad_mesh, only: quad_mesh_type
   use gfb_shell_geometry, only: node_unknowns
   implicit none (type)
   private
-  public :: create_rigid_modes
+  public :: create_rigid_modes, node_motions
 
   integer, parameter :: space = 3
   integer, parameter :: modes = 2*space
+  integer, parameter, public :: rigid_motion_count = modes !! of a body
   integer, parameter :: patch_nodes = 36       !! of a patch at most: 180 unknowns become six
   real(wp), parameter :: dependent = 1.0e-6_wp !! what is left of a mode that others make up, relative
   integer, parameter :: power_steps = 12       !! for the largest eigenvalue, which need not be exact
@@ -143,7 +145,7 @@ contains
     integer, intent(in) :: node(:) !! of the whole mesh
     PetscInt, allocatable, intent(out) :: row(:)      !! numbers of their unknowns, from 0
     real(wp), allocatable, intent(out) :: mode(:, :)  !! (unknowns, 6) [m] or [1]
-    real(wp) :: middle(space), arm(space), motion(node_unknowns, modes)
+    real(wp) :: middle(space), motion(node_unknowns, modes)
     integer :: i, component, found
 
     allocate (row(node_unknowns*size(node)), mode(node_unknowns*size(node), modes))
@@ -151,16 +153,7 @@ contains
       middle = sum(mesh%position(:, node), 2)/size(node)
       found = 0
       do i = 1, size(node)
-        arm = mesh%position(:, node(i)) - middle
-        motion = 0.0_wp
-        do component = 1, space
-          motion(component, component) = 1.0_wp
-        end do
-        motion(:space, space + 1) = [0.0_wp, -arm(3), arm(2)]
-        motion(:space, space + 2) = [arm(3), 0.0_wp, -arm(1)]
-        motion(:space, space + 3) = [-arm(2), arm(1), 0.0_wp]
-        motion(space + 1, space + 1:) = mesh%axis_1(:, node(i))
-        motion(space + 2, space + 1:) = mesh%axis_2(:, node(i))
+        motion = node_motions(mesh, node(i), middle)
         do component = 1, node_unknowns
           if (foil%unknown(component, node(i)) < 0) cycle
           found = found + 1
@@ -172,6 +165,27 @@ contains
     row = row(:found)
     mode = mode(:found, :)
   end subroutine rigid_motions
+
+  !> Rigid motions of a node: three displacements, three rotations about a point.
+  pure function node_motions(mesh, node, middle) result(motion)
+    type(quad_mesh_type), intent(in) :: mesh
+    integer, intent(in) :: node
+    real(wp), intent(in) :: middle(space)    !! the point [m]
+    real(wp) :: motion(node_unknowns, modes) !! [1], [m]; of the node's rotations [1/m], [1]
+    real(wp) :: arm(space)
+    integer :: component
+
+    arm = mesh%position(:, node) - middle
+    motion = 0.0_wp
+    do component = 1, space
+      motion(component, component) = 1.0_wp
+    end do
+    motion(:space, space + 1) = [0.0_wp, -arm(3), arm(2)]
+    motion(:space, space + 2) = [arm(3), 0.0_wp, -arm(1)]
+    motion(:space, space + 3) = [-arm(2), arm(1), 0.0_wp]
+    motion(space + 1, space + 1:) = mesh%axis_1(:, node)
+    motion(space + 2, space + 1:) = mesh%axis_2(:, node)
+  end function node_motions
 
   !> Orthonormal columns that span the same, by Gram and Schmidt, twice; dependent ones are left out.
   pure subroutine orthonormalise(column, basis)

@@ -27,6 +27,7 @@ module gfb_strip_answer
     real(wp) :: strain_energy = 0.0_wp        !! [J]
     real(wp) :: penalty_energy = 0.0_wp       !! in the penetrations [J]
     real(wp) :: friction_work = 0.0_wp        !! since the start [J]
+    real(wp) :: round_off = 0.0_wp            !! of the deflections, relative, where it was looked for [1]
   end type strip_answer_type
 
   !> What is needed to go on from one step to the next.

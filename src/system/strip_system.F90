@@ -11,7 +11,9 @@ module gfb_strip_system
   use gfb_petsc_session, only: sum_over_ranks, any_rank, rank_count, this_rank
   use gfb_bump_contacts, only: contact_top
   use gfb_contact_set, only: contact_set_type
+  use gfb_errors, only: error_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_strain_energy, only: strain_products
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_rigid_modes, only: create_rigid_modes
   use gfb_matrix_rows, only: copy_row
@@ -61,6 +63,7 @@ module gfb_strip_system
     procedure :: foil_solution
     procedure :: plate_travel
     procedure :: strain_energy
+    procedure :: stiffness_round_off
   end type strip_system_type
 
 contains
@@ -357,6 +360,24 @@ contains
     PetscCallA(VecDot(self%state, self%work, product, ierr))
     stored = 0.5_wp*product*energy(self)
   end function strain_energy
+
+  !> Relative error of the foil's stiffness against the present displacements: how far the energy
+  !> that its matrix gives is from that of the strains. It is round-off, and large in thin foils
+  !> alone.
+  function stiffness_round_off(self) result(error)
+    class(strip_system_type), intent(in) :: self
+    real(wp) :: error
+    type(error_type), allocatable :: degenerate
+    real(wp) :: exact(1, 1)
+    Vec :: solution
+    PetscErrorCode :: ierr
+
+    call self%foil_solution(solution)
+    call strain_products(self%foil, [solution], exact, degenerate)
+    PetscCallA(VecDestroy(solution, ierr))
+    error = 0.0_wp
+    if (exact(1, 1) > 0.0_wp) error = abs(2.0_wp*self%strain_energy()/exact(1, 1) - 1.0_wp)
+  end function stiffness_round_off
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_strip_system(strip)
