@@ -18,10 +18,11 @@ module gfb_cold_start
   use gfb_film_mesh, only: find_film_place
   use gfb_bearing_system, only: bearing_system_type, film_values
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_position, only: guess_position, find_position, let_go, solve_at
-  use gfb_contact_start, only: find_with_contacts
+  use gfb_contact_search, only: find_with_contacts
   use gfb_branch_search, only: seek_branch
   use gfb_wide_start, only: widen
   use gfb_model_case, only: meshes_foils, half_width_auto
@@ -31,6 +32,8 @@ module gfb_cold_start
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
+  integer, parameter :: galerkin_steps = 2         !! of a path, before SUPG is asked
+  real(wp), parameter :: coarse_peclet = 5.0_wp    !! of a cell that is too large for Galerkin [1]
   integer, parameter :: corners = 4                !! of an element
 
 contains
@@ -115,10 +118,67 @@ contains
       call find_with_contacts(scene, target, settings, 0, bearing, newton, report)
     else
       call guess_position(bearing, scene, target, 0.5_wp)
-      call find_position(bearing, newton, target, settings, report)
+      call find_rigid_position(bearing, newton, target, settings, report)
       if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, settings, report)
     end if
   end subroutine find_answer
+
+  !> A held position. Where Galerkin fails it is tried from the answer of SUPG; if that does not help, and
+  !> its cells are large, no way leads to an answer.
+  subroutine find_rigid_position(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+    type(path_settings_type) :: quick
+    type(path_report_type) :: other
+    type(operating_point_type) :: wanted
+    type(bearing_answer_type) :: answer
+    real(wp) :: place(2)
+    Vec :: start, kept
+    PetscErrorCode :: ierr
+
+    place = bearing%eccentricity()
+    PetscCallA(VecDuplicate(bearing%state, start, ierr))
+    PetscCallA(VecDuplicate(bearing%state, kept, ierr))
+    PetscCallA(VecCopy(bearing%state, start, ierr))
+    quick = settings
+    if (.not. bearing%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
+    call find_position(bearing, newton, target, quick, report)
+    if (.not. report%converged .and. .not. bearing%film%flow%upwind) then
+      PetscCallA(VecCopy(bearing%state, kept, ierr))
+      PetscCallA(VecCopy(start, bearing%state, ierr))
+      bearing%film%flow%upwind = .true.
+      bearing%point%eccentricity = place
+      call find_position(bearing, newton, target, settings, other)
+      bearing%film%flow%upwind = .false.
+      if (other%converged) then
+        answer = bearing_answer(bearing)
+        wanted = target
+        wanted%eccentricity = place
+        call solve_at(bearing, newton, wanted, .true., settings, other)
+        other%held = .true.
+      else
+        answer%maximum_peclet = 0.0_wp
+      end if
+      if (other%converged) then
+        report = other
+      else if (answer%maximum_peclet > coarse_peclet) then
+        report%reason = "Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
+          text(answer%maximum_peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
+        PetscCallA(VecCopy(kept, bearing%state, ierr))
+        bearing%point = report%reached
+        call bearing%apply_point()
+      else
+        PetscCallA(VecCopy(start, bearing%state, ierr))
+        bearing%point%eccentricity = place
+        call find_position(bearing, newton, target, settings, report)
+      end if
+    end if
+    PetscCallA(VecDestroy(kept, ierr))
+    PetscCallA(VecDestroy(start, ierr))
+  end subroutine find_rigid_position
 
   !> Takes an answer over from a smaller system: on half the width, or on a coarser mesh.
   subroutine take_over(small, bearing)

@@ -18,7 +18,7 @@ module gfb_contact_start
   use gfb_start_position, only: guess_position, find_position, let_go, solve_at
   implicit none (type)
   private
-  public :: find_with_contacts, try_start
+  public :: try_start
 
   !> Eccentricities to begin with where none is given, over the free clearance; when contacts let go,
   !> before the shaft does or after; and by how many decades of their stiffness at first. The first
@@ -30,9 +30,8 @@ module gfb_contact_start
   real(wp), parameter :: first_decades(6) = [1.5_wp, 1.5_wp, 0.8_wp, 1.5_wp, 1.5_wp, 1.5_wp]
   real(wp), parameter :: growth(6) = [1.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 1.0_wp] !! of a step that succeeded
   integer, parameter, public :: start_count = size(start_eccentricity)
-  integer, parameter :: plain_starts = 4            !! those that differ only in how contacts let go
-  integer, parameter :: most_halvings = 1           !! of the speed, to come to the target from below
-  real(wp), parameter :: shortest_trial = 0.02_wp   !! step of a start while others are left [1]
+  integer, parameter, public :: plain_starts = 4    !! those that differ only in how contacts let go
+  real(wp), parameter, public :: shortest_trial = 0.02_wp !! step of a start while others are left [1]
   real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a way, with hard contacts [1]
 
   type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25) !! on the way
@@ -42,59 +41,6 @@ module gfb_contact_start
   real(wp), parameter :: least_adhesion = -8.0_wp    !! decades at which it is none
 
 contains
-
-  !> Tries several positions to begin with, and where none leads to the target a slower shaft first.
-  !> Without an answer the state is the equilibrium nearest to the target.
-  recursive subroutine find_with_contacts(scene, target, settings, slower, bearing, newton, report)
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    integer, intent(in) :: slower !! times the speed has been halved
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(path_report_type), intent(out) :: report
-    type(path_settings_type) :: trial
-    type(path_report_type) :: nearest
-    type(operating_point_type) :: slow
-    Vec :: kept
-    integer :: attempt, attempts
-    PetscErrorCode :: ierr
-
-    attempts = size(start_eccentricity)
-    if (scene%operation%eccentricity_given) attempts = plain_starts + 1 ! the position, in all ways
-    if (.not. bearing%floats) attempts = plain_starts
-    PetscCallA(VecDuplicate(bearing%state, kept, ierr))
-    do attempt = 1, attempts
-      trial = settings
-      if (attempt < attempts) trial%smallest_step = max(trial%smallest_step, shortest_trial)
-      call try_start(scene, target, trial, attempt, bearing, newton, report)
-      call keep_nearest(bearing, target, attempt == 1, report, nearest, kept)
-      if (report%converged .or. report%touched) exit
-      if (attempt < attempts) call newton%log%line('no answer from this start ('//report%reason//'): another one')
-    end do
-    if (.not. (report%converged .or. report%touched) .and. bearing%floats .and. slower < most_halvings) then
-      slow = target
-      slow%speed = 0.5_wp*target%speed
-      call newton%log%line('no answer from these starts: first with half the speed')
-      call find_with_contacts(scene, slow, settings, slower + 1, bearing, newton, report)
-      if (report%converged) then
-        call follow_path(bearing, newton, target, 0.25_wp, settings, report)
-        call keep_nearest(bearing, target, .false., report, nearest, kept)
-      end if
-    end if
-    if (.not. report%converged) then
-      report = nearest
-      if (slower == 0 .and. attempts > plain_starts .and. .not. (report%touched .or. report%folded)) then
-        report%reason = text(attempts)//' starts failed, and one with half the speed; from the nearest state '// &
-          'they reached: '//report%reason
-      end if
-      PetscCallA(VecCopy(kept, bearing%state, ierr))
-      bearing%point = report%reached
-      bearing%held = report%held .and. bearing%floats
-      call bearing%apply_point()
-    end if
-    PetscCallA(VecDestroy(kept, ierr))
-  end subroutine find_with_contacts
 
   !> One of the starts.
   subroutine try_start(scene, target, settings, attempt, bearing, newton, report)
@@ -109,36 +55,6 @@ contains
     call guess_position(bearing, scene, target, start_eccentricity(attempt))
     call find_from(bearing, newton, target, settings, attempt, report)
   end subroutine try_start
-
-  !> Keeps a state if it is the nearest to the target so far: an equilibrium rather than a held
-  !> position, at the speed asked for, and the load's.
-  subroutine keep_nearest(bearing, target, first, report, nearest, kept)
-    type(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: target
-    logical, intent(in) :: first !! there is none yet
-    type(path_report_type), intent(in) :: report
-    type(path_report_type), intent(inout) :: nearest
-    Vec, intent(in) :: kept
-    PetscErrorCode :: ierr
-
-    if (.not. first) then
-      if (distance(report) >= distance(nearest)) return
-    end if
-    nearest = report
-    PetscCallA(VecCopy(bearing%state, kept, ierr))
-
-  contains
-
-    !> Loads and speeds that are missing, held positions last [1].
-    pure function distance(report)
-      type(path_report_type), intent(in) :: report
-      real(wp) :: distance
-
-      distance = norm2(report%reached%load - target%load)/max(norm2(target%load), tiny(1.0_wp)) + &
-        abs(report%reached%speed - target%speed)/max(abs(target%speed), tiny(1.0_wp))
-      if (report%held) distance = huge(1.0_wp)
-    end function distance
-  end subroutine keep_nearest
 
   !> The way to the target with contacts that are soft and hold what they touch; what it reached is
   !> made to let go, and hard, and goes on from there.

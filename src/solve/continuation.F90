@@ -58,7 +58,7 @@ contains
     type(newton_report_type) :: solved
     Vec :: here, before
     real(wp) :: step, smallest, at_before, trial
-    logical :: goes_on
+    logical :: goes_on, just_cut
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -70,6 +70,7 @@ contains
     smallest = min(settings%smallest_step, shortest_first*first_step)
     step = min(1.0_wp, max(first_step, smallest))
     at_before = -1.0_wp
+    just_cut = .false.
     do while (report%fraction < 1.0_wp)
       if (report%steps + report%cuts >= settings%maximum_steps) then
         report%reason = 'more than '//text(settings%maximum_steps)//' load steps'
@@ -82,6 +83,7 @@ contains
       call try_step(newton, step >= 2.0_wp*smallest, solved)
       if (.not. solved%converged) then
         report%cuts = report%cuts + 1
+        just_cut = .true. ! what failed need not be tried again at once
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
         step = 0.5_wp*step
@@ -100,7 +102,8 @@ contains
       report%fraction = trial
       report%reached = bearing%point
       report%steps = report%steps + 1
-      if (solved%iterations <= easy_iterations) step = 2.0_wp*step
+      if (solved%iterations <= easy_iterations .and. .not. just_cut) step = 2.0_wp*step
+      just_cut = .false.
       if (bearing%smallest_gap() < settings%touch_down_gap) then
         report%touched = .true.
         report%reason = 'the shaft touches down: the film is thinner than '// &

@@ -35,6 +35,9 @@ module gfb_newton
   real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's
   real(wp), parameter :: chord_step = 0.02_wp      !! smaller steps leave the factors as they are
   real(wp), parameter :: chord_contraction = 0.2_wp !! old factors must shrink the steps by this
+  real(wp), parameter :: chord_fall = 0.9_wp       !! and the residual by this
+  real(wp), parameter :: blocked_length = 0.01_wp  !! of a step that goes nowhere
+  integer, parameter :: most_blocked = 2           !! such steps before it is given up
   integer, parameter :: balances = 8                !! trials of a step's length for contacts
   integer, parameter :: patience = 12               !! steps after which contacts are taken to cycle
   real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
@@ -81,6 +84,7 @@ module gfb_newton
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: rounded = .false.    !! the present solve has ended at round-off
     logical, private :: impossible = .false. !! no trial along the step could be evaluated
+    integer, private :: blocked = 0          !! steps in succession that were cut very short for that
     real(wp), private :: unknowns = 1.0_wp   !! their number
     integer, private :: steps = 0            !! of the present solve
     real(wp), private :: size_x = 1.0_wp     !! largest unknown, at least 1
@@ -151,6 +155,7 @@ contains
     newton%ready = .false.
     newton%impossible = .false.
     newton%rounded = .false.
+    newton%blocked = 0
     newton%unsolved = ''
     newton%step = huge(1.0_wp)
     newton%step_before = huge(1.0_wp)
@@ -320,7 +325,7 @@ contains
     Vec :: x, f, y, trial, trial_residual
     PetscReal :: before, after, size_x, size_y
     integer :: halving
-    logical :: found, moved, solved
+    logical :: found, moved, solved, left
 
     PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
     PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
@@ -335,6 +340,7 @@ contains
     newton%past = [before, newton%past(:memory - 1)]
     newton%length = 1.0_wp
     found = .false.
+    left = .false.
     newton%impossible = .true.
     if (newton%system%slow_change) then
       PetscCall(SNESGetKSP(snes, linear, ierr))
@@ -359,10 +365,17 @@ contains
         ! Near the end round-off makes residuals jump: a small full step is taken as it is.
         found = after <= (1.0_wp - sufficient*newton%length)*maxval(newton%past) .or. &
           (newton%step <= stagnation .and. halving == 0)
+      else
+        left = .true.
       end if
       if (found) exit
       newton%length = 0.5_wp*newton%length
     end do
+    newton%blocked = merge(newton%blocked + 1, 0, left .and. newton%length < blocked_length)
+    if (newton%blocked >= most_blocked) then ! the method runs against where gap or pressure end
+      found = .false.
+      newton%impossible = .true.
+    end if
     if (found) then
       call newton%system%settle(trial, moved)
       if (moved) then
@@ -379,7 +392,8 @@ contains
       end if
       newton%impossible = newton%impossible .and. newton%fresh
     end if
-    call choose_factors(newton)
+    PetscCall(VecNorm(f, NORM_2, after, ierr))
+    call choose_factors(newton, before, after)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine search_line
 
@@ -439,8 +453,12 @@ contains
   end subroutine balance_work
 
   !> Whether the present factors serve the next step too.
-  pure subroutine choose_factors(newton)
+  !>
+  !> Where contacts have changed, old factors lead nowhere with steps that look small: then the
+  !> residual stays.
+  pure subroutine choose_factors(newton, before, after)
     type(newton_type), intent(inout) :: newton
+    real(wp), intent(in) :: before, after !! norms of the residual before and after the step
 
     if (newton%length < 1.0_wp .or. .not. newton%system%settled) then
       newton%keep = .false.
@@ -448,6 +466,9 @@ contains
       newton%keep = newton%step < chord_step
     else
       newton%keep = newton%step < chord_contraction*newton%step_before
+    end if
+    if (after > newton%settings%residual_tolerance*sqrt(newton%unknowns)) then
+      newton%keep = newton%keep .and. after < chord_fall*before
     end if
   end subroutine choose_factors
 

@@ -7,7 +7,7 @@ module gfb_bearing_directions
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
-  public :: edge_lift, edge_direction, contact_direction, foil_unit
+  public :: edge_lift, edge_room, edge_direction, contact_direction, foil_unit
 
 contains
 
@@ -21,6 +21,18 @@ contains
     total = sum_over_ranks([bearing%edge%lift(unknown)])
     lift = total(1)
   end function edge_lift
+
+  !> Smallest gap over the top foil's free edge at the present state, over all ranks [m].
+  function edge_room(bearing) result(room)
+    class(bearing_system_type), intent(in) :: bearing
+    real(wp) :: room
+    real(wp) :: unknown(bearing%local_size()), gap(size(bearing%mesh%mesh_node)), smallest(1)
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    smallest = largest_over_ranks([maxval(-gap(bearing%edge%node))])
+    room = -smallest(1)
+  end function edge_room
 
   !> The vector whose product with a state is that lift over the clearance.
   subroutine edge_direction(bearing, direction)

@@ -264,6 +264,7 @@ contains
       call self%foil%add_residual(loading, value)
       call self%edge%add_pull(point%edge_pull, value)
       call self%edge%add_tension(point%edge_tension, unknown, value)
+      call self%edge%add_hold(point%edge_hold, point%edge_height, unknown, value)
       PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
       if (self%floats .and. .not. self%held) then
         force = self%film%force(loading(:nodes))
@@ -312,6 +313,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
     call self%foil%add_jacobian(unknown, self%jacobian)
     if (abs(self%point%edge_tension) > 0.0_wp) call add_tension(self%edge, self%point%edge_tension, self%jacobian)
+    if (self%point%edge_hold > 0.0_wp) call add_hold(self%edge, self%point%edge_hold, self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -333,6 +335,21 @@ contains
       PetscCallA(MatSetValuesLocal(jacobian, 2_pint, int(place - 1, pint), 2_pint, int(place - 1, pint), [block], ADD_VALUES, ierr))
     end do
   end subroutine add_tension
+
+  !> Adds the stiffness of the springs that hold the free edge.
+  subroutine add_hold(edge, stiffness, jacobian)
+    type(free_edge_type), intent(in) :: edge
+    real(wp), intent(in) :: stiffness !! of the whole width [N/m]
+    Mat, intent(in) :: jacobian
+    PetscInt :: place(1)
+    integer :: i
+    PetscErrorCode :: ierr
+
+    do i = 1, size(edge%unknown)
+      place = int(edge%unknown(i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, place, 1_pint, place, [stiffness*edge%hold_stiffness(i)], ADD_VALUES, ierr))
+    end do
+  end subroutine add_hold
 
   !> Moves the foil's contacts on their laws to where the foils have gone.
   subroutine settle_bearing(self, state, moved)

@@ -15,6 +15,7 @@ module gfb_free_edge
   !> This rank's nodes of the free edge; none where the top foil has none.
   type, public :: free_edge_type
     integer, allocatable :: unknown(:)        !! local unknowns of the bearing that move the nodes
+    integer, allocatable :: node(:)           !! of the film, on this rank
     real(wp), allocatable :: share(:)         !! of the solved width that belongs to a node [1]
     real(wp), allocatable, private :: rate(:) !! way towards the shaft over the unknown [1]
     real(wp), allocatable, private :: origin(:) !! the unknown's value at rest
@@ -24,6 +25,8 @@ module gfb_free_edge
     real(wp), private :: solved = 1.0_wp      !! part of the width that is solved [1]
   contains
     procedure :: add_pull
+    procedure :: add_hold
+    procedure :: hold_stiffness
     procedure :: add_tension
     procedure :: tension_block
     procedure :: lift
@@ -53,6 +56,7 @@ contains
       share(node) = row_share(whole%row_axial, row)
     end do
     edge%unknown = pack(foil%source, taken)
+    edge%node = pack([(node, node=1, size(taken))], taken)
     edge%share = pack(share, taken)
     edge%solved = merge(0.5_wp, 1.0_wp, whole%half)
     edge%rate = -pack(foil%rate, taken)
@@ -116,6 +120,33 @@ contains
       end associate
     end do
   end subroutine add_pull
+
+  !> Adds the forces of springs that hold every node of the edge at a height to the local residual.
+  pure subroutine add_hold(self, stiffness, height, unknown, residual)
+    class(free_edge_type), intent(in) :: self
+    real(wp), intent(in) :: stiffness      !! of the whole width [N/m]
+    real(wp), intent(in) :: height         !! above the edge's place at rest [m]
+    real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
+    real(wp), intent(inout) :: residual(:) !! one a local unknown of the bearing
+    real(wp) :: lift
+    integer :: i
+
+    if (.not. stiffness > 0.0_wp) return
+    do i = 1, size(self%unknown)
+      associate (place => self%unknown(i), rate => self%rate(i))
+        lift = rate*(unknown(place) - self%origin(i))
+        residual(place) = residual(place) + stiffness*self%solved*self%share(i)*rate*(lift - height)
+      end associate
+    end do
+  end subroutine add_hold
+
+  !> Derivative of those forces after the unknown of one node, for a stiffness of one [1].
+  elemental function hold_stiffness(self, i) result(stiffness)
+    class(free_edge_type), intent(in) :: self
+    integer, intent(in) :: i !! node of the edge
+    real(wp) :: stiffness
+    stiffness = self%solved*self%share(i)*self%rate(i)**2
+  end function hold_stiffness
 
   !> Neighbours on this rank that move on their own; none where the edge cannot bend along the axis.
   pure function pairs(self)

@@ -13,6 +13,8 @@ module gfb_operating_point
     real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
+    real(wp) :: edge_hold = 0.0_wp       !! fictitious, holds that edge at a height [N/m]
+    real(wp) :: edge_height = 0.0_wp     !! it, above the edge's place at rest [m]
   end type operating_point_type
 
 contains
@@ -33,5 +35,7 @@ contains
     point%tilt = first%tilt + fraction*(last%tilt - first%tilt)
     point%edge_pull = first%edge_pull + fraction*(last%edge_pull - first%edge_pull)
     point%edge_tension = first%edge_tension + fraction*(last%edge_tension - first%edge_tension)
+    point%edge_hold = first%edge_hold + fraction*(last%edge_hold - first%edge_hold)
+    point%edge_height = first%edge_height + fraction*(last%edge_height - first%edge_height)
   end function point_between
 end module gfb_operating_point

@@ -157,12 +157,12 @@ def wedge(trial, number, eps, elements):
                f"{found['supg']:.1e} (SUPG)")
 
 
-@scene("High Peclet numbers", "opening wedge, Lambda 1000, 26 elements", elements=26, iterations=600)
-@scene("High Peclet numbers", "the same, 416 elements", elements=416, iterations=600)
+@scene("High Peclet numbers", "opening wedge, Lambda 1000, 26 elements", elements=26, iterations=100)
+@scene("High Peclet numbers", "the same, 416 elements", elements=416, iterations=100)
 def coarse_wedge(trial, elements):
-    """Galerkin's wiggles empty the film, which is told; upwinding, which is chosen by itself, has an answer."""
+    """Galerkin's wiggles empty the film, which is told at once; upwinding, which is chosen by itself, has an answer."""
     mesh = {"circumferential_elements": elements}
-    trial.refused(WEDGE, ("emptied the film",), operation=at(1000.0, 0.5, 0.0), model={"film_scheme": "galerkin"},
+    trial.refused(WEDGE, ("film_scheme = 'supg' has an answer",), operation=at(1000.0, 0.5, 0.0), model={"film_scheme": "galerkin"},
                   mesh=mesh)
     film = trial.solve(WEDGE, operation=at(1000.0, 0.5, 0.0), mesh=mesh).film()
     least = line_pressure(1000.0, 0.5)
