@@ -97,34 +97,34 @@ contains
     call move_alloc(longer, mesh%sets)
   end subroutine add_node_set
 
-  !> The mesh of some elements alone, nodes in the same order; it has no sets.
-  pure function sub_mesh(mesh, elements) result(part)
+  !> The mesh of a stretch alone, numbered from 1; what is not there is not there either. It has no
+  !> sets.
+  pure function sub_mesh(mesh, stretch) result(part)
     type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: elements(:)
+    integer, intent(in) :: stretch(2) !! first and last station of the whole mesh
     type(quad_mesh_type) :: part
-    integer :: number(size(mesh%position, 2)), i, corner
-    integer, allocatable :: nodes(:)
+    integer :: before, first, last
 
-    number = 0
-    do i = 1, size(elements)
-      number(mesh%element_nodes(:, elements(i))) = 1
-    end do
-    nodes = pack([(i, i=1, size(number))], number == 1)
-    do i = 1, size(nodes)
-      number(nodes(i)) = i
-    end do
-    part%position = mesh%position(:, nodes)
-    part%axis_1 = mesh%axis_1(:, nodes)
-    part%axis_2 = mesh%axis_2(:, nodes)
-    part%director = mesh%director(:, :, elements)
     part%rows = mesh%rows
-    part%stations = size(nodes)/mesh%rows
+    part%stations = stretch(2) - stretch(1) + 1
     part%half = mesh%half
-    allocate (part%element_nodes(4, size(elements)), part%sets(0))
-    do i = 1, size(elements)
-      do corner = 1, 4
-        part%element_nodes(corner, i) = number(mesh%element_nodes(corner, elements(i)))
-      end do
-    end do
+    allocate (part%sets(0))
+    before = (stretch(1) - 1)*mesh%rows
+    first = max(before + 1, lbound(mesh%position, 2))
+    last = max(first - 1, min(stretch(2)*mesh%rows, ubound(mesh%position, 2)))
+    allocate (part%position(3, first - before:last - before))
+    allocate (part%axis_1(3, first - before:last - before))
+    allocate (part%axis_2(3, first - before:last - before))
+    part%position(:, :) = mesh%position(:, first:last)
+    part%axis_1(:, :) = mesh%axis_1(:, first:last)
+    part%axis_2(:, :) = mesh%axis_2(:, first:last)
+    associate (elements => (stretch(1) - 1)*(mesh%rows - 1))
+      first = max(elements + 1, lbound(mesh%element_nodes, 2))
+      last = max(first - 1, min((stretch(2) - 1)*(mesh%rows - 1), ubound(mesh%element_nodes, 2)))
+      allocate (part%element_nodes(4, first - elements:last - elements))
+      allocate (part%director(3, 4, first - elements:last - elements))
+    end associate
+    part%element_nodes(:, :) = mesh%element_nodes(:, first:last) - before
+    part%director(:, :, :) = mesh%director(:, :, first:last)
   end function sub_mesh
 end module gfb_quad_mesh

@@ -18,6 +18,8 @@ module gfb_case_file
     character(len=:), allocatable :: path, unit, meaning
     real(wp), allocatable :: values(:, :) !! (columns, rows) of the file
     logical :: by_step = .false.          !! a row is a load step or sweep point
+    !> in the file where one rank alone has any; 0: all ranks have all
+    integer :: rows = 0
   end type case_array_type
 
 contains
@@ -56,15 +58,16 @@ contains
   subroutine write_arrays(file, arrays)
     type(result_file_type), intent(inout) :: file
     type(case_array_type), intent(in) :: arrays(:)
-    integer :: i, mine
+    integer :: i, mine, total
 
     do i = 1, size(arrays)
       associate (one => arrays(i))
         call file%need_group(one%path(:index(one%path(2:), '/')))
         call file%need_group(one%path(:index(one%path, '/', back=.true.) - 1))
-        mine = merge(size(one%values, 2), 0, file%first_rank)
-        call file%put_block(one%path, one%values(:, :mine), 0, size(one%values, 2), one%unit, &
-          one%meaning)
+        mine = size(one%values, 2)
+        total = merge(one%rows, mine, one%rows > 0)
+        if (one%rows == 0 .and. .not. file%first_rank) mine = 0
+        call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning)
       end associate
     end do
   end subroutine write_arrays

@@ -9,7 +9,7 @@ module gfb_modes_analysis
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
                           truth_quantity
-  use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
+  use gfb_petsc_session, only: wall_time, sum_over_ranks, largest_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_modes_case, only: part_words, part_top_foil, part_strip
@@ -20,7 +20,8 @@ module gfb_modes_analysis
   use gfb_foil_plan, only: plan_foil
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   use gfb_mode_energies, only: free_motions, sharpen_modes, exact
-  use gfb_craig_bampton, only: craig_bampton_type, craig_bampton, assembled_eigenvalues
+  use gfb_craig_bampton, only: craig_bampton_type, craig_bampton
+  use gfb_reduced_strip, only: assembled_eigenvalues
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement
@@ -95,6 +96,8 @@ contains
       call reduce_strip(part, scene%modes%substructure_modes, size(modes%eigenvalue), shift, log, arrays, &
                         summary, error)
       if (allocated(error)) return
+      call renew(cost_quantities(part, start_time), summary)
+      call renew(cost_quantities(part, start_time), history(1)%quantity)
     end if
     call destroy_modes(modes)
     call write_result_set(scene, folder, converged, provenance(command), summary, history, arrays, [grid], &
@@ -116,21 +119,12 @@ contains
 
     type(craig_bampton_type), allocatable :: kinds(:)
     real(wp), allocatable :: eigenvalue(:)
-    character(len=:), allocatable :: group
     integer :: i
 
     call craig_bampton(strip, modes_kept, kinds, error)
     if (allocated(error)) return
-    do i = 1, size(kinds)
-      group = '/craig_bampton/kind_'//text(i)
-      arrays = [arrays, &
-                case_array_type(group//'/stiffness', 'mixed SI', 'retained unknowns, then modes', kinds(i)%stiffness), &
-                case_array_type(group//'/mass', 'mixed SI', 'retained unknowns, then modes', kinds(i)%mass)]
-    end do
-    arrays = [arrays, case_array_type('/craig_bampton/kind_of_substructure', '1', &
-                                      'kind of each super-element, from the smallest x on', &
-                                      reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)]))]
     eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
+    call list_matrices(strip, kinds, arrays)
     do i = 1, size(eigenvalue)
       summary = [summary, number_quantity('craig_bampton_frequency_'//text(i), &
                                           sqrt(max(eigenvalue(i), 0.0_wp))/turn, 'Hz', &
@@ -140,14 +134,52 @@ contains
                   ' modes each, written to /craig_bampton')
   end subroutine reduce_strip
 
+  !> The matrices of every kind, each on the rank that computed it, for the result file.
+  subroutine list_matrices(strip, kinds, arrays)
+    type(foil_structure_type), intent(in) :: strip
+    type(craig_bampton_type), intent(inout) :: kinds(:) !! the matrices leave them
+    type(case_array_type), allocatable, intent(out) :: arrays(:)
+    integer :: i
+
+    allocate (arrays(2*size(kinds) + 1))
+    do i = 1, size(kinds)
+      call add_matrix('stiffness', kinds(i)%stiffness, arrays(2*i - 1))
+      call add_matrix('mass', kinds(i)%mass, arrays(2*i))
+    end do
+    arrays(size(arrays))%path = '/craig_bampton/kind_of_substructure'
+    arrays(size(arrays))%unit = '1'
+    arrays(size(arrays))%meaning = 'kind of each super-element, from the smallest x on'
+    arrays(size(arrays))%values = reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)])
+
+  contains
+
+    !> One matrix of a kind.
+    subroutine add_matrix(name, matrix, array)
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: matrix(:, :)
+      type(case_array_type), intent(inout) :: array
+
+      array%path = '/craig_bampton/kind_'//text(i)//'/'//name
+      array%unit = 'mixed SI'
+      array%meaning = 'retained unknowns, then modes'
+      array%rows = kinds(i)%retained + kinds(i)%modes
+      if (kinds(i)%mine) then
+        call move_alloc(matrix, array%values)
+      else
+        allocate (array%values(array%rows, 0))
+      end if
+    end subroutine add_matrix
+  end subroutine list_matrices
+
   !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
-  pure function plate_eigenvalue(part) result(eigenvalue)
+  function plate_eigenvalue(part) result(eigenvalue)
     type(foil_structure_type), intent(in) :: part
     real(wp) :: eigenvalue
-    real(wp) :: length
+    real(wp) :: length, ends(4)
 
-    associate (position => part%mesh%position, foil => part%section)
-      length = max(maxval(position(1, :)) - minval(position(1, :)), maxval(position(3, :)) - minval(position(3, :)))
+    associate (x => part%mesh%position(1, :), z => part%mesh%position(3, :), foil => part%section)
+      ends = largest_over_ranks([maxval(x), -minval(x), maxval(z), -minval(z)])
+      length = max(ends(1) + ends(2), ends(3) + ends(4))
       eigenvalue = foil%youngs_modulus*foil%thickness**2/(12.0_wp*(1.0_wp - foil%poissons_ratio**2)* &
                                                           foil%density*length**4)
     end associate
@@ -207,6 +239,19 @@ contains
                      text(left, 2))
     if (reduced) call log%warning('the Craig-Bampton matrices and frequencies keep that round-off')
   end subroutine warn_of_round_off
+
+  !> Puts newer numbers in the place of older ones of the same name.
+  pure subroutine renew(newer, list)
+    type(quantity_type), intent(in) :: newer(:)
+    type(quantity_type), intent(inout) :: list(:)
+    integer :: i, k
+
+    do i = 1, size(list)
+      do k = 1, size(newer)
+        if (list(i)%name == newer(k)%name) list(i) = newer(k)
+      end do
+    end do
+  end subroutine renew
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, scene, modes, part)

@@ -5,13 +5,10 @@ module gfb_partition_report
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_partition, only: division_type, chain_type, divide, no_chain
-  use gfb_part_chains, only: strip_chain, column_chain
+  use gfb_partition, only: division_type, divide, no_chain
   use gfb_foil_mesh, only: axial_rows
   use gfb_model_case, only: foil_shell, reduction_guyan
-  use gfb_modes_case, only: part_half_arc, part_flat, part_strip, part_top_foil
-  use gfb_scene_case, only: analysis_modes
-  use gfb_foil_builder, only: foil_plan_type, strip_shape, plate_stations
+  use gfb_foil_builder, only: foil_plan_type, foil_chain
   use gfb_bearing_builder, only: bearing_plan_type, divide_bearing, film_mesh_of
   implicit none (type, external)
   private
@@ -54,32 +51,6 @@ contains
     if (allocated(error)) return
     call show_parts(division, plan%reduced, log)
   end subroutine show_strip_partition
-
-  !> What a foil without a film is cut into: a strip's pieces, or the columns of a part of the
-  !> foils.
-  function foil_chain(scene, rows, reduced) result(pieces)
-    type(scene_type), intent(in) :: scene
-    integer, intent(in) :: rows    !! nodes of a station
-    logical, intent(in) :: reduced !! substructures are condensed
-    type(chain_type) :: pieces
-    integer :: columns, i
-
-    if (scene%general%analysis /= analysis_modes .or. scene%modes%part == part_strip) then
-      pieces = strip_chain(strip_shape(scene), rows, reduced)
-      return
-    end if
-    select case (scene%modes%part)
-    case (part_top_foil)
-      columns = size(plate_stations(scene)) - 1
-    case (part_flat)
-      columns = scene%mesh%flat_elements
-    case (part_half_arc)
-      columns = scene%mesh%arc_elements/2
-    case default
-      columns = scene%mesh%arc_elements
-    end select
-    pieces = column_chain([(real(i, wp), i=0, columns)], rows)
-  end function foil_chain
 
   !> A line a part.
   subroutine show_parts(division, reduced, log)

@@ -11,26 +11,32 @@ module gfb_craig_bampton
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
-  use gfb_shell_geometry, only: node_unknowns
-  use gfb_substructures, only: substructure_type, kind_count
+  use gfb_petsc_session, only: this_rank, rank_count, share_failure
+  use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: assemble_piece, retained_in_piece, add_symmetric_block
+  use gfb_foil_sharing, only: share_kinds, pass_on
+  use gfb_foil_pieces, only: assemble_piece, retained_in_piece
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   implicit none (type)
   private
-  public :: craig_bampton, assembled_eigenvalues
+  public :: craig_bampton
 
-  !> One kind of super-element with its modes. Unknowns: the retained ones, then the modes.
+  !> One kind of super-element with its modes. Unknowns: the retained ones, then the modes. Ranks that
+  !> have no super-element of the kind know its sizes only.
   type, public :: craig_bampton_type
+    integer :: retained = 0 !! unknowns
+    integer :: modes = 0
+    logical :: mine = .false. !! this rank computed it, for all
     real(wp), allocatable :: stiffness(:, :)
     real(wp), allocatable :: mass(:, :)
-    real(wp), allocatable :: eigenvalue(:) !! of the fixed-interface modes [1/s2]
+    real(wp), allocatable :: eigenvalue(:) !! of the fixed-interface modes, where they were computed [1/s2]
   end type craig_bampton_type
 
 contains
 
-  !> Matrices of every kind of super-element of a foil, on this rank alone.
+  !> Matrices of every kind of super-element of a foil: computed once in the whole job, by the rank that
+  !> has the first of the kind, and handed to the others that have one.
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine craig_bampton(foil, modes_kept, kinds, error)
@@ -38,17 +44,48 @@ contains
     integer, intent(in) :: modes_kept !! fixed-interface modes of every super-element
     type(craig_bampton_type), allocatable, intent(out) :: kinds(:)
     type(error_type), allocatable, intent(out) :: error
+    integer, allocatable :: maker(:)
+    logical, allocatable :: has(:, :)
     integer :: i
 
-    allocate (kinds(kind_count(foil%substructure)))
-    do i = 1, size(foil%substructure)
-      associate (piece => foil%substructure(i))
-        if (allocated(kinds(piece%kind)%mass)) cycle
+    associate (kind => foil%substructure%kind, part => foil%column_part(foil%substructure%column))
+      call share_kinds(kind, part, rank_count(), has, maker)
+      ! Always the first: another copy's modes, where frequencies lie close, are others by round-off.
+      maker = [(part(findloc(kind, i, 1)), i=1, size(maker))]
+    end associate
+    allocate (kinds(size(maker)))
+    do i = 1, size(foil%mine)
+      associate (piece => foil%substructure(foil%mine(i)))
+        if (maker(piece%kind) /= this_rank() + 1 .or. kinds(piece%kind)%mine) cycle
         call reduce_piece(foil, piece, modes_kept, kinds(piece%kind), error)
-        if (allocated(error)) return
+        if (allocated(error)) exit
       end associate
     end do
+    call share_failure(error)
+    if (allocated(error)) return
+    call share_matrices(has, maker, kinds)
   end subroutine craig_bampton
+
+  !> Hands the matrices to the ranks that need them, and their sizes to all.
+  subroutine share_matrices(has, maker, kinds)
+    logical, intent(in) :: has(:, :) !! (ranks, kinds)
+    integer, intent(in) :: maker(:)  !! (kinds) rank, from 1
+    type(craig_bampton_type), intent(inout) :: kinds(:)
+    integer :: sizes(2, size(kinds)), i, order
+    PetscErrorCode :: ierr
+
+    sizes(1, :) = kinds%retained
+    sizes(2, :) = kinds%modes
+    call MPI_Allreduce(MPI_IN_PLACE, sizes, size(sizes), MPI_INTEGER, MPI_MAX, PETSC_COMM_WORLD, ierr)
+    kinds%retained = sizes(1, :)
+    kinds%modes = sizes(2, :)
+    do i = 1, size(kinds)
+      if (.not. has(this_rank() + 1, i)) cycle
+      order = kinds(i)%retained + kinds(i)%modes
+      call pass_on(has(:, i), maker(i), order, kinds(i)%stiffness)
+      call pass_on(has(:, i), maker(i), order, kinds(i)%mass)
+    end do
+  end subroutine share_matrices
 
   !> Matrices of one substructure.
   subroutine reduce_piece(foil, piece, modes_kept, reduced, error)
@@ -80,6 +117,9 @@ contains
     do i = 1, size(modes%eigenvalue)
       basis(super%interior, kept + i) = values_of(modes%shape(i))
     end do
+    reduced%mine = .true.
+    reduced%retained = kept
+    reduced%modes = size(modes%eigenvalue)
     reduced%eigenvalue = modes%eigenvalue
     reduced%mass = congruent(mass, basis)
     allocate (reduced%stiffness(size(basis, 2), size(basis, 2)), source=0.0_wp)
@@ -136,75 +176,6 @@ contains
     PetscCallA(MatDestroy(moved, ierr))
     product = 0.5_wp*(product + transpose(product))
   end function congruent
-
-  !> Lowest eigenvalues of the strip put together from its super-elements, on this rank alone
-  !> [1/s2].
-  function assembled_eigenvalues(foil, kinds, shift, wanted) result(eigenvalue)
-    type(foil_structure_type), intent(in) :: foil
-    type(craig_bampton_type), intent(in) :: kinds(:)
-    real(wp), intent(in) :: shift !! [1/s2]
-    integer, intent(in) :: wanted
-    real(wp), allocatable :: eigenvalue(:)
-
-    type(modes_type) :: modes
-    Mat :: stiffness, mass
-    integer, allocatable :: number(:, :), list(:)
-    PetscErrorCode :: ierr
-    integer :: i, unknowns, entries, k
-
-    call number_retained(foil, number, unknowns)
-    entries = 0
-    do i = 1, size(kinds)
-      entries = max(entries, size(kinds(i)%mass, 1))
-    end do
-    k = unknowns
-    do i = 1, size(foil%substructure)
-      k = k + size(kinds(foil%substructure(i)%kind)%eigenvalue)
-    end do
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER_ARRAY, stiffness, ierr))
-    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(k, pint), int(k, pint), int(min(k, 2*entries), pint), PETSC_NULL_INTEGER_ARRAY, mass, ierr))
-    do i = 1, size(foil%substructure)
-      associate (piece => foil%substructure(i), kind => kinds(foil%substructure(i)%kind))
-        list = [reshape(number(:, pack(piece%nodes, piece%retained)), [node_unknowns*count(piece%retained)]) - 1, &
-                [(unknowns + k - 1, k=1, size(kind%eigenvalue))]]
-        unknowns = unknowns + size(kind%eigenvalue)
-        call add_symmetric_block(stiffness, list, kind%stiffness)
-        call add_symmetric_block(mass, list, kind%mass)
-      end associate
-    end do
-    PetscCallA(MatAssemblyBegin(stiffness, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(stiffness, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyBegin(mass, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(mass, MAT_FINAL_ASSEMBLY, ierr))
-    call lowest_modes(PETSC_COMM_SELF, stiffness, mass, shift, wanted, modes)
-    eigenvalue = modes%eigenvalue
-    call destroy_modes(modes)
-    PetscCallA(MatDestroy(stiffness, ierr))
-    PetscCallA(MatDestroy(mass, ierr))
-  end function assembled_eigenvalues
-
-  !> Numbers, from 1, of the free unknowns of retained nodes; 0 elsewhere.
-  pure subroutine number_retained(foil, number, unknowns)
-    type(foil_structure_type), intent(in) :: foil
-    integer, allocatable, intent(out) :: number(:, :) !! (5, nodes)
-    integer, intent(out) :: unknowns
-    logical :: kept(size(foil%mesh%position, 2))
-    integer :: i, node, component
-
-    kept = .false.
-    do i = 1, size(foil%substructure)
-      kept(pack(foil%substructure(i)%nodes, foil%substructure(i)%retained)) = .true.
-    end do
-    allocate (number(node_unknowns, size(kept)), source=0)
-    unknowns = 0
-    do node = 1, size(kept)
-      do component = 1, node_unknowns
-        if (.not. (kept(node) .and. foil%free(component, node))) cycle
-        unknowns = unknowns + 1
-        number(component, node) = unknowns
-      end do
-    end do
-  end subroutine number_retained
 
   !> Entries of a sequential vector.
   function values_of(vector) result(list)

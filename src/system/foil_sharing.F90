@@ -6,7 +6,6 @@ module gfb_foil_sharing
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank
   use gfb_partition, only: division_type, divide, chain, no_chain
-  use gfb_super_element, only: super_element_type
   implicit none (type)
   private
   public :: cut_columns, share_kinds, pass_on, lines_at_seams
@@ -55,25 +54,26 @@ contains
     end do
   end subroutine share_kinds
 
-  !> Hands a condensed matrix from the rank that made it to the others that have the kind; kinds come in
-  !> the same order on all ranks, so that nobody waits for ever.
-  subroutine pass_on(has, maker, super)
+  !> Hands a kind's matrix from the rank that made it to the others that have the kind; kinds come in the
+  !> same order on all ranks, so that nobody waits for ever.
+  subroutine pass_on(has, maker, order, matrix)
     logical, intent(in) :: has(:)  !! (ranks)
     integer, intent(in) :: maker   !! rank, from 1
-    type(super_element_type), intent(inout) :: super
+    integer, intent(in) :: order   !! of the matrix
+    real(wp), allocatable, intent(inout) :: matrix(:, :) !! there on the rank that made it
     integer, parameter :: tag = 1
     integer :: rank, entries, status(MPI_STATUS_SIZE)
     PetscErrorCode :: ierr
 
-    entries = size(super%retained)**2
+    entries = order**2
     if (maker /= this_rank() + 1) then
-      allocate (super%stiffness(size(super%retained), size(super%retained)))
-      call MPI_Recv(super%stiffness, entries, MPI_DOUBLE_PRECISION, maker - 1, tag, PETSC_COMM_WORLD, status, ierr)
+      allocate (matrix(order, order))
+      call MPI_Recv(matrix, entries, MPI_DOUBLE_PRECISION, maker - 1, tag, PETSC_COMM_WORLD, status, ierr)
       return
     end if
     do rank = 1, size(has)
       if (rank == maker .or. .not. has(rank)) cycle
-      call MPI_Send(super%stiffness, entries, MPI_DOUBLE_PRECISION, rank - 1, tag, PETSC_COMM_WORLD, ierr)
+      call MPI_Send(matrix, entries, MPI_DOUBLE_PRECISION, rank - 1, tag, PETSC_COMM_WORLD, ierr)
     end do
   end subroutine pass_on
 

@@ -43,8 +43,8 @@ module gfb_foil_structure
     integer :: condensations = 0             !! super-elements this rank condensed, each for all ranks
     type(super_element_type), allocatable :: super(:) !! by kind; those that this rank has
     Mat :: stiffness
+    integer, allocatable :: column_part(:)   !! rank, from 1, of every column of elements
     logical, private :: created = .false.
-    integer, allocatable, private :: column_part(:) !! rank, from 1, of every column of elements
   contains
     procedure :: unknown
     procedure :: numbers_at
@@ -156,7 +156,8 @@ contains
     call share_failure(error)
     if (allocated(error)) return
     do i = 1, size(maker)
-      if (has(this_rank() + 1, i)) call pass_on(has(:, i), maker(i), structure%super(i))
+      if (.not. has(this_rank() + 1, i)) cycle
+      call pass_on(has(:, i), maker(i), size(structure%super(i)%retained), structure%super(i)%stiffness)
     end do
   end subroutine condense_kinds
 

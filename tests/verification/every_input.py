@@ -4,7 +4,8 @@
 every_input.py [--small] [--as-is] [--ranks 1,2,3] [INPUT ...]
 
 The first of the ranks is what the others are compared with: all numbers of the summary and of every load step or sweep
-point that are not costs. Inputs that would take minutes are solved on coarser meshes, as the output says.
+point that are not costs, and the shapes of modes, up to their sign. Inputs that would take minutes are solved on coarser
+meshes, as the output says. `strip_modes:arc` and the like are inputs with a few keys changed.
 """
 
 import argparse
@@ -13,13 +14,19 @@ import pathlib
 import re
 import tempfile
 
+import h5py
+import numpy
 from gfb_run import COST, Bearing, Checks, largest_difference, namelist_value, natural_sizes, run_file, \
     summary_difference
 
 INPUTS = pathlib.Path(os.environ.get("GFB_SOURCE", pathlib.Path(__file__).parents[2]))/"inputs"
 RANKS = (1, 2, 3, 4, 7)
 LIMIT = 1.0e-8
-SMALL = ("rigid_slit", "strip_linear", "strip_modes", "gu2020_strip_case1_uniform", "gu2020_fig11a_beam",
+PLATE = {"bearing": {"radius": 0.005, "length": 0.02}, "mesh": {"circumferential_elements": 20, "axial_elements": 6},
+         "top_foil": {"thickness": 2.0e-4, "youngs_modulus": 2.0e11, "poissons_ratio": 0.3, "density": 8000.0}}
+VARIANTS = {f"strip_modes:{part}": {"modes": {"part": part, "substructure_modes": 0}} | others for part, others in (
+    ("half_arc", {}), ("arc", {}), ("flat", {}), ("top_foil", PLATE))}
+SMALL = ("rigid_slit", "strip_linear", "strip_modes", *VARIANTS, "gu2020_strip_case1_uniform", "gu2020_fig11a_beam",
          "gu2020_bearing")  # in seconds
 
 STRIP = {"mesh": {"arc_elements": 6, "flat_elements": 2, "axial_elements": 12}}
@@ -41,9 +48,13 @@ COARSER = (  # which inputs, what is changed
 )
 
 
-def changes_of(name):
-    """What is changed in an input."""
-    return next((changes for pattern, changes in COARSER if re.fullmatch(pattern, name)), {})
+def changes_of(name, as_is):
+    """What is changed in an input: to make it coarser, and to make a variant."""
+    made = VARIANTS.get(name, {})
+    if as_is:
+        return made
+    coarser = next((changes for pattern, changes in COARSER if re.fullmatch(pattern, name.partition(":")[0])), {})
+    return {group: coarser.get(group, {}) | made.get(group, {}) for group in coarser | made}
 
 
 def changed(text, changes):
@@ -67,7 +78,7 @@ def number_of(text, key):
 def sizes_of(text, one):
     """What differences of quantities that may vanish are compared with."""
     measures = {key: number_of(text, key) for key in ("radius", "length", "clearance", "ambient_pressure")}
-    if measures["radius"] is not None:
+    if None not in measures.values():
         bearing = Bearing(**measures)
         ends = [f"{edge}_edge_lift{place}" for edge in ("leading", "trailing") for place in ("", "_edge")]
         return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | {
@@ -88,20 +99,34 @@ def history_of(answer):
         return {}
 
 
+def shapes_of(answer):
+    """Shapes of modes by name, if there are any, scaled to a largest displacement of one."""
+    shapes = {}
+    for path in answer.stem.parent.glob(f"{answer.stem.name}.*.vtkhdf"):
+        with h5py.File(path, "r") as file:
+            shapes |= {name: data[...] for name, data in file["VTKHDF/PointData"].items() if name.startswith("mode_")}
+    return {name: shape/numpy.abs(shape).max() for name, shape in shapes.items()}
+
+
+def shape_difference(one, other):
+    """Largest difference of two shapes whose signs are free."""
+    return min(numpy.abs(one - other).max(), numpy.abs(one + other).max())
+
+
 def check_input(checks, folder, name, ranks, as_is):
-    text = (INPUTS/f"{name}.nml").read_text(encoding="utf-8")
-    changes = {} if as_is else changes_of(name)
+    text = (INPUTS/f"{name.partition(':')[0]}.nml").read_text(encoding="utf-8")
+    changes = changes_of(name, as_is)
     if changes:
         print(f"       {name}: " + ", ".join(f"{key} = {namelist_value(value)}" for keys in changes.values()
                                              for key, value in keys.items()))
         text = changed(text, changes)
-    path = pathlib.Path(folder)/f"{name}.nml"
+    path = pathlib.Path(folder)/f"{name.replace(':', '_')}.nml"
     path.write_text(text, encoding="utf-8")
-    one, rows = None, {}
+    one, rows, shapes = None, {}, {}
     for count in ranks:
         answer = run_file(path, pathlib.Path(folder)/str(count), ranks=count, options=["--quiet"])
         if one is None:
-            one, rows, sizes = answer, history_of(answer), sizes_of(text, answer)
+            one, rows, sizes, shapes = answer, history_of(answer), sizes_of(text, answer), shapes_of(answer)
             continue
         words = f"{name}, {count} ranks against {ranks[0]}"
         difference, worst = summary_difference(one, answer, sizes)
@@ -114,11 +139,16 @@ def check_input(checks, folder, name, ranks, as_is):
         largest = max(((largest_difference(rows[key], columns[key], sizes.get(key)), key)
                        for key in set(rows) & set(columns) - COST), default=(0.0, "no steps"))
         checks.below(f"{words}: history ({largest[1]})", largest[0], LIMIT)
+        if shapes:
+            others = shapes_of(answer)
+            checks.that(f"{words}: as many modes", set(others) == set(shapes))
+            largest = max((shape_difference(shapes[key], others[key]), key) for key in set(shapes) & set(others))
+            checks.below(f"{words}: shapes ({largest[1]})", largest[0], LIMIT)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("inputs", metavar="INPUT", nargs="*", help="name of a file in inputs/; default: all")
+    parser.add_argument("inputs", metavar="INPUT", nargs="*", help="name of a file in inputs/, or of a variant; default: all")
     parser.add_argument("--small", action="store_true", help="a few inputs, in seconds")
     parser.add_argument("--as-is", action="store_true", help="on the meshes of the inputs; hours")
     parser.add_argument("--ranks", default=",".join(map(str, RANKS)), help="default: %(default)s")
@@ -126,7 +156,8 @@ def main():
     ranks = [int(word) for word in options.ranks.split(",")]
     if len(ranks) < 2:
         parser.error("--ranks: two or more numbers")
-    names = [pathlib.Path(name).stem for name in options.inputs] or sorted(path.stem for path in INPUTS.glob("*.nml"))
+    names = [pathlib.Path(name).stem for name in options.inputs] or [
+        *sorted(path.stem for path in INPUTS.glob("*.nml")), *VARIANTS]
     if options.small and not options.inputs:
         names = SMALL
     checks = Checks()

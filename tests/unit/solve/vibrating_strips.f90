@@ -63,11 +63,11 @@ contains
     call make_strip(1, elements, free, bump, fixed, pieces)
     select case (part)
     case (half_arc)
-      mesh = sub_mesh(bump, pieces(1)%elements)
+      mesh = sub_mesh(bump, pieces(:2)%column)
     case (arc)
-      mesh = sub_mesh(bump, [pieces(1)%elements, pieces(2)%elements])
+      mesh = sub_mesh(bump, pieces(1:3:2)%column)
     case default
-      mesh = sub_mesh(bump, pieces(3)%elements)
+      mesh = sub_mesh(bump, [pieces(3)%column, bump%stations])
     end select
     deallocate (fixed, pieces)
     allocate (fixed(5, size(mesh%position, 2)), none(size(mesh%position, 2)), source=.false.)
