@@ -21,6 +21,12 @@ module gfb_quantity
     procedure :: line => quantity_line
   end type quantity_type
 
+  !> Puts one or several at the end of a list. An array constructor whose items are functions of
+  !> this type does the same, but gfortran never frees what such items hold.
+  interface add_quantity
+    module procedure add_one, add_many
+  end interface add_quantity
+
 contains
 
   !> A real number.
@@ -58,7 +64,7 @@ contains
   end function truth_quantity
 
   !> Puts a quantity at the end of a list.
-  pure subroutine add_quantity(list, quantity)
+  pure subroutine add_one(list, quantity)
     type(quantity_type), allocatable, intent(inout) :: list(:)
     type(quantity_type), intent(in) :: quantity
 
@@ -67,7 +73,19 @@ contains
     else
       list = [quantity]
     end if
-  end subroutine add_quantity
+  end subroutine add_one
+
+  !> Puts quantities at the end of a list.
+  pure subroutine add_many(list, quantities)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    type(quantity_type), intent(in) :: quantities(:)
+
+    if (allocated(list)) then
+      list = [list, quantities]
+    else
+      list = quantities
+    end if
+  end subroutine add_many
 
   !> `name = value [unit]`; the number reads back exactly.
   pure function quantity_line(self) result(line)

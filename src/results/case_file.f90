@@ -6,7 +6,7 @@ module gfb_case_file
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   implicit none (type, external)
   private
-  public :: write_case_file, write_quantities, write_history, summary_text
+  public :: write_case_file, write_quantities, write_history, summary_text, fill_array, add_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -53,6 +53,40 @@ contains
     call write_arrays(file, arrays)
     call close_result_file(file, error)
   end subroutine write_case_file
+
+  !> Fills an array of a scene's.
+  !>
+  !> Component by component: of a structure constructor gfortran never frees the copies, and it
+  !> reads beyond the end of values that are a part of a larger array.
+  subroutine fill_array(path, unit, meaning, values, array, by_step)
+    character(len=*), intent(in) :: path, unit, meaning
+    real(wp), intent(in) :: values(:, :)             !! (columns, rows) of the file
+    type(case_array_type), intent(out) :: array
+    logical, intent(in), optional :: by_step         !! a row is a load step or sweep point
+
+    array%path = path
+    array%unit = unit
+    array%meaning = meaning
+    array%values = values
+    if (present(by_step)) array%by_step = by_step
+  end subroutine fill_array
+
+  !> Puts arrays at the end of a list; an array constructor would not free all that it copies.
+  subroutine add_arrays(list, more)
+    type(case_array_type), allocatable, intent(inout) :: list(:)
+    type(case_array_type), intent(in) :: more(:)
+    type(case_array_type), allocatable :: grown(:)
+    integer :: i
+
+    allocate (grown(size(list) + size(more)))
+    do i = 1, size(list)
+      grown(i) = list(i)
+    end do
+    do i = 1, size(more)
+      grown(size(list) + i) = more(i)
+    end do
+    call move_alloc(grown, list)
+  end subroutine add_arrays
 
   !> One dataset an array, in groups one or two levels deep.
   subroutine write_arrays(file, arrays)

@@ -3,7 +3,8 @@ module gfb_accuracy_study
   use gfb_kinds, only: wp
   use gfb_accuracy_case, only: accuracy_case_type, accuracy_words
   use gfb_grid_convergence, only: convergence_type, estimate_error
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity, &
+                          add_quantity
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   implicit none (type, external)
@@ -122,15 +123,17 @@ contains
     type(quantity_type), allocatable :: list(:)
     type(convergence_type) :: last
 
-    list = [truth_quantity('accuracy_met', self%met(), 'whether the estimated error of '// &
-                           self%name//' is as small as asked for'), &
-            count_quantity('meshes', size(self%answer), 'that were tried, each twice as fine')]
-    if (.not. self%has_error()) return
-    last = self%last()
-    list = [number_quantity(self%name//'_error', last%error, self%unit, &
-                            'estimated from nested meshes, absolute'), &
-            number_quantity(self%name//'_order', last%order, '1', &
-                            'observed order of convergence; 0: not known'), list]
+    if (self%has_error()) then
+      last = self%last()
+      call add_quantity(list, number_quantity(self%name//'_error', last%error, self%unit, &
+        'estimated from nested meshes, absolute'))
+      call add_quantity(list, number_quantity(self%name//'_order', last%order, '1', &
+        'observed order of convergence; 0: not known'))
+    end if
+    call add_quantity(list, truth_quantity('accuracy_met', self%met(), &
+      'whether the estimated error of '//self%name//' is as small as asked for'))
+    call add_quantity(list, count_quantity('meshes', size(self%answer), &
+      'that were tried, each twice as fine'))
   end function study_quantities
 
   !> The meshes as a table.

@@ -1,7 +1,7 @@
 !> What is asked of an answer once it is there: whether it folds, whether the foils stay.
 module gfb_answer_judgement
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, add_quantity
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
@@ -31,15 +31,15 @@ contains
       newton%factorizations = newton%factorizations + stability%factorizations
       call log%line('stability: '//stability_words(stability, &
                     bearing%whole%half .and. scene%model%foil == foil_shell))
-      if (stability%counted) list = [negative_eigenvalues(stability%negative)]
-      if (stability%found) list = [list, growth_quantities(stability)]
+      if (stability%counted) call add_quantity(list, negative_eigenvalues(stability%negative))
+      if (stability%found) call add_quantity(list, growth_quantities(stability))
     end if
     if (.not. bearing%floats .or. bearing%held) return
     ! The last of the factors, so that the next solve can begin with them.
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
-    list = [list, count_quantity('determinant_sign', sign_of_determinant, &
-                                 'sign of the determinant of all equations; it changes at folds')]
+    call add_quantity(list, count_quantity('determinant_sign', sign_of_determinant, &
+      'sign of the determinant of all equations; it changes at folds'))
   end subroutine judge_answer
 
   !> How many eigenvalues of the foils' stiffness are negative.

@@ -7,7 +7,7 @@ module gfb_bearing_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text, exact_text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, add_quantity
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_model_case, only: coupling_partitioned, foil_rigid
@@ -110,9 +110,12 @@ contains
     type(result_grid_type), allocatable :: grids(:)
 
     answer = bearing_answer(bearing)
-    summary = [answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-                                 bearing%force_scale), summary_quantities(record%tilted), foil_quantities(bearing), &
-               record%judged, cost_quantities(cost)]
+    call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
+      bearing%force_scale))
+    call add_quantity(summary, summary_quantities(record%tilted))
+    call add_quantity(summary, foil_quantities(bearing))
+    if (allocated(record%judged)) call add_quantity(summary, record%judged)
+    call add_quantity(summary, cost_quantities(cost))
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, ranks, blas_in_use())
     call show_tilt_response(log, record%tilted)
     if (answer%rough_peclet > rough_limit .and. .not. plan%upwind) then

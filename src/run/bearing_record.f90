@@ -1,7 +1,8 @@
 !> What is kept of a bearing's answers: a row of the history and the contacts, for each.
 module gfb_bearing_record
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity, &
+                          add_quantity
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, sweep_tilt_y, &
@@ -41,23 +42,23 @@ contains
     integer, intent(in), optional :: branch !! number of the equilibrium among several
     type(history_row_type) :: row
 
-    row%quantity = answer_quantities(analysis_name(scene), converged, bearing_answer(bearing), &
-                                     bearing%film%clearance, bearing%force_scale)
-    row%quantity = [row%quantity, row_quantities(record%tilted)]
-    if (allocated(record%judged)) row%quantity = [row%quantity, record%judged]
-    row%quantity = [row%quantity, count_quantities(newton%iterations, newton%factorizations)]
-    if (present(branch)) then
-      row%quantity = [count_quantity('branch', branch, 'number of the equilibrium'), row%quantity]
-    end if
-    if (present(fold)) then
-      row%quantity = [truth_quantity('fold', fold, 'what the sweep changes turns back there'), &
-                      row%quantity]
-    end if
     ! The answer has the eccentricities anyway.
     if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then
-      row%quantity = [number_quantity(sweep_name(scene%sweep), value, sweep_unit(scene%sweep), &
-                                      'what the sweep changes'), row%quantity]
+      call add_quantity(row%quantity, number_quantity(sweep_name(scene%sweep), value, &
+        sweep_unit(scene%sweep), 'what the sweep changes'))
     end if
+    if (present(fold)) then
+      call add_quantity(row%quantity, truth_quantity('fold', fold, &
+        'what the sweep changes turns back there'))
+    end if
+    if (present(branch)) then
+      call add_quantity(row%quantity, count_quantity('branch', branch, 'number of the equilibrium'))
+    end if
+    call add_quantity(row%quantity, answer_quantities(analysis_name(scene), converged, &
+      bearing_answer(bearing), bearing%film%clearance, bearing%force_scale))
+    call add_quantity(row%quantity, row_quantities(record%tilted))
+    if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
+    call add_quantity(row%quantity, count_quantities(newton%iterations, newton%factorizations))
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
     call record_foil_contacts(bearing, size(record%history), max(1, size(scene%sweep%values)), &

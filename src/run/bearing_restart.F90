@@ -173,10 +173,12 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_record_type), intent(in) :: record
     type(result_file_type), intent(inout) :: file
+    type(history_row_type) :: judged(1)
 
     call file%put_scalar('/step/elapsed', wall_time() - record%begun, 's', 'since the first answer')
     call put_rows(file, '/history', record%history)
-    call put_rows(file, '/judged', [history_row_type(record%judged)])
+    if (allocated(record%judged)) judged(1)%quantity = record%judged
+    call put_rows(file, '/judged', judged)
     call file%group('/record')
     call file%put_numbers('/record/tilt_response', response_numbers(record%tilted), 'SI', &
                           'slopes of the torque and what belongs to them')

@@ -41,46 +41,47 @@ contains
       who = 'film and solid contact'
       braking = 'torque with which film and solid contact brake the shaft'
     end if
-    list = [word_quantity('analysis', analysis, 'kind of analysis'), &
-            truth_quantity('converged', converged, 'whether the answer was found'), &
-            number_quantity('eccentricity_x', answer%eccentricity(1), 'm', &
-                            'e_x, of the sleeve relative to the shaft'), &
-            number_quantity('eccentricity_y', answer%eccentricity(2), 'm', &
-                            'e_y, of the sleeve relative to the shaft')]
+    call add_quantity(list, word_quantity('analysis', analysis, 'kind of analysis'))
+    call add_quantity(list, truth_quantity('converged', converged, 'whether the answer was found'))
+    call add_quantity(list, number_quantity('eccentricity_x', answer%eccentricity(1), 'm', &
+      'e_x, of the sleeve relative to the shaft'))
+    call add_quantity(list, number_quantity('eccentricity_y', answer%eccentricity(2), 'm', &
+      'e_y, of the sleeve relative to the shaft'))
     if (norm2(answer%eccentricity) > no_direction*clearance .and. &
         norm2(answer%force(1:2)) > no_direction*force_scale) then
       call add_quantity(list, number_quantity('attitude_angle', attitude_angle(answer)*degrees, &
-        'deg', &
-                              'from the load to the thinnest film, positive in +theta'))
+        'deg', 'from the load to the thinnest film, positive in +theta'))
     end if
-    list = [list, &
-            number_quantity('force_x', answer%force(1), 'N', who//' force on the sleeve, x'), &
-            number_quantity('force_y', answer%force(2), 'N', who//' force on the sleeve, y'), &
-            number_quantity('torque_x', answer%force(3), 'N m', &
-            who//' torque on the shaft about x'), &
-            number_quantity('torque_y', answer%force(4), 'N m', &
-            who//' torque on the shaft about y'), &
-            number_quantity('torque_x_without_suction', answer%force_without_suction(3), 'N m', &
-                            'torque_x of the pressure above ambient'), &
-            number_quantity('torque_y_without_suction', answer%force_without_suction(4), 'N m', &
-                            'torque_y of the pressure above ambient'), &
-            number_quantity('friction_torque', answer%friction_torque, 'N m', &
-                            braking), &
-            number_quantity('power_loss', answer%power_loss, 'W', 'friction torque times speed')]
-    list = [list, &
-            number_quantity('minimum_gap', answer%minimum_gap, 'm', 'smallest film thickness'), &
-            number_quantity('minimum_gap_midplane', answer%minimum_gap_midplane, 'm', &
-                            'smallest film thickness at z = 0'), &
-            number_quantity('minimum_gap_edge', answer%minimum_gap_edge, 'm', &
-                            'smallest film thickness at the bearing edges'), &
-            number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', &
-            'largest absolute pressure'), &
-            number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', &
-            'smallest absolute pressure'), &
-            number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
-                            'largest cell Peclet number of the film')]
-    if (answer%has_foils) list = [list, foil_quantities(answer)]
-    if (answer%has_solid_contact) list = [list, solid_quantities(answer)]
+    call add_quantity(list, number_quantity('force_x', answer%force(1), 'N', who// &
+      ' force on the sleeve, x'))
+    call add_quantity(list, number_quantity('force_y', answer%force(2), 'N', who// &
+      ' force on the sleeve, y'))
+    call add_quantity(list, number_quantity('torque_x', answer%force(3), 'N m', who// &
+      ' torque on the shaft about x'))
+    call add_quantity(list, number_quantity('torque_y', answer%force(4), 'N m', who// &
+      ' torque on the shaft about y'))
+    call add_quantity(list, number_quantity('torque_x_without_suction', &
+      answer%force_without_suction(3), 'N m', 'torque_x of the pressure above ambient'))
+    call add_quantity(list, number_quantity('torque_y_without_suction', &
+      answer%force_without_suction(4), 'N m', 'torque_y of the pressure above ambient'))
+    call add_quantity(list, number_quantity('friction_torque', answer%friction_torque, 'N m', &
+      braking))
+    call add_quantity(list, number_quantity('power_loss', answer%power_loss, 'W', &
+      'friction torque times speed'))
+    call add_quantity(list, number_quantity('minimum_gap', answer%minimum_gap, 'm', &
+      'smallest film thickness'))
+    call add_quantity(list, number_quantity('minimum_gap_midplane', answer%minimum_gap_midplane, &
+      'm', 'smallest film thickness at z = 0'))
+    call add_quantity(list, number_quantity('minimum_gap_edge', answer%minimum_gap_edge, 'm', &
+      'smallest film thickness at the bearing edges'))
+    call add_quantity(list, number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', &
+      'largest absolute pressure'))
+    call add_quantity(list, number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', &
+      'smallest absolute pressure'))
+    call add_quantity(list, number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
+      'largest cell Peclet number of the film'))
+    if (answer%has_foils) call add_quantity(list, foil_quantities(answer))
+    if (answer%has_solid_contact) call add_quantity(list, solid_quantities(answer))
   end function answer_quantities
 
   !> What asperities of the shaft add.
@@ -121,11 +122,12 @@ contains
     type(cost_type), intent(in) :: cost
     type(quantity_type), allocatable :: list(:)
 
-    list = [count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'), &
-            count_quantities(cost%newton_iterations, cost%factorizations), &
-            number_quantity('wall_time', cost%wall_time, 's', 'from start to answer'), &
-            number_quantity('peak_memory', cost%peak_memory, 'B', &
-            'sum over ranks of the largest held')]
+    call add_quantity(list, count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'))
+    call add_quantity(list, count_quantities(cost%newton_iterations, cost%factorizations))
+    call add_quantity(list, number_quantity('wall_time', cost%wall_time, 's', &
+      'from start to answer'))
+    call add_quantity(list, number_quantity('peak_memory', cost%peak_memory, 'B', &
+      'sum over ranks of the largest held'))
   end function cost_quantities
 
   !> What was counted from the start of the run to an answer.

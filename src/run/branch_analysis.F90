@@ -5,7 +5,7 @@ module gfb_branch_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity
+  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_model_case, only: meshes_foils
@@ -156,12 +156,13 @@ contains
     end do
     call show_table(log, search, order, record, bearing%film%clearance)
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
-    summary = [answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
-                                 bearing%film%clearance, bearing%force_scale), &
-               count_quantity('branches', size(order), 'equilibria found; those above are the first''s'), &
-               foil_quantities(bearing), &
-               cost_quantities(cost_type(bearing%unknowns, newton%iterations, newton%factorizations, &
-                                         wall_time() - start_time, peak_memory()))]
+    call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
+      bearing%film%clearance, bearing%force_scale))
+    call add_quantity(summary, count_quantity('branches', size(order), &
+      'equilibria found; those above are the first''s'))
+    call add_quantity(summary, foil_quantities(bearing))
+    call add_quantity(summary, cost_quantities(cost_type(bearing%unknowns, newton%iterations, &
+      newton%factorizations, wall_time() - start_time, peak_memory())))
     call write_result_set(scene, folder, .true., provenance(command), summary, record%history, &
                           foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, log, error)
     call leave_stage()

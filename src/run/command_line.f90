@@ -143,6 +143,7 @@ contains
     type(command_line_type), intent(inout) :: line
     type(error_type), allocatable, intent(out) :: error
     character(len=:), allocatable :: near
+    type(file_name_type) :: file
     integer :: status
 
     if (index(word, '--output=') == 1 .and. len(word) > 9) then
@@ -164,7 +165,8 @@ contains
       call fail(error, 'gfb: the name of the case file is empty')
     else
       if (.not. allocated(line%case_file)) line%case_file = word
-      line%case_files = [line%case_files, file_name_type(word)]
+      file%path = word
+      line%case_files = [line%case_files, file]
     end if
   end subroutine take_other
 

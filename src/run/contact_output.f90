@@ -2,7 +2,7 @@
 module gfb_contact_output
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: fetch_entries
-  use gfb_case_file, only: case_array_type
+  use gfb_case_file, only: case_array_type, fill_array, add_arrays
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top
@@ -98,8 +98,8 @@ contains
     call surface_arrays(contacts, structure, record, steps, contact_sleeve, '/contact/sleeve', &
                         sleeve)
     call surface_arrays(contacts, structure, record, steps, contact_top, '/contact/top', top)
-    if (size(sleeve(1)%values) > 0) arrays = [arrays, sleeve]
-    if (size(top(1)%values) > 0) arrays = [arrays, top]
+    if (size(sleeve(1)%values) > 0) call add_arrays(arrays, sleeve)
+    if (size(top(1)%values) > 0) call add_arrays(arrays, top)
   end function contact_arrays
 
   !> The arrays of one surface; a column a node, a row a step.
@@ -137,17 +137,17 @@ contains
       place(2:3, :) = mesh%position([1, 3], point(own)%node)
     end associate
     values = fetch_entries(max(1, total), number, place, all_nodes)
-    arrays(1) = case_array_type(group//'/line', '1', 'number of the contact line', values(1:1, :))
-    arrays(2) = case_array_type(group//'/position_x', 'm', 'of the node, along the motion', &
-      values(2:2, :))
-    arrays(3) = case_array_type(group//'/position_z', 'm', 'of the node, along the axis', &
-      values(3:3, :))
+    call fill_array(group//'/line', '1', 'number of the contact line', values(1:1, :), arrays(1))
+    call fill_array(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :), &
+                    arrays(2))
+    call fill_array(group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :), &
+                    arrays(3))
     do field = 1, fields
       values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), &
         all_nodes)
       values = transpose(values)
-      arrays(3 + field) = case_array_type(group//'/'//trim(name(field)), trim(unit(field)), &
-                                          trim(meaning(field)), values, by_step=.true.)
+      call fill_array(group//'/'//trim(name(field)), trim(unit(field)), trim(meaning(field)), &
+                      values, arrays(3 + field), by_step=.true.)
     end do
   end subroutine surface_arrays
 

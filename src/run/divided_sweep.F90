@@ -11,7 +11,7 @@ module gfb_divided_sweep
   use gfb_text, only: text
   use gfb_division, only: stretch_of
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, word_quantity
+  use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type
@@ -270,8 +270,8 @@ contains
       if (seam_words(scene, stretches(i - 1), stretches(i)) /= '') words = 'not all begin with the answer '// &
                                                                     'to which the stretch before leads'
     end do
-    list = [list, count_quantity('groups', job%groups, 'of ranks, each with a stretch of the sweep')]
-    if (job%groups > 1) list = [list, word_quantity('stretches', words, 'how they fit together')]
+    call add_quantity(list, count_quantity('groups', job%groups, 'of ranks, each with a stretch of the sweep'))
+    if (job%groups > 1) call add_quantity(list, word_quantity('stretches', words, 'how they fit together'))
   end function origin
 
   !> Which stretches end early, and why.

@@ -1,7 +1,7 @@
 !> The foils of a bearing as surfaces, and their contacts at every point of a sweep.
 module gfb_foil_output
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, count_quantity
+  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
   use gfb_substructures, only: kind_count
   use gfb_bearing_system, only: bearing_system_type
   use gfb_beam_foil, only: beam_foil_type
@@ -111,14 +111,14 @@ contains
     type is (shell_foil_type)
       rows = foil%bumps%mesh%rows
       if (foil%bumps%mesh%half) rows = 2*rows - 1
-      list = [unknowns_full(node_unknowns*rows*foil%bumps%mesh%stations), &
-              count_quantity('foil_unknowns_retained', &
-                             node_unknowns*(size(foil%bumps%substructure) + 1)*rows, &
-                             'of its retained lines, whole width, before constraints'), &
-              count_quantity('distinct_super_elements', kind_count(foil%bumps%substructure), &
-                             'condensed once each')]
+      call add_quantity(list, unknowns_full(node_unknowns*rows*foil%bumps%mesh%stations))
+      call add_quantity(list, count_quantity('foil_unknowns_retained', &
+        node_unknowns*(size(foil%bumps%substructure) + 1)*rows, &
+        'of its retained lines, whole width, before constraints'))
+      call add_quantity(list, count_quantity('distinct_super_elements', kind_count(foil%bumps%substructure), &
+        'condensed once each'))
     type is (beam_foil_type)
-      list = [unknowns_full(beam_unknowns*foil%bumps%mesh%stations)]
+      call add_quantity(list, unknowns_full(beam_unknowns*foil%bumps%mesh%stations))
     end select
   end function foil_quantities
 

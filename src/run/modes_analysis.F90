@@ -8,7 +8,7 @@ module gfb_modes_analysis
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-                          truth_quantity
+                          truth_quantity, add_quantity
   use gfb_petsc_session, only: wall_time, sum_over_ranks, largest_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
@@ -78,8 +78,9 @@ contains
     if (allocated(error)) return
     converged = size(modes%eigenvalue) >= min(scene%modes%count, part%unknowns)
     if (.not. converged) call log%gave_up('only '//text(size(modes%eigenvalue))//' modes found')
-    summary = [mode_quantities(converged, modes, shift), round_off_quantities(lost, left), &
-               cost_quantities(part, start_time)]
+    call add_quantity(summary, mode_quantities(converged, modes, shift))
+    call add_round_off(lost, left, summary)
+    call add_quantity(summary, cost_quantities(part, start_time))
     call show_closing_block(log, scene, modes, part)
     call warn_of_round_off(log, lost, left, scene%modes%part == part_strip)
     allocate (history(1))
@@ -126,9 +127,8 @@ contains
     eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
     call list_matrices(strip, kinds, arrays)
     do i = 1, size(eigenvalue)
-      summary = [summary, number_quantity('craig_bampton_frequency_'//text(i), &
-                                          sqrt(max(eigenvalue(i), 0.0_wp))/turn, 'Hz', &
-                                          'natural frequency of the reduced strip')]
+      call add_quantity(summary, number_quantity('craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), &
+        0.0_wp))/turn, 'Hz', 'natural frequency of the reduced strip'))
     end do
     call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
                   ' modes each, written to /craig_bampton')
@@ -193,14 +193,14 @@ contains
     type(quantity_type), allocatable :: list(:)
     integer :: i
 
-    list = [word_quantity('analysis', 'modes', 'kind of analysis'), &
-            truth_quantity('converged', converged, 'whether all modes asked for were found')]
+    call add_quantity(list, word_quantity('analysis', 'modes', 'kind of analysis'))
+    call add_quantity(list, truth_quantity('converged', converged, 'whether all modes asked for were found'))
     do i = 1, size(modes%eigenvalue)
-      list = [list, number_quantity('frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, &
-                                    'Hz', 'natural frequency')]
+      call add_quantity(list, number_quantity('frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, &
+        'Hz', 'natural frequency'))
     end do
-    list = [list, count_quantity('rigid_modes', count(abs(modes%eigenvalue) < rigid*shift), &
-                                 'modes without strain among those found')]
+    call add_quantity(list, count_quantity('rigid_modes', count(abs(modes%eigenvalue) < rigid*shift), &
+      'modes without strain among those found'))
   end function mode_quantities
 
   !> Quantities of what it cost.
@@ -211,21 +211,21 @@ contains
     real(wp) :: memory(1)
 
     memory = sum_over_ranks([peak_memory()])
-    list = [count_quantity('unknowns', part%unknowns, 'unknowns of the equations'), &
-            count_quantity('factorizations', 1, 'of the shifted stiffness'), &
-            number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
-            number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
+    call add_quantity(list, count_quantity('unknowns', part%unknowns, 'unknowns of the equations'))
+    call add_quantity(list, count_quantity('factorizations', 1, 'of the shifted stiffness'))
+    call add_quantity(list, number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'))
+    call add_quantity(list, number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held'))
   end function cost_quantities
 
-  !> What round-off leaves, where it is worth a word.
-  function round_off_quantities(lost, left) result(list)
+  !> Adds what round-off leaves, where it is worth a word.
+  subroutine add_round_off(lost, left, list)
     real(wp), intent(in) :: lost, left !! of the eigenvalues, as `sharpen_modes` has it [1]
-    type(quantity_type), allocatable :: list(:)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
 
-    allocate (list(0))
     if (.not. lost > exact) return
-    list = [number_quantity('frequency_round_off', left, '1', 'relative error that round-off leaves, at most about')]
-  end function round_off_quantities
+    call add_quantity(list, number_quantity('frequency_round_off', left, '1', &
+                                            'relative error that round-off leaves, at most about'))
+  end subroutine add_round_off
 
   !> Says where the matrix had lost digits.
   subroutine warn_of_round_off(log, lost, left, reduced)

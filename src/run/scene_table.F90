@@ -6,7 +6,8 @@ module gfb_scene_table
   use gfb_errors, only: error_type, status_machine
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, number_quantity, truth_quantity, word_quantity
+  use gfb_quantity, only: quantity_type, count_quantity, number_quantity, truth_quantity, word_quantity, &
+                          add_quantity
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, summary_text
   use gfb_table_file, only: table_member_type, write_table_file
@@ -102,9 +103,12 @@ contains
       member%status = status_unconverged
       call job%report(scene%name//' has no answer', 1)
     end if
-    if (.not. allocated(answer)) answer = [truth_quantity('converged', .false., 'whether the answer was found')]
-    member%row%quantity = [count_quantity('exit_status', member%status, 'that gfb would have had with this case alone'), &
-                           count_quantity('group', member%group, 'of ranks that computed it'), answer]
+    if (.not. allocated(answer)) call add_quantity(answer, truth_quantity('converged', .false., &
+      'whether the answer was found'))
+    call add_quantity(member%row%quantity, count_quantity('exit_status', member%status, &
+      'that gfb would have had with this case alone'))
+    call add_quantity(member%row%quantity, count_quantity('group', member%group, 'of ranks that computed it'))
+    call add_quantity(member%row%quantity, answer)
     call close_group_log(log)
   end subroutine run_member
 
@@ -114,8 +118,9 @@ contains
     integer, intent(in) :: number
     type(history_row_type) :: row
 
-    row%quantity = [count_quantity('member', number, ''), word_quantity(member%name, member%reason, ''), &
-                    member%row%quantity]
+    call add_quantity(row%quantity, count_quantity('member', number, ''))
+    call add_quantity(row%quantity, word_quantity(member%name, member%reason, ''))
+    call add_quantity(row%quantity, member%row%quantity)
   end function packed_row
 
   !> The members in the order of the command line, from what the groups have sent.
@@ -156,13 +161,13 @@ contains
     character(len=:), allocatable :: stem
     integer :: i
 
-    summary = [count_quantity('members', size(members), 'cases of the table'), &
-               count_quantity('converged_members', count(members%status == 0), 'of them'), &
-               count_quantity('groups', job%groups, 'of ranks'), &
-               count_quantity('ranks', job%ranks, 'processes of the job'), &
-               number_quantity('wall_time', wall_time() - job%begun, 's', 'of the whole table')]
+    call add_quantity(summary, count_quantity('members', size(members), 'cases of the table'))
+    call add_quantity(summary, count_quantity('converged_members', count(members%status == 0), 'of them'))
+    call add_quantity(summary, count_quantity('groups', job%groups, 'of ranks'))
+    call add_quantity(summary, count_quantity('ranks', job%ranks, 'processes of the job'))
+    call add_quantity(summary, number_quantity('wall_time', wall_time() - job%begun, 's', 'of the whole table'))
     do i = 1, size(members)
-      summary = [summary, word_quantity('member_'//text(i), outcome(members(i)), scenes(i)%file)]
+      call add_quantity(summary, word_quantity('member_'//text(i), outcome(members(i)), scenes(i)%file))
     end do
     stem = line%folder//'/'//line%table
     call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(line%words), summary, members, &

@@ -7,7 +7,7 @@ module gfb_strip_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type
+  use gfb_quantity, only: quantity_type, add_quantity
   use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
@@ -24,7 +24,7 @@ module gfb_strip_analysis
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
                         destroy_newton
   use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path
-  use gfb_case_file, only: history_row_type, case_array_type
+  use gfb_case_file, only: history_row_type, case_array_type, add_arrays
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
   use gfb_foil_stress, only: shell_stresses
@@ -125,8 +125,9 @@ contains
     logical :: plates
 
     plates = scene%strip_load%kind == load_plates
-    summary = [answer_quantities(run%full, run%last, plates, run%converged), more, &
-               cost_quantities(scene, strip, newton, start_time)]
+    call add_quantity(summary, answer_quantities(run%full, run%last, plates, run%converged))
+    call add_quantity(summary, more)
+    call add_quantity(summary, cost_quantities(scene, strip, newton, start_time))
     run%companions = strip_companions(scene, run%full%force)
     call show_closing_block(log, run, plates)
     call warn(log, scene, run%full)
@@ -319,7 +320,8 @@ contains
     call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
     call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
     call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
-    arrays = [contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps), companion_arrays(run%companions)]
+    arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
+    call add_arrays(arrays, companion_arrays(run%companions))
     call write_result_set(scene, folder, run%converged, provenance(command), summary, run%history, arrays, &
                           [grid], log, error)
   end subroutine write_strip

@@ -8,7 +8,7 @@ module gfb_strip_companions
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
-  use gfb_case_file, only: case_array_type
+  use gfb_case_file, only: case_array_type, fill_array, add_arrays
   implicit none (type, external)
   private
   public :: strip_companions, show_companions, companion_arrays
@@ -112,23 +112,23 @@ contains
     type(case_array_type), allocatable :: arrays(:)
     character(len=*), parameter :: group = '/companions/'
 
-    arrays = [row('walowit_anno', 'deflection of single bumps without friction', &
-      companions%walowit_anno), &
-              row('curved_bump', 'deflection of exact single bumps, feet rubbing', &
-              companions%curved_bump)]
+    allocate (arrays(0))
+    call add('walowit_anno', 'deflection of single bumps without friction', companions%walowit_anno)
+    call add('curved_bump', 'deflection of exact single bumps, feet rubbing', &
+             companions%curved_bump)
     if (size(companions%chain) > 0) then
-      arrays = [arrays, row('planar_chain', 'deflection of a planar chain of bumps', &
-        companions%chain)]
+      call add('planar_chain', 'deflection of a planar chain of bumps', companions%chain)
     end if
 
   contains
 
     !> One number a bump.
-    function row(name, meaning, values) result(array)
+    subroutine add(name, meaning, values)
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(in) :: values(:) !! [m]
-      type(case_array_type) :: array
-      array = case_array_type(group//name, 'm', meaning, reshape(values, [size(values), 1]))
-    end function row
+      type(case_array_type) :: array(1)
+      call fill_array(group//name, 'm', meaning, reshape(values, [size(values), 1]), array(1))
+      call add_arrays(arrays, array)
+    end subroutine add
   end function companion_arrays
 end module gfb_strip_companions

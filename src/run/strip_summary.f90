@@ -4,7 +4,7 @@ module gfb_strip_summary
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-    truth_quantity
+    truth_quantity, add_quantity
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_scene, only: scene_type
@@ -35,22 +35,23 @@ contains
     character(len=*), parameter :: state(3) = [character(len=5) :: 'open', 'stick', 'slip']
     integer :: i, k
 
-    list = [count_quantity('step', step, 'load step, 0: unloaded'), &
-            number_quantity('load_factor', answer%factor, '1', 'share of the full load'), &
-            number_quantity('force', answer%force, 'N', 'on all crests')]
-    if (plates) list = [list, number_quantity('plate_travel', answer%travel, 'm', &
-                                              'way of the upper plate towards the sleeve')]
-    list = [list, crest_quantities(answer)]
+    call add_quantity(list, count_quantity('step', step, 'load step, 0: unloaded'))
+    call add_quantity(list, number_quantity('load_factor', answer%factor, '1', &
+      'share of the full load'))
+    call add_quantity(list, number_quantity('force', answer%force, 'N', 'on all crests'))
+    if (plates) call add_quantity(list, number_quantity('plate_travel', answer%travel, 'm', &
+      'way of the upper plate towards the sleeve'))
+    call add_quantity(list, crest_quantities(answer))
     do k = 1, size(surface)
       if (sum(answer%count(:, k)) == 0) cycle
       do i = 1, size(state)
-        list = [list, count_quantity(trim(surface(k))//'_'//trim(state(i)), answer%count(i, k), &
-                                     'contact nodes in this state')]
+        call add_quantity(list, count_quantity(trim(surface(k))//'_'//trim(state(i)), &
+          answer%count(i, k), 'contact nodes in this state'))
       end do
     end do
-    list = [list, energy_quantities(answer), &
-            count_quantity('newton_iterations', newton_iterations, 'of this step'), &
-            count_quantity('factorizations', factorizations, 'of this step')]
+    call add_quantity(list, energy_quantities(answer))
+    call add_quantity(list, count_quantity('newton_iterations', newton_iterations, 'of this step'))
+    call add_quantity(list, count_quantity('factorizations', factorizations, 'of this step'))
   end function step_quantities
 
   !> Deflection of every crest.
@@ -70,12 +71,14 @@ contains
     type(strip_answer_type), intent(in) :: answer
     type(quantity_type), allocatable :: list(:)
 
-    list = [number_quantity('external_work', answer%external_work, 'J', &
-      'of the load, since the start'), &
-            number_quantity('strain_energy', answer%strain_energy, 'J', 'in the foil'), &
-            number_quantity('penalty_energy', answer%penalty_energy, 'J', 'in the penetrations'), &
-            number_quantity('friction_work', answer%friction_work, 'J', &
-            'done against friction, since the start')]
+    call add_quantity(list, number_quantity('external_work', answer%external_work, 'J', &
+      'of the load, since the start'))
+    call add_quantity(list, number_quantity('strain_energy', answer%strain_energy, 'J', &
+      'in the foil'))
+    call add_quantity(list, number_quantity('penalty_energy', answer%penalty_energy, 'J', &
+      'in the penetrations'))
+    call add_quantity(list, number_quantity('friction_work', answer%friction_work, 'J', &
+      'done against friction, since the start'))
   end function energy_quantities
 
   !> The summary: what holds at the full load, and what the cycle cost.
@@ -88,24 +91,24 @@ contains
 
     largest = maxval(full%deflection)
     if (plates) largest = full%travel
-    list = [word_quantity('analysis', 'strip', 'kind of analysis'), &
-            truth_quantity('converged', converged, 'whether the answer was found'), &
-            crest_quantities(full), &
-            number_quantity('maximum_deflection', largest, 'm', &
-                            trim(merge('travel of the plate     ', 'largest crest deflection', &
-                            plates))), &
-            number_quantity('maximum_force', full%force, 'N', 'force on all crests')]
+    call add_quantity(list, word_quantity('analysis', 'strip', 'kind of analysis'))
+    call add_quantity(list, truth_quantity('converged', converged, 'whether the answer was found'))
+    call add_quantity(list, crest_quantities(full))
+    call add_quantity(list, number_quantity('maximum_deflection', largest, 'm', &
+      trim(merge('travel of the plate     ', 'largest crest deflection', plates))))
+    call add_quantity(list, number_quantity('maximum_force', full%force, 'N', &
+      'force on all crests'))
     if (largest > 0.0_wp) then
-      list = [list, number_quantity('loading_stiffness', full%force/largest, 'N/m', &
-                                    'maximum force over maximum deflection')]
+      call add_quantity(list, number_quantity('loading_stiffness', full%force/largest, 'N/m', &
+        'maximum force over maximum deflection'))
     end if
     if (full%round_off > told_round_off) then
-      list = [list, number_quantity('deflection_round_off', full%round_off, '1', &
-                                    'relative error of deflections that round-off leaves, about')]
+      call add_quantity(list, number_quantity('deflection_round_off', full%round_off, '1', &
+                                    'relative error of deflections that round-off leaves, about'))
     end if
     if (converged .and. full%factor > last%factor) then
-      list = [list, number_quantity('dissipated_energy', last%external_work, 'J', &
-                                    'work of the load over the cycle')]
+      call add_quantity(list, number_quantity('dissipated_energy', last%external_work, 'J', &
+        'work of the load over the cycle'))
     end if
   end function answer_quantities
 
@@ -143,17 +146,21 @@ contains
     stations = strip%foil%mesh%stations
     rows = scene%mesh%axial_elements + 1
     memory = sum_over_ranks([peak_memory()])
-    list = [count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'), &
-            count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
-                           'of the bump foil, whole width, before constraints'), &
-            count_quantity('foil_unknowns_retained', &
-                           node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
-                           'of its retained lines, whole width, before constraints'), &
-            count_quantity('distinct_super_elements', kind_count(strip%foil%substructure), &
-                           'condensed once each'), &
-            count_quantity('newton_iterations', newton%iterations, 'of all load steps'), &
-            count_quantity('factorizations', newton%factorizations, 'of all load steps'), &
-            number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'), &
-            number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held')]
+    call add_quantity(list, count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'))
+    call add_quantity(list, count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
+      'of the bump foil, whole width, before constraints'))
+    call add_quantity(list, count_quantity('foil_unknowns_retained', &
+      node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
+      'of its retained lines, whole width, before constraints'))
+    call add_quantity(list, count_quantity('distinct_super_elements', &
+      kind_count(strip%foil%substructure), 'condensed once each'))
+    call add_quantity(list, count_quantity('newton_iterations', newton%iterations, &
+      'of all load steps'))
+    call add_quantity(list, count_quantity('factorizations', newton%factorizations, &
+      'of all load steps'))
+    call add_quantity(list, number_quantity('wall_time', wall_time() - start_time, 's', &
+      'from start to answer'))
+    call add_quantity(list, number_quantity('peak_memory', memory(1), 'B', &
+      'sum over ranks of the largest held'))
   end function cost_quantities
 end module gfb_strip_summary

@@ -2,7 +2,8 @@
 module gfb_sweep_stretch
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
+                          add_quantity
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_row_packing, only: pack_rows, unpack_rows
@@ -54,11 +55,11 @@ contains
     call add('iterations', stretch%iterations)
     call add('factorizations', stretch%factorizations)
     call add('rows', size(stretch%row))
-    head(1)%quantity = [head(1)%quantity, word_quantity('reason', stretch%reason, '')]
+    call add_quantity(head(1)%quantity, word_quantity('reason', stretch%reason, ''))
     do k = 1, 2
       do i = 1, 2
-        head(1)%quantity = [head(1)%quantity, &
-                            number_quantity('slope', tilted%first_slope(i, k), '', '')]
+        call add_quantity(head(1)%quantity, number_quantity('slope', tilted%first_slope(i, k), &
+          '', ''))
       end do
     end do
     words = pack_rows([head, stretch%row, stretch%next])
@@ -69,7 +70,7 @@ contains
     subroutine add(name, number)
       character(len=*), intent(in) :: name
       integer, intent(in) :: number
-      head(1)%quantity = [head(1)%quantity, count_quantity(name, number, '')]
+      call add_quantity(head(1)%quantity, count_quantity(name, number, ''))
     end subroutine add
   end function stretch_words
 

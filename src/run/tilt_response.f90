@@ -3,7 +3,7 @@ module gfb_tilt_response
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity
+  use gfb_quantity, only: quantity_type, number_quantity, add_quantity
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_bearing_system, only: bearing_system_type
@@ -123,9 +123,9 @@ contains
     list = slope_quantities(response, response%slope, 'at this point')
     if (.not. response%has_secant) return
     do i = 1, 2
-      list = [list, number_quantity('secant_stiffness_'//axes(i), response%secant(i), 'N m/rad', &
-        'torque_'//axes(i)//' less that at tilt_'//axes(response%axis)//' = 0, over tilt_'// &
-        axes(response%axis)//'; the slope where that is zero')]
+      call add_quantity(list, number_quantity('secant_stiffness_'//axes(i), response%secant(i), &
+        'N m/rad', 'torque_'//axes(i)//' less that at tilt_'//axes(response%axis)// &
+        ' = 0, over tilt_'//axes(response%axis)//'; the slope where that is zero'))
     end do
   end function row_quantities
 
@@ -145,16 +145,16 @@ contains
     list = slope_quantities(response, response%first_slope, meaning(2:))
     associate (there => response%equilibrium)
       do i = 1, 2
-        list = [list, number_quantity('held_force_'//axes(i), there%force(i), 'N', &
-                                      'film force on the sleeve'//meaning)]
+        call add_quantity(list, number_quantity('held_force_'//axes(i), there%force(i), 'N', &
+          'film force on the sleeve'//meaning))
       end do
       if (.not. there%has_foils) return
-      list = [list, number_quantity('held_leading_edge_lift', there%leading_edge_lift(1), 'm', &
-                                    'leading_edge_lift'//meaning), &
-              number_quantity('held_leading_edge_lift_edge', there%leading_edge_lift(2), 'm', &
-                              'leading_edge_lift_edge'//meaning), &
-              number_quantity('held_lifted_length', there%lifted_length, '1', &
-                              'lifted_length'//meaning)]
+      call add_quantity(list, number_quantity('held_leading_edge_lift', &
+        there%leading_edge_lift(1), 'm', 'leading_edge_lift'//meaning))
+      call add_quantity(list, number_quantity('held_leading_edge_lift_edge', &
+        there%leading_edge_lift(2), 'm', 'leading_edge_lift_edge'//meaning))
+      call add_quantity(list, number_quantity('held_lifted_length', there%lifted_length, '1', &
+        'lifted_length'//meaning))
     end associate
   end function summary_quantities
 

@@ -16,8 +16,8 @@ import tempfile
 
 import h5py
 import numpy
-from gfb_run import COST, Bearing, Checks, largest_difference, namelist_value, natural_sizes, run_file, \
-    summary_difference
+from gfb_run import Checks, namelist_value, run_file
+from same_answer import difference
 
 INPUTS = pathlib.Path(os.environ.get("GFB_SOURCE", pathlib.Path(__file__).parents[2]))/"inputs"
 RANKS = (1, 2, 3, 4, 7)
@@ -69,36 +69,6 @@ def changed(text, changes):
     return text
 
 
-def number_of(text, key):
-    """A number of a case file; None where it is not there."""
-    found = re.search(rf"^ *{key} *= *([-+.0-9a-zA-Z]+)", text, re.MULTILINE)
-    return float(found.group(1)) if found else None
-
-
-def sizes_of(text, one):
-    """What differences of quantities that may vanish are compared with."""
-    measures = {key: number_of(text, key) for key in ("radius", "length", "clearance", "ambient_pressure")}
-    if None not in measures.values():
-        bearing = Bearing(**measures)
-        ends = [f"{edge}_edge_lift{place}" for edge in ("leading", "trailing") for place in ("", "_edge")]
-        return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | {
-            f"held_force_{axis}": bearing.force_unit for axis in "xy"}
-    works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
-    if "maximum_deflection" not in one.summary:
-        return {}
-    largest, energy = one["maximum_deflection"], one["maximum_deflection"]*one["maximum_force"]
-    return {name: energy for name in works} | {"force": one["maximum_force"], "plate_travel": largest} | {
-        name: largest for name in one.summary if name.startswith("crest_deflection_")}
-
-
-def history_of(answer):
-    """The columns of the history; none where there are no steps."""
-    try:
-        return answer.history()
-    except KeyError:
-        return {}
-
-
 def shapes_of(answer):
     """Shapes of modes by name, if there are any, scaled to a largest displacement of one."""
     shapes = {}
@@ -122,23 +92,18 @@ def check_input(checks, folder, name, ranks, as_is):
         text = changed(text, changes)
     path = pathlib.Path(folder)/f"{name.replace(':', '_')}.nml"
     path.write_text(text, encoding="utf-8")
-    one, rows, shapes = None, {}, {}
+    one, shapes = None, {}
     for count in ranks:
         answer = run_file(path, pathlib.Path(folder)/str(count), ranks=count, options=["--quiet"])
         if one is None:
-            one, rows, sizes, shapes = answer, history_of(answer), sizes_of(text, answer), shapes_of(answer)
+            one, shapes = answer, shapes_of(answer)
             continue
         words = f"{name}, {count} ranks against {ranks[0]}"
-        difference, worst = summary_difference(one, answer, sizes)
-        checks.below(f"{words}: summary ({worst})", difference, LIMIT)
-        checks.that(f"{words}: the same words", {key: value for key, value in one.summary.items()
-                                                 if isinstance(value, str)} ==
-                    {key: value for key, value in answer.summary.items() if isinstance(value, str)})
-        columns = history_of(answer)
-        checks.that(f"{words}: the same columns of the history", set(columns) == set(rows))
-        largest = max(((largest_difference(rows[key], columns[key], sizes.get(key)), key)
-                       for key in set(rows) & set(columns) - COST), default=(0.0, "no steps"))
-        checks.below(f"{words}: history ({largest[1]})", largest[0], LIMIT)
+        found = difference(one, answer, text)
+        checks.below(f"{words}: summary ({found.summary[1]})", found.summary[0], LIMIT)
+        checks.that(f"{words}: the same words", found.words)
+        checks.that(f"{words}: the same columns of the history", found.columns)
+        checks.below(f"{words}: history ({found.history[1]})", found.history[0], LIMIT)
         if shapes:
             others = shapes_of(answer)
             checks.that(f"{words}: as many modes", set(others) == set(shapes))

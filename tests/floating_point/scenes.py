@@ -1,0 +1,121 @@
+"""Small scenes of every analysis and every model, which all builds of gfb must answer alike."""
+
+import dataclasses
+import pathlib
+import sys
+
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent.parent/name) for name in ("verification", "hard")]
+
+from hard_trial import BEAMS, CLEARANCE, GU2020, SHEET, STRIP, merged  # noqa: E402
+
+HELD = {"analysis": "fixed_position"}
+BALANCED = {"analysis": "equilibrium"}
+PLACE = {"eccentricity": (0.3*CLEARANCE, 0.5*CLEARANCE)}
+LOAD = {"load": (-60.0, 10.0)}
+TILT = {"tilt": (1.0e-4, -1.0e-4)}
+RING = {"leading_edge_condition": "periodic"}
+RIGID = {**GU2020, "scene": BALANCED, "model": {"foil": "rigid"},
+         "mesh": {"circumferential_elements": 48, "axial_elements": 8}}
+SPRINGS = merged(RIGID, model={"foil": "elastic_foundation", "foundation_stiffness": 5.0e9})
+MEAN = merged(SPRINGS, model={"foundation_pressure": "axial_mean"})
+BEAM = merged(BEAMS, scene=BALANCED)
+# Six bumps under a small bearing: shells that are quick, slow steps left out.
+SHELL = merged(BEAMS, scene=BALANCED, model={"foil": "shell"}, bearing={"radius": 5.0e-3, "length": 8.0e-3},
+               bump_foil={"bumps": 6}, operation={"load": (-4.0, 0.5)},
+               mesh={"circumferential_elements": 24, "arc_elements": 4, "align_crests": False})
+RUBBING = {"friction_top": 0.2, "friction_sleeve": 0.2}
+SMOOTH = {"friction_top": 0.0, "friction_sleeve": 0.0}
+LINES = {"arc_elements": 4, "flat_elements": 2, "axial_elements": 4}
+PLATES = merged(STRIP, bump_foil={"bumps": 2}, mesh=LINES, contact=RUBBING)
+PRESSED = merged(PLATES, bump_foil={"fixed_edge": "leading"}, contact={"friction_top": 0.0},
+                 strip_load={"kind": "crest_pressure", "pressure": 0.2e6, "maximum_force": None, "steps_up": 3})
+VIBRATING = {"scene": {"analysis": "modes"}, "modes": {"count": 4}, "mesh": LINES,
+         "bump_foil": {**PRESSED["bump_foil"], "density": 8440.0}}
+ROUGH = {"roughness": 1.0e-6, "pressure": 5.0e7, "friction": 0.12}
+
+# Why answers differ, and how far they may.
+FILM, FOILS, MODES, PATH = "film", "foils", "modes", "path"
+TOLERANCE = {FILM: 1.0e-10, FOILS: 1.0e-9, MODES: 1.0e-8, PATH: 1.0e-8}
+
+
+@dataclasses.dataclass(frozen=True)
+class Scene:
+    """A case and how it is run."""
+
+    words: str
+    case: dict
+    kind: str = FILM          # of the tolerance
+    options: tuple = ()       # of gfb
+    ranks: tuple = (1,)
+    status: int = 0
+    restart: bool = False     # a second run goes on where the first one ended
+    groups: int = 0           # another run with so many groups of ranks
+    memory: bool = False      # runs under valgrind too
+
+    @property
+    def name(self):
+        """Of its files."""
+        return "_".join("".join(letter if letter.isalnum() else " " for letter in self.words).split())
+
+
+SWEEP = {"parameter": "load", "values": (60.0, 80.0, 100.0)}
+SCENES = [
+    Scene("rigid, shaft held, tilted", merged(RIGID, scene=HELD, operation={**PLACE, **TILT}), ranks=(1, 4), memory=True),
+    Scene("rigid, under a load", merged(RIGID, operation=LOAD), memory=True),
+    Scene("rigid ring, whole width", merged(RIGID, operation=LOAD, bearing=RING, model={"half_width": "no"}), ranks=(1, 4)),
+    Scene("rigid, upwind elements", merged(RIGID, scene=HELD, operation={**PLACE, "speed_rpm": 120000.0},
+                                           model={"film_scheme": "supg"})),
+    Scene("rigid, film order 2", merged(RIGID, operation=LOAD, model={"film_order": 2}), ranks=(1, 4), memory=True),
+    Scene("rigid, too heavy: no answer", merged(RIGID, operation={"load": (-1.0e6, 0.0)}), PATH, status=2),
+    Scene("rigid, &accuracy", merged(RIGID, scene=HELD, operation=PLACE,
+                                     accuracy={"quantity": "force_x", "target": 1.0e-2}), memory=True),
+    Scene("rigid, &shaft_contact", merged(RIGID, operation={"load": (-1.0e3, 0.0), "speed_rpm": 1000.0},
+                                          shaft_contact=ROUGH), FOILS, memory=True),
+    Scene("springs, sweep of speed", merged(SPRINGS, operation=LOAD, sweep={
+        "parameter": "speed_rpm", "values": (30000.0, 40000.0, 60000.0)}), ranks=(1, 4), memory=True),
+    Scene("springs, shaft held, sweep of tilt", merged(MEAN, operation=LOAD, sweep={
+        "parameter": "tilt_x", "values": (0.0, 1.0e-4, 2.0e-4, 3.0e-4), "hold_position": True}), ranks=(1, 4), groups=2),
+    Scene("springs, film and foil in turns", merged(MEAN, scene=HELD, operation=PLACE,
+                                                    model={"coupling": "partitioned"}), FOILS, memory=True),
+    Scene("springs, sweep to no answer, restart", merged(MEAN, operation=LOAD, output={"restart_every": 1}, sweep={
+        "parameter": "load", "values": (60.0, 100.0, 1.0e6)}), PATH, status=2, restart=True, memory=True),
+    Scene("beams, 100 N", merged(BEAM, operation={"load": (-100.0, 0.0)}, solver={"stability": True}), FOILS,
+          ranks=(1, 4), memory=True),
+    Scene("beams, tilted", merged(BEAM, operation={"load": (-100.0, 0.0), **TILT}), FOILS, ranks=(1, 4)),
+    Scene("beams, sweep that remembers friction", merged(BEAM, operation={"load": (-60.0, 0.0)}, sweep={
+        **SWEEP, "friction_memory": True}), FOILS),
+    Scene("beams, leading edge lifted", merged(BEAM, operation={
+        "load": (-100.0, 0.0), "leading_edge_lift": 2.9e-5}, mesh={
+            "axial_elements": 4, "arc_elements": 12, "flat_elements": 3, "align_crests": False}), FOILS),
+    Scene("beams, all equilibria", merged(SHELL, model={"foil": "beam"}), PATH, options=("--branches",), memory=True),
+    Scene("beams, round the folds of a load", merged(BEAM, operation={"load": (-100.0, 0.0)}, sweep={
+        "parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), PATH),
+    Scene("beams, &shaft_contact", merged(BEAM, operation={"load": (-300.0, 0.0), "speed_rpm": 3000.0},
+                                          shaft_contact=ROUGH), FOILS),
+    Scene("beams, film order 2", merged(BEAM, operation={"load": (-100.0, 0.0)}, model={"film_order": 2},
+                                        mesh={"circumferential_elements": 52}), FOILS),
+    Scene("shells, condensed", SHELL, FOILS, ranks=(1, 4), memory=True),
+    Scene("shells, full order, out of core", merged(SHELL, model={"reduction": "none"}, solver={
+        "linear_solver": "out_of_core"}), FOILS, memory=True),
+    Scene("shells, shaft held and tilted, stability", merged(
+        SHELL, scene=HELD, operation={**PLACE, **TILT, "load": None}, solver={"stability": True}), FOILS, ranks=(1, 4)),
+    Scene("strip under pressure", PRESSED, FOILS, ranks=(1, 4), memory=True),
+    Scene("strip between plates, loop", PLATES, FOILS, ranks=(1, 4), memory=True),
+    Scene("strip, loop with the paper's reset", merged(PLATES, contact={"friction_law": "tanh_reset"}), FOILS),
+    Scene("strip, loop with Coulomb's law", merged(PLATES, contact={"friction_law": "coulomb"}), FOILS),
+    Scene("strip, loop, restart", merged(PLATES, output={"restart_every": 2}, solver={
+        "maximum_iterations": 4, "smallest_load_step": 0.9}), FOILS, status=2, restart=True),
+    Scene("strip, full order, iterative", merged(PRESSED, contact=SMOOTH, model={"reduction": "none"}, solver={
+        "linear_solver": "iterative"}), FOILS, ranks=(1, 4), memory=True),
+    Scene("strip, full order, out of core", merged(PRESSED, model={"reduction": "none"}, solver={
+        "linear_solver": "out_of_core"}), FOILS),
+    Scene("strip, exponent 1.5, plate moved", merged(
+        PLATES, contact={"exponent": 1.5, "normal_stiffness": 3.0e13},
+        strip_load={"maximum_force": None, "maximum_displacement": 5.0e-6}), FOILS),
+    Scene("strip free at both ends, no friction", merged(PLATES, contact=SMOOTH), FOILS),
+    Scene("modes of an arc", merged(VIBRATING, modes={"part": "arc"}), MODES, memory=True),
+    Scene("modes of a strip, Craig-Bampton", merged(VIBRATING, modes={"substructure_modes": 3}), MODES, ranks=(1, 4), memory=True),
+    Scene("modes of a top foil", {"scene": VIBRATING["scene"], "modes": {"part": "top_foil", "count": 3},
+                                  "bearing": SHELL["bearing"], "top_foil": {**SHEET, "density": 8440.0},
+                                  "mesh": {"circumferential_elements": 16, "axial_elements": 4}}, MODES),
+]
