@@ -152,15 +152,19 @@ def end_all(processes):
 class Bench:
     """Where runs are made, and what has been measured."""
 
-    def __init__(self, options, folder):
-        self.gfb, self.folder, self.limits = options.gfb, pathlib.Path(folder), Limits(options.seconds, options.memory)
-        self.strip_program = pathlib.Path(options.gfb).with_name("gfb_bench_varied_strip")
+    def __init__(self, options, folder, gfb=None):
+        """With a program of its own it solves cases only, and keeps no rows."""
+        self.gfb, self.folder = gfb or options.gfb, pathlib.Path(folder)
+        self.limits = Limits(options.seconds, options.memory)
+        self.strip_program = pathlib.Path(self.gfb).with_name("gfb_bench_varied_strip")
+        self.probe = build_probe(folder)
+        self.rows, self.measures = {}, True
+        if gfb:
+            return
         if not os.access(self.strip_program, os.X_OK):
             stop(f"there is no {self.strip_program}: it is built together with gfb")
-        self.probe = build_probe(folder)
-        self.program = hashlib.sha256(pathlib.Path(options.gfb).read_bytes()
+        self.program = hashlib.sha256(pathlib.Path(self.gfb).read_bytes()
                                       + self.strip_program.read_bytes()).hexdigest()[:16]
-        self.rows, self.measures = {}, True
         if STORE.exists():
             kept = json.loads(STORE.read_text(encoding="utf-8"))
             if options.reuse and kept["program"] == self.program:

@@ -36,7 +36,7 @@ contains
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', trim(merge('10', '60', definite)))
     call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
     ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
-    ! or minimum degree that sets dense rows aside.
+    ! or PORD where rows are dense.
     call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', dense_rows))
     call set_option_default('-'//prefix//'mat_mumps_icntl_33', '1') ! the determinant, for its sign
   end subroutine use_factors

@@ -181,6 +181,7 @@ contains
         end associate
       end do
     else
+      PetscCallA(MatSetOption(matrix, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE, ierr))
       do i = 1, size(self%my_elements)
         call shell_stiffness(element_geometry(self%mesh, self%my_elements(i)), self%section, block, error)
         if (allocated(error)) exit

@@ -309,8 +309,9 @@ contains
     type(projection_type) :: foot
     type(quad_mesh_type) :: above
     real(wp), allocatable :: place(:, :), coordinates(:, :)
-    integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :)
-    integer :: i, before
+    real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function
+    integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :), pressed(:)
+    integer :: i, k, before
 
     crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
     allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
@@ -327,8 +328,10 @@ contains
       if (element(i) == 0) cycle
       associate (point => foil%contacts%point(crest(i)))
         foot = project(above%position(:, nodes(:, i)), place(:, i))
-        point%share = foot%shape
-        point%master = number(:axial, (i - 1)*corners + 1:i*corners)
+        ! A crest on a line of nodes has one master; the others would only fill the matrix.
+        pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
+        point%share = foot%shape(pressed)
+        point%master = number(:axial, (i - 1)*corners + pressed)
       end associate
     end do
     ! A crest beyond the top foil's edge touches nothing.

@@ -47,6 +47,7 @@ module gfb_strip_system
     Vec :: full_load                        !! scaled
     Vec, private :: unit                    !! one scaled unknown is so much [m] or [1]
     Vec, private :: work
+    Vec, private :: last, elastic_force     !! where elastic forces were last asked for, and they; scaled
     type(local_exchange_type), private :: exchange
     real(wp), allocatable, private :: local_unit(:) !! of the contacts' unknowns
     logical, private :: created = .false.
@@ -84,6 +85,8 @@ contains
     PetscCallA(VecDuplicate(strip%state, strip%full_load, ierr))
     PetscCallA(VecDuplicate(strip%state, strip%unit, ierr))
     PetscCallA(VecDuplicate(strip%state, strip%work, ierr))
+    PetscCallA(VecDuplicate(strip%state, strip%last, ierr)) ! both are zero
+    PetscCallA(VecDuplicate(strip%state, strip%elastic_force, ierr))
     PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
     PetscCallA(VecSet(strip%full_load, 0.0_wp, ierr))
     call set_units(strip)
@@ -133,6 +136,7 @@ contains
     type(strip_system_type), intent(inout) :: strip
     PetscInt, intent(in) :: owned
 
+    PetscInt, parameter :: of_contact = 2 !! a node's other displacements, where the foil does not couple them
     PetscInt, allocatable :: inside(:), outside(:), column(:)
     PetscScalar, allocatable :: value(:)
     PetscInt :: first, last, row, entries, begin, finish
@@ -157,6 +161,7 @@ contains
         outside = outside + 1
       end if
     end if
+    inside = min(inside + of_contact, owned)
     PetscCallA(MatCreate(PETSC_COMM_WORLD, strip%elastic, ierr))
     PetscCallA(MatSetSizes(strip%elastic, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(strip%elastic, MATAIJ, ierr))
@@ -225,11 +230,24 @@ contains
     call self%contact_displacements(state, displacement)
     force = 0.0_wp
     call self%contacts%add_forces(displacement, force)
-    PetscCallA(MatMult(self%elastic, state, residual, ierr))
-    PetscCallA(VecAXPY(residual, -self%factor, self%full_load, ierr))
+    call find_elastic_forces(self, state)
+    PetscCallA(VecWAXPY(residual, -self%factor, self%full_load, self%elastic_force, ierr))
     call self%exchange%add(-force*self%local_unit/energy(self), residual)
     valid = .true.
   end subroutine evaluate
+
+  !> Elastic forces at a state; those of the last one are still there, as after contacts have moved.
+  subroutine find_elastic_forces(strip, state)
+    class(strip_system_type), intent(inout) :: strip
+    Vec, intent(in) :: state
+    PetscBool :: same
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecEqual(state, strip%last, same, ierr))
+    if (same) return
+    PetscCallA(VecCopy(state, strip%last, ierr))
+    PetscCallA(MatMult(strip%elastic, state, strip%elastic_force, ierr))
+  end subroutine find_elastic_forces
 
   !> The matrix with the contacts as they are linearised.
   subroutine linearise(self, state)
@@ -391,6 +409,8 @@ contains
     end if
     PetscCallA(MatDestroy(strip%jacobian, ierr))
     PetscCallA(MatDestroy(strip%elastic, ierr))
+    PetscCallA(VecDestroy(strip%elastic_force, ierr))
+    PetscCallA(VecDestroy(strip%last, ierr))
     PetscCallA(VecDestroy(strip%work, ierr))
     PetscCallA(VecDestroy(strip%unit, ierr))
     PetscCallA(VecDestroy(strip%full_load, ierr))
