@@ -1,16 +1,16 @@
 /* What PETSc's log (-log_view) does not tell, for tools/bench scaling; preloaded into gfb (LD_PRELOAD).
  *
- * Times of the log become CPU times of each process, because PETSc reads its clock by MPI_Wtime. Who waits for another
- * rank sleeps instead of spinning, so that waiting is no CPU time; Open MPI yields where it is idle
- * (mpi_yield_when_idle). Messages that Fortran libraries send, MUMPS that is, are counted for each of MUMPS' phases:
- * PETSc counts its own only. Each rank leaves a line "calls messages bytes collectives" for every phase in the file
- * $GFB_PROBE_FILE.<rank>.
+ * Times of the log become CPU times of each process, because PETSc reads its clock by MPI_Wtime. Waiting for another rank
+ * is not counted; Open MPI yields where it is idle (mpi_yield_when_idle), and who waits naps. Messages that Fortran
+ * libraries send, MUMPS that is, are counted for each of MUMPS' phases: PETSc counts its own only. Each rank leaves a
+ * line "calls messages bytes collectives" for every phase in the file $GFB_PROBE_FILE.<rank>.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <time.h>
 
 /* What a phase has cost. */
@@ -23,17 +23,55 @@ enum { outside, analysis, factorization, solve, phases };
 static cost_type cost[phases];
 static int phase = outside;
 
-double MPI_Wtime(void)
+static int alone = 1; /* whether the job has one rank */
+static double waited; /* s of CPU time spent asking whether a message has come */
+
+static double cpu_time(void)
 {
   struct timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return (double)now.tv_sec + 1.0e-9 * (double)now.tv_nsec;
 }
 
+double MPI_Wtime(void)
+{
+  return cpu_time() - waited;
+}
+
+/* Who yields again and again without working in between waits for another rank: it naps, so that others get on, and what
+ * its waking costs is no work. MUMPS yields while it works, too, between its fronts; that is no waiting. */
 int sched_yield(void)
 {
-  const struct timespec nap = {0, 100000};
-  return nanosleep(&nap, NULL);
+  static const long between = 2000, patience = 200; /* ns that are no work; yields in a row */
+  static const struct timespec nap = {0, 20000};
+  static struct timespec last;
+  static double woken = -1.0;
+  static long yields;
+  struct timespec now;
+
+  if (alone) return 0;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  yields = (now.tv_sec - last.tv_sec) * 1000000000L + now.tv_nsec - last.tv_nsec < between ? yields + 1 : 0;
+  last = now;
+  if (yields < patience) {
+    woken = -1.0;
+    return 0;
+  }
+  if (woken < 0.0) woken = cpu_time();
+  nanosleep(&nap, NULL);
+  waited -= woken;
+  woken = cpu_time();
+  waited += woken;
+  clock_gettime(CLOCK_MONOTONIC, &last);
+  return 0;
+}
+
+__attribute__((constructor)) static void wake_in_time(void)
+{
+  const char *ranks = getenv("OMPI_COMM_WORLD_SIZE");
+
+  alone = !ranks || atoi(ranks) < 2;
+  prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
 }
 
 /* The start of MUMPS' C structure, in every version. */

@@ -147,6 +147,27 @@ def end_all(processes):
             continue
 
 
+# --- rows that outlive an interrupted run ---
+
+def kept_rows(store, program):
+    """{key: row} of an earlier run of the tool with the same program."""
+    if not store.exists():
+        return {}
+    kept = json.loads(store.read_text(encoding="utf-8"))
+    if kept["program"] == program:
+        return kept["rows"]
+    print("kept rows are of another build of gfb: measuring anew", flush=True)
+    return {}
+
+
+def keep_rows(store, program, rows):
+    """Writes all rows; what was kept before stays whole until then."""
+    store.parent.mkdir(parents=True, exist_ok=True)
+    new = store.with_suffix(".new")
+    new.write_text(json.dumps({"program": program, "rows": rows}, indent=1), encoding="utf-8")
+    os.replace(new, store)
+
+
 # --- one measured run ---
 
 class Bench:
@@ -165,12 +186,8 @@ class Bench:
             stop(f"there is no {self.strip_program}: it is built together with gfb")
         self.program = hashlib.sha256(pathlib.Path(self.gfb).read_bytes()
                                       + self.strip_program.read_bytes()).hexdigest()[:16]
-        if STORE.exists():
-            kept = json.loads(STORE.read_text(encoding="utf-8"))
-            if options.reuse and kept["program"] == self.program:
-                self.rows = kept["rows"]
-            elif options.reuse:
-                print("kept rows are of another build of gfb: measuring anew", flush=True)
+        if options.reuse:
+            self.rows = kept_rows(STORE, self.program)
 
     def row(self, key, measure):
         """A kept row, or a new one; what was stopped by smaller limits than today's, or failed, is tried again."""
@@ -182,10 +199,7 @@ class Bench:
             row = measure()
             row["limits"] = dataclasses.asdict(self.limits)
             self.rows[key] = row
-            STORE.parent.mkdir(parents=True, exist_ok=True)
-            new = STORE.with_suffix(".new")
-            new.write_text(json.dumps({"program": self.program, "rows": self.rows}, indent=1), encoding="utf-8")
-            os.replace(new, STORE)
+            keep_rows(STORE, self.program, self.rows)
             print("  " + (row["stopped"] or f"{row['cpu']:.1f} s CPU, {row['memory']/2**20:.0f} MiB"), flush=True)
         return row
 
