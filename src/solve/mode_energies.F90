@@ -30,7 +30,8 @@ module gfb_mode_energies
   !> Squared part of a motion that supports hold, over the largest, that is none: round-off.
   real(wp), parameter :: unheld = 1.0e-12_wp
   real(wp), parameter, public :: exact = 1.0e-5_wp !! round-off of eigenvalues whose square is no matter
-  integer, parameter :: rounds = 4                 !! of corrections
+  real(wp), parameter :: settled = 1.0e-7_wp       !! change of an eigenvalue in a round that ends the corrections
+  integer, parameter :: rounds = 8                 !! of corrections, at most
   real(wp), parameter :: dependent = 1.0e-3_wp     !! what is left of a correction that others make up, relative
 
   interface
@@ -95,8 +96,9 @@ contains
   !> Replaces modes by Ritz's, whose stiffness comes from strains.
   !>
   !> Where the matrix had lost digits, what the modes' own forces leave unbalanced shows the way to
-  !> better ones: \( (K + s M)^{-1} (f(\phi) - \omega^2 M \phi) \) joins them (Davidson's method), until
-  !> that changes no eigenvalue. Fails where an element is clockwise or degenerate.
+  !> better ones: \( (K + s M)^{-1} (f(\phi) - \omega^2 M \phi) \) joins them, and what the round before
+  !> has changed (Davidson's method with the memory of LOBPCG), until that changes no eigenvalue. Fails
+  !> where an element is clockwise or degenerate.
   subroutine sharpen_modes(foil, mass, rigid, modes, lost, left, error)
     type(foil_structure_type), intent(in) :: foil
     Mat, intent(in) :: mass
@@ -105,7 +107,7 @@ contains
     real(wp), intent(out) :: lost           !! largest relative error of the matrix' eigenvalues [1]
     real(wp), intent(out) :: left           !! largest relative change of an eigenvalue in the last round [1]
     type(error_type), allocatable, intent(out) :: error
-    Vec :: force(size(modes%shape))
+    Vec :: force(size(modes%shape)), moved(size(modes%shape))
     KSP :: solver
     PetscErrorCode :: ierr
     integer :: i, round
@@ -115,34 +117,37 @@ contains
     if (size(modes%shape) == 0) return
     do i = 1, size(force)
       PetscCallA(VecDuplicate(modes%shape(i), force(i), ierr))
+      PetscCallA(VecDuplicate(modes%shape(i), moved(i), ierr))
     end do
-    call take_ritz(foil, mass, rigid, 0, modes, force, lost, error)
+    call take_ritz(foil, mass, rigid, 0, modes, force, moved, lost, error)
     left = lost
     do round = 1, rounds
-      if (allocated(error) .or. lost <= exact .or. left <= exact) exit
+      if (allocated(error) .or. lost <= exact .or. left <= settled) exit
       if (round == 1) call factor_shifted(foil%stiffness, mass, minval(modes%eigenvalue, modes%eigenvalue > rigid), solver)
-      call take_ritz(foil, mass, rigid, round, modes, force, left, error, solver)
+      call take_ritz(foil, mass, rigid, round, modes, force, moved, left, error, solver)
     end do
     if (lost > exact) then
       PetscCallA(KSPDestroy(solver, ierr))
     end if
     do i = 1, size(force)
       PetscCallA(VecDestroy(force(i), ierr))
+      PetscCallA(VecDestroy(moved(i), ierr))
     end do
   end subroutine sharpen_modes
 
   !> One round of Ritz's method: over the modes, and over their corrections where there is a solver.
-  subroutine take_ritz(foil, mass, rigid, round, modes, force, change, error, solver)
+  subroutine take_ritz(foil, mass, rigid, round, modes, force, moved, change, error, solver)
     type(foil_structure_type), intent(in) :: foil
     Mat, intent(in) :: mass
     real(wp), intent(in) :: rigid         !! [1/s2]
     integer, intent(in) :: round          !! 0: forces of the modes are not known yet
     type(modes_type), intent(inout) :: modes
     Vec, intent(in) :: force(:)           !! elastic ones of the modes
+    Vec, intent(in) :: moved(:)           !! by which the modes changed in the last round
     real(wp), intent(out) :: change       !! of an eigenvalue, relative, largest [1]
     type(error_type), allocatable, intent(out) :: error
     KSP, intent(in), optional :: solver   !! of the shifted stiffness
-    Vec :: basis(2*size(force)), image(2*size(force))
+    Vec :: basis(3*size(force)), image(3*size(force))
     real(wp), allocatable :: energy(:, :), modal_mass(:, :), eigenvalue(:)
     PetscErrorCode :: ierr
     integer :: i, modes_found, used
@@ -155,6 +160,7 @@ contains
       PetscCallA(VecCopy(modes%shape(i), basis(i), ierr))
     end do
     if (round > 0) call add_corrections(solver, mass, rigid, modes, force, basis, used)
+    if (round > 1) call add_changes(mass, modes%eigenvalue > rigid, moved, basis, used)
     do i = 1, used
       PetscCallA(VecDuplicate(force(1), image(i), ierr))
     end do
@@ -170,6 +176,7 @@ contains
       end associate
       call combine(energy(:, :modes_found), basis(:used), modes%shape)
       call combine(energy(:, :modes_found), image(:used), force)
+      if (used > modes_found) call combine(energy(modes_found + 1:, :modes_found), basis(modes_found + 1:used), moved)
     end if
     do i = 1, used
       PetscCallA(VecDestroy(basis(i), ierr))
@@ -187,9 +194,8 @@ contains
     Vec, intent(inout) :: basis(:)
     integer, intent(inout) :: used !! of the basis
     Vec :: work
-    PetscScalar :: before, after, product
     PetscErrorCode :: ierr
-    integer :: i, k, pass
+    integer :: i
 
     PetscCallA(VecDuplicate(force(1), work, ierr))
     do i = 1, size(force)
@@ -199,22 +205,56 @@ contains
       PetscCallA(MatMult(mass, modes%shape(i), work, ierr))
       PetscCallA(VecAYPX(work, -modes%eigenvalue(i), force(i), ierr))
       PetscCallA(KSPSolve(solver, work, basis(used), ierr))
-      before = modal_mass_of(basis(used))
-      do pass = 1, 2
-        do k = 1, used - 1
-          PetscCallA(MatMult(mass, basis(used), work, ierr))
-          PetscCallA(VecDot(work, basis(k), product, ierr))
-          PetscCallA(VecAXPY(basis(used), -product, basis(k), ierr))
-        end do
-      end do
-      after = modal_mass_of(basis(used))
-      if (after > dependent**2*before) then
-        PetscCallA(VecScale(basis(used), 1.0_wp/sqrt(after), ierr))
-      else
-        PetscCallA(VecDestroy(basis(used), ierr))
-        used = used - 1
-      end if
+      call keep_new(mass, basis, used)
     end do
+    PetscCallA(VecDestroy(work, ierr))
+  end subroutine add_corrections
+
+  !> Adds to a basis what the last round changed of the elastic modes.
+  subroutine add_changes(mass, elastic, moved, basis, used)
+    Mat, intent(in) :: mass
+    logical, intent(in) :: elastic(:) !! mode by mode
+    Vec, intent(in) :: moved(:)
+    Vec, intent(inout) :: basis(:)
+    integer, intent(inout) :: used !! of the basis
+    PetscErrorCode :: ierr
+    integer :: i
+
+    do i = 1, size(moved)
+      if (.not. elastic(i)) cycle
+      used = used + 1
+      PetscCallA(VecDuplicate(moved(i), basis(used), ierr))
+      PetscCallA(VecCopy(moved(i), basis(used), ierr))
+      call keep_new(mass, basis, used)
+    end do
+  end subroutine add_changes
+
+  !> Keeps of a basis' last vector what is at right angles to all before it, or drops it.
+  subroutine keep_new(mass, basis, used)
+    Mat, intent(in) :: mass
+    Vec, intent(inout) :: basis(:)
+    integer, intent(inout) :: used !! of the basis
+    Vec :: work
+    PetscScalar :: before, after, product
+    PetscErrorCode :: ierr
+    integer :: k, pass
+
+    PetscCallA(VecDuplicate(basis(used), work, ierr))
+    before = modal_mass_of(basis(used))
+    do pass = 1, 2
+      do k = 1, used - 1
+        PetscCallA(MatMult(mass, basis(used), work, ierr))
+        PetscCallA(VecDot(work, basis(k), product, ierr))
+        PetscCallA(VecAXPY(basis(used), -product, basis(k), ierr))
+      end do
+    end do
+    after = modal_mass_of(basis(used))
+    if (after > dependent**2*before) then
+      PetscCallA(VecScale(basis(used), 1.0_wp/sqrt(after), ierr))
+    else
+      PetscCallA(VecDestroy(basis(used), ierr))
+      used = used - 1
+    end if
     PetscCallA(VecDestroy(work, ierr))
 
   contains
@@ -226,7 +266,7 @@ contains
       PetscCallA(MatMult(mass, vector, work, ierr))
       PetscCallA(VecDot(work, vector, square, ierr))
     end function modal_mass_of
-  end subroutine add_corrections
+  end subroutine keep_new
 
   !> Factors of the stiffness with a shift.
   subroutine factor_shifted(stiffness, mass, shift, solver)
