@@ -16,7 +16,7 @@ module gfb_contact_search
   public :: find_with_contacts
 
   integer, parameter :: most_halvings = 1 !! of the speed, to come to the target from below
-  integer, parameter :: edge_after = 1    !! starts the free edge is held
+  integer, parameter :: edge_after = 1    !! starts the free edge is held; where the shaft is held, after all
 
 contains
 
@@ -34,7 +34,7 @@ contains
     type(path_report_type) :: nearest
     type(operating_point_type) :: slow
     Vec :: kept
-    integer :: attempt, attempts
+    integer :: attempt, attempts, edge_at
     logical :: edge, shown
     PetscErrorCode :: ierr
 
@@ -44,6 +44,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, kept, ierr))
     edge = has_free_edge(bearing)
     edge = edge .and. slower == 0
+    edge_at = merge(edge_after, attempts, bearing%floats)
     shown = .false.
     do attempt = 1, attempts
       trial = settings
@@ -51,7 +52,7 @@ contains
       call try_start(scene, target, trial, attempt, bearing, newton, report)
       call keep_nearest(bearing, target, attempt == 1, report, nearest, kept)
       if (report%converged .or. report%touched) exit
-      if (attempt == edge_after .and. edge) then
+      if (attempt == edge_at .and. edge) then
         call search_heights(scene, target, settings, bearing, newton, report, shown)
         if (report%converged) exit
         if (shown) then
