@@ -68,7 +68,9 @@ def run(options):
                     rows[which].append(row)
     tables = [time_table(measured), work_table(measured)]
     folder = ROOT/"docs" if options.docs else options.output
-    (folder/"profile.md").write_text(page(measured, tables, options), encoding="utf-8")
+    before = version_of(options.before) if os.access(options.before, os.X_OK) else f"revision {options.before}"
+    versions = before, version_of(programs["after"])
+    (folder/"profile.md").write_text(page(measured, tables, options, versions), encoding="utf-8")
     return "\n".join(plain_table(*table) for table in tables) + f"\npage is in {folder}\n"
 
 
@@ -138,7 +140,12 @@ def largest_parts(after):
     return " and ".join(f"{name} ({100.0*after[name]/after['whole']:.0f} %)" for name in order)
 
 
-def page(measured, tables, options):
+def version_of(program):
+    """What a program says of itself."""
+    return subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+
+
+def page(measured, tables, options, versions):
     """The documentation's page."""
     said = ""
     for job, rows in measured.items():
@@ -155,6 +162,9 @@ tools/bench profile --before PROGRAM --gfb PROGRAM --docs    # or --before REVIS
 
 Two programs solve the same jobs in turn on one rank; times are CPU times by PETSc's log, in parts that do not overlap
 ([scaling.md](scaling.md) says what they are). Smallest of {options.repetitions}.
+
+- Before: {versions[0]}
+- After: {versions[1]}
 
 ## Before and after
 

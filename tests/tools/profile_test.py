@@ -39,7 +39,7 @@ class Profile(unittest.TestCase):
 
     def test_page(self):
         tables = [bench_profile.time_table(MEASURED), bench_profile.work_table(MEASURED)]
-        page = bench_profile.page(MEASURED, tables, types.SimpleNamespace(repetitions=1))
+        page = bench_profile.page(MEASURED, tables, types.SimpleNamespace(repetitions=1), ("gfb 1", "gfb 2"))
         self.assertIn("**a job**: 1.96 times less CPU time; most of what changed is in factorization", page)
         self.assertIn("Now most goes to factorization (96 %)", page)
 
