@@ -68,7 +68,7 @@ def run(options):
                     rows[which].append(row)
     tables = [time_table(measured), work_table(measured)]
     folder = ROOT/"docs" if options.docs else options.output
-    before = version_of(options.before) if os.access(options.before, os.X_OK) else f"revision {options.before}"
+    before = version_of(options.before) if os.path.isfile(options.before) else f"revision {options.before}"
     versions = before, version_of(programs["after"])
     (folder/"profile.md").write_text(page(measured, tables, options, versions), encoding="utf-8")
     return "\n".join(plain_table(*table) for table in tables) + f"\npage is in {folder}\n"
