@@ -22,7 +22,7 @@ from same_answer import difference
 INPUTS = pathlib.Path(os.environ.get("GFB_SOURCE", pathlib.Path(__file__).parents[2]))/"inputs"
 RANKS = (1, 2, 3, 4, 7)
 LIMIT = 1.0e-8
-PLATE = {"bearing": {"radius": 0.005, "length": 0.02}, "mesh": {"circumferential_elements": 20, "axial_elements": 6},
+PLATE = {"bearing": {"radius": 0.01, "length": 0.02}, "mesh": {"circumferential_elements": 20, "axial_elements": 6},
          "top_foil": {"thickness": 2.0e-4, "youngs_modulus": 2.0e11, "poissons_ratio": 0.3, "density": 8000.0}}
 VARIANTS = {f"strip_modes:{part}": {"modes": {"part": part, "substructure_modes": 0}} | others for part, others in (
     ("half_arc", {}), ("arc", {}), ("flat", {}), ("top_foil", PLATE))}
