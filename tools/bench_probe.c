@@ -24,6 +24,7 @@ static cost_type cost[phases];
 static int phase = outside;
 
 static int alone = 1; /* whether the job has one rank */
+static struct timespec nap = {0, 20000};
 static double waited; /* s of CPU time spent asking whether a message has come */
 
 static double cpu_time(void)
@@ -43,7 +44,6 @@ double MPI_Wtime(void)
 int sched_yield(void)
 {
   static const long between = 2000, patience = 200; /* ns that are no work; yields in a row */
-  static const struct timespec nap = {0, 20000};
   static struct timespec last;
   static double woken = -1.0;
   static long yields;
@@ -71,6 +71,7 @@ __attribute__((constructor)) static void wake_in_time(void)
   const char *ranks = getenv("OMPI_COMM_WORLD_SIZE");
 
   alone = !ranks || atoi(ranks) < 2;
+  if (!alone && atoi(ranks) > 2) nap.tv_nsec = 50000L * atoi(ranks); /* many ranks that wake share few cores */
   prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
 }
 

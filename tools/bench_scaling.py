@@ -2,7 +2,7 @@
 
 Strips and the bearing of [Gu2020], solved by gfb, and a condensed strip whose bumps are all different, which no case
 file can ask for. Times are CPU times of each process by PETSc's log: bench_probe.c, compiled here and preloaded,
-gives PETSc that clock, lets waiting ranks sleep, and counts the messages of MUMPS. Each measured row is kept in
+gives PETSc that clock, leaves waiting out, and counts the messages of MUMPS. Each measured row is kept in
 build/bench/scaling.json, so that an interrupted run goes on with --reuse; a run that takes more than --seconds or
 --memory, or would by the growth so far, is left out and the page says so.
 """

@@ -403,9 +403,9 @@ Tables and what is said of them are written by the tool from the figures of one 
 {os.sysconf("SC_PHYS_PAGES")*os.sysconf("SC_PAGE_SIZE")/2**30:.0f} GiB, shared with other jobs; a process was allowed \
 {options.seconds:,.0f} s of CPU time, a run {options.memory/2**30:.0f} GiB.
 
-All times are CPU times of each process, by PETSc's log (`-log_view`), whose clock the tool replaces; a rank that waits
-sleeps, so waiting is not counted, and other jobs do not show as they would in times by the wall. With several ranks a
-part's time is that of the rank that needs most. Parts do not overlap:
+All times are CPU times of each process, by PETSc's log (`-log_view`), whose clock the tool replaces; waiting for another
+rank is not counted, and other jobs do not show as they would in times by the wall. With several ranks a part's time is
+that of the rank that needs most. Parts do not overlap:
 
 - `set-up`: meshes, their partition, contacts; `condensation`: super-elements.
 - `assembly`: stiffness of the foils, then residuals and matrices of all Newton iterations.
