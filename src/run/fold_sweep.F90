@@ -145,11 +145,15 @@ contains
     type(fold_way_type), intent(inout) :: way
     type(bearing_record_type), intent(inout) :: record
     real(wp) :: fold
+    integer :: i
 
     call way%arc%to_turn()
     fold = way%arc%place_before
     call measure_tilt(scene, value_at(scene, fold), bearing, newton, record%tilted)
     call judge_answer(scene, log, bearing, newton, record%judged)
+    do i = 1, size(record%judged)
+      if (record%judged(i)%name == 'determinant_sign') record%judged(i)%number = 0.0_wp ! it changes here
+    end do
     call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
     way%kept = 0
     call log%line('fold: the branch turns back at '//value_text(scene, fold))
