@@ -25,6 +25,7 @@ static int phase = outside;
 
 static int alone = 1; /* whether the job has one rank */
 static struct timespec nap = {0, 20000};
+static long between = 2000, patience = 200; /* ns that are no work; yields in a row */
 static double waited; /* s of CPU time spent asking whether a message has come */
 
 static double cpu_time(void)
@@ -43,7 +44,6 @@ double MPI_Wtime(void)
  * its waking costs is no work. MUMPS yields while it works, too, between its fronts; that is no waiting. */
 int sched_yield(void)
 {
-  static const long between = 2000, patience = 200; /* ns that are no work; yields in a row */
   static struct timespec last;
   static double woken = -1.0;
   static long yields;
@@ -71,7 +71,11 @@ __attribute__((constructor)) static void wake_in_time(void)
   const char *ranks = getenv("OMPI_COMM_WORLD_SIZE");
 
   alone = !ranks || atoi(ranks) < 2;
-  if (!alone && atoi(ranks) > 2) nap.tv_nsec = 50000L * atoi(ranks); /* many ranks that wake share few cores */
+  if (!alone && atoi(ranks) > 2) { /* many share few cores and are there to be counted: asking all takes longer */
+    nap.tv_nsec = 10000L * atoi(ranks);
+    between = 2000L * atoi(ranks);
+    patience = 2;
+  }
   prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
 }
 

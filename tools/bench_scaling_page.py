@@ -267,7 +267,9 @@ def model_rows(measured, growth):
         one, base = message_exponents(rows), done(rows)
         if one is None or base[0]["ranks"] != 1:
             continue
-        kind = ("bearing " if "bearing" in words else "strip ") + ("full" if "full order" in words else "reduced")
+        kind = "strip longer"
+        if "bearing" in words:
+            kind = "bearing " + ("full" if "full order" in words else "reduced")
         large = done(growth.get(kind, []))
         target = large[-1] if large else base[0]
         iteration = solving(target)/max(1.0, target["summary"]["newton_iterations"])
@@ -275,7 +277,7 @@ def model_rows(measured, growth):
         for ranks in MODEL_RANKS:
             now = {name: one[name][1]*(ranks/one["ranks"])**one[name][0] for name in ("messages", "bytes",
                                                                                      "collectives")}
-            lines.append((f"{words.split(', friction')[0]}, {target['summary']['unknowns']:,.0f} unknowns", ranks,
+            lines.append((f"{words.rsplit(', ', 1)[0]}, {target['summary']['unknowns']:,.0f} unknowns", ranks,
                           iteration/ranks, LATENCY*now["messages"],
                           bigger*now["bytes"]*NODE_RANKS/NODE_BANDWIDTH,
                           2.0*LATENCY*math.log2(ranks)*now["collectives"], iteration))
