@@ -22,7 +22,7 @@ module gfb_modes_analysis
   use gfb_mode_energies, only: free_motions, sharpen_modes, exact
   use gfb_craig_bampton, only: craig_bampton_type, craig_bampton
   use gfb_reduced_strip, only: assembled_eigenvalues
-  use gfb_case_file, only: history_row_type, case_array_type
+  use gfb_case_file, only: history_row_type, case_array_type, fill_array
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement
   use gfb_provenance, only: provenance, blas_in_use
@@ -53,7 +53,7 @@ contains
     type(foil_structure_type) :: part
     type(modes_type) :: modes, motions
     type(history_row_type), allocatable :: history(:)
-    type(quantity_type), allocatable :: summary(:)
+    type(quantity_type), allocatable :: summary(:), reduced(:)
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type) :: grid
     real(wp), allocatable :: moved(:, :)
@@ -78,13 +78,8 @@ contains
     if (allocated(error)) return
     converged = size(modes%eigenvalue) >= min(scene%modes%count, part%unknowns)
     if (.not. converged) call log%gave_up('only '//text(size(modes%eigenvalue))//' modes found')
-    call add_quantity(summary, mode_quantities(converged, modes, shift))
-    call add_round_off(lost, left, summary)
-    call add_quantity(summary, cost_quantities(part, start_time))
     call show_closing_block(log, scene, modes, part)
     call warn_of_round_off(log, lost, left, scene%modes%part == part_strip)
-    allocate (history(1))
-    history(1)%quantity = summary
     call create_foil_grid(part, trim(merge('top_foil ', 'bump_foil', scene%modes%part == part_top_foil)), grid)
     allocate (moved(node_unknowns, size(part%part%mesh_node)))
     do i = 1, size(modes%shape)
@@ -92,14 +87,17 @@ contains
       call add_displacement(part, 'mode_'//text(i), 'shape of unit modal mass', moved, grid)
     end do
     PetscCallA(MatDestroy(mass, ierr))
-    allocate (arrays(0))
+    allocate (arrays(0), reduced(0), history(1))
     if (scene%modes%part == part_strip) then
       call reduce_strip(part, scene%modes%substructure_modes, size(modes%eigenvalue), shift, log, arrays, &
-                        summary, error)
+                        reduced, error)
       if (allocated(error)) return
-      call renew(cost_quantities(part, start_time), summary)
-      call renew(cost_quantities(part, start_time), history(1)%quantity)
     end if
+    call add_quantity(history(1)%quantity, mode_quantities(converged, modes, shift))
+    call add_round_off(lost, left, history(1)%quantity)
+    call add_quantity(history(1)%quantity, cost_quantities(part, start_time))
+    call add_quantity(summary, history(1)%quantity)
+    call add_quantity(summary, reduced)
     call destroy_modes(modes)
     call write_result_set(scene, folder, converged, provenance(command), summary, history, arrays, [grid], &
                           log, error)
@@ -108,14 +106,14 @@ contains
   end subroutine run_modes
 
   !> Craig-Bampton matrices of the strip for the result file, and the frequencies they give.
-  subroutine reduce_strip(strip, modes_kept, wanted, shift, log, arrays, summary, error)
+  subroutine reduce_strip(strip, modes_kept, wanted, shift, log, arrays, frequencies, error)
     type(foil_structure_type), intent(in) :: strip
     integer, intent(in) :: modes_kept !! of every super-element
     integer, intent(in) :: wanted     !! frequencies
     real(wp), intent(in) :: shift     !! [1/s2]
     type(run_log_type), intent(in) :: log
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
+    type(quantity_type), allocatable, intent(inout) :: frequencies(:)
     type(error_type), allocatable, intent(out) :: error
 
     type(craig_bampton_type), allocatable :: kinds(:)
@@ -127,7 +125,7 @@ contains
     eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
     call list_matrices(strip, kinds, arrays)
     do i = 1, size(eigenvalue)
-      call add_quantity(summary, number_quantity('craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), &
+      call add_quantity(frequencies, number_quantity('craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), &
         0.0_wp))/turn, 'Hz', 'natural frequency of the reduced strip'))
     end do
     call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
@@ -146,10 +144,8 @@ contains
       call add_matrix('stiffness', kinds(i)%stiffness, arrays(2*i - 1))
       call add_matrix('mass', kinds(i)%mass, arrays(2*i))
     end do
-    arrays(size(arrays))%path = '/craig_bampton/kind_of_substructure'
-    arrays(size(arrays))%unit = '1'
-    arrays(size(arrays))%meaning = 'kind of each super-element, from the smallest x on'
-    arrays(size(arrays))%values = reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)])
+    call fill_array('/craig_bampton/kind_of_substructure', '1', 'kind of each super-element, from the smallest x on', &
+                    reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)]), arrays(size(arrays)))
 
   contains
 
@@ -239,19 +235,6 @@ contains
                      text(left, 2))
     if (reduced) call log%warning('the Craig-Bampton matrices and frequencies keep that round-off')
   end subroutine warn_of_round_off
-
-  !> Puts newer numbers in the place of older ones of the same name.
-  pure subroutine renew(newer, list)
-    type(quantity_type), intent(in) :: newer(:)
-    type(quantity_type), intent(inout) :: list(:)
-    integer :: i, k
-
-    do i = 1, size(list)
-      do k = 1, size(newer)
-        if (list(i)%name == newer(k)%name) list(i) = newer(k)
-      end do
-    end do
-  end subroutine renew
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, scene, modes, part)
