@@ -135,7 +135,7 @@ contains
     type(path_report_type) :: other
     type(operating_point_type) :: wanted
     type(bearing_answer_type) :: answer
-    real(wp) :: place(2)
+    real(wp) :: place(2), peclet
     Vec :: start, kept
     PetscErrorCode :: ierr
 
@@ -146,38 +146,44 @@ contains
     quick = settings
     if (.not. bearing%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
     call find_position(bearing, newton, target, quick, report)
-    if (.not. report%converged .and. .not. bearing%film%flow%upwind) then
+    if (.not. (report%converged .or. bearing%film%flow%upwind)) then
       PetscCallA(VecCopy(bearing%state, kept, ierr))
-      PetscCallA(VecCopy(start, bearing%state, ierr))
+      call start_over()
       bearing%film%flow%upwind = .true.
-      bearing%point%eccentricity = place
       call find_position(bearing, newton, target, settings, other)
       bearing%film%flow%upwind = .false.
+      peclet = 0.0_wp
       if (other%converged) then
         answer = bearing_answer(bearing)
+        peclet = answer%maximum_peclet
         wanted = target
         wanted%eccentricity = place
         call solve_at(bearing, newton, wanted, .true., settings, other)
         other%held = .true.
-      else
-        answer%maximum_peclet = 0.0_wp
       end if
       if (other%converged) then
         report = other
-      else if (answer%maximum_peclet > coarse_peclet) then
+      else if (peclet > coarse_peclet) then
         report%reason = "Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
-          text(answer%maximum_peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
+          text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
         PetscCallA(VecCopy(kept, bearing%state, ierr))
         bearing%point = report%reached
         call bearing%apply_point()
       else
-        PetscCallA(VecCopy(start, bearing%state, ierr))
-        bearing%point%eccentricity = place
+        call start_over()
         call find_position(bearing, newton, target, settings, report)
       end if
     end if
     PetscCallA(VecDestroy(kept, ierr))
     PetscCallA(VecDestroy(start, ierr))
+
+  contains
+
+    !> Puts the beginning back.
+    subroutine start_over()
+      PetscCallA(VecCopy(start, bearing%state, ierr))
+      bearing%point%eccentricity = place
+    end subroutine start_over
   end subroutine find_rigid_position
 
   !> Takes an answer over from a smaller system: on half the width, or on a coarser mesh.

@@ -34,25 +34,23 @@ contains
   !> Asks PETSc for the events, which are registered once a run: PETSc has room for few classes.
   subroutine register_cost_events(events)
     type(cost_events_type), intent(out) :: events
+    character(len=*), parameter :: name(4) = [character(len=12) :: 'gfb assembly', 'gfb film', 'gfb foil', 'gfb contact']
+    PetscLogEvent :: event(size(name))
     PetscClassId :: class
     PetscErrorCode :: ierr
+    integer :: i
 
-    ierr = find_event('gfb assembly'//c_null_char, events%assembly)
-    CHKERRA(ierr)
-    if (events%assembly < 0) then
+    do i = 1, size(name)
+      ierr = find_event(trim(name(i))//c_null_char, event(i))
+      CHKERRA(ierr)
+    end do
+    if (any(event < 0)) then
       PetscCallA(PetscClassIdRegister('gfb', class, ierr))
-      PetscCallA(PetscLogEventRegister('gfb assembly', class, events%assembly, ierr))
-      PetscCallA(PetscLogEventRegister('gfb film', class, events%film, ierr))
-      PetscCallA(PetscLogEventRegister('gfb foil', class, events%foil, ierr))
-      PetscCallA(PetscLogEventRegister('gfb contact', class, events%contact, ierr))
-    else
-      ierr = find_event('gfb film'//c_null_char, events%film)
-      CHKERRA(ierr)
-      ierr = find_event('gfb foil'//c_null_char, events%foil)
-      CHKERRA(ierr)
-      ierr = find_event('gfb contact'//c_null_char, events%contact)
-      CHKERRA(ierr)
+      do i = 1, size(name)
+        PetscCallA(PetscLogEventRegister(trim(name(i)), class, event(i), ierr))
+      end do
     end if
+    events = cost_events_type(event(1), event(2), event(3), event(4))
   end subroutine register_cost_events
 
   !> What follows belongs to a stage of the run, until it is left.
