@@ -229,75 +229,72 @@ class Bench:
 
     def run(self, command, ranks):
         """A command with the probe in it, and PETSc's log."""
-        log, counts = self.folder/"log.py", self.folder/"counts"
-        for old in [log, *self.folder.glob("counts.*"), *self.folder.glob("case.*.summary"),
-                    self.folder/"case.summary"]:
+        counts = self.folder/"counts"
+        for old in [*self.folder.glob("counts.*"), *self.folder.glob("case.*.summary"), self.folder/"case.summary"]:
             old.unlink(missing_ok=True)
         whole = ["env", f"LD_PRELOAD={self.probe}", f"GFB_PROBE_FILE={counts}", *command,
-                 "-log_view", f":{log}:ascii_info_detail"]
+                 "-log_view", "::ascii_info_detail"]
         if ranks > 1:
             whole = ["mpiexec", "-n", str(ranks), *whole]
         ended = run_limited(whole, self.limits)
         row = {"stopped": ended.stopped, "over": ended.over, "ranks": ranks, "cpu": ended.cpu, "memory": ended.memory}
         if not ended.stopped:
-            stages = read_log(log, ranks)
-            parts = [parts_of(stages, rank) for rank in range(ranks)]
+            logs = [read_log(f"{counts}.log.{rank}") for rank in range(ranks)]
+            parts = [parts_of(log) for log in logs]
             row |= {"said": ended.said if command[0] == str(self.strip_program) else "",
                     "cpu": max(sum(one.values()) for one in parts), "parts": parts,
-                    "messages": [messages_of(stages, rank) for rank in range(ranks)],
+                    "messages": [messages_of(log) for log in logs],
                     "mumps": [read_counts(f"{counts}.{rank}") for rank in range(ranks)]}
         return row
 
 
 # --- logs ---
 
-LINE = re.compile(r'^Stages\["([^"]+)"\]\["([^"]+)"\]\[(\d+)\] = \{(.*)\}')
+LINE = re.compile(r'^Stages\["([^"]+)"\]\["([^"]+)"\]\[0\] = \{(.*)\}')
 
 
-def read_log(path, ranks):
-    """{(stage, event): [{name: number} of each rank]} of a log in detail; "summary": the whole stage."""
+def read_log(path):
+    """{(stage, event): {name: number}} of a rank's log in detail; "summary": the whole stage."""
     stages = {}
     with open(path, encoding="utf-8") as log:
         for line in log:
             found = LINE.match(line)
             if not found or '"count" : 0,' in line:
                 continue
-            stage, event, rank, fields = found.groups()
-            numbers = {}
+            stage, event, fields = found.groups()
+            numbers = stages.setdefault((stage, event), {})
             for field in fields.split(","):
                 name, _, value = field.partition(":")
+                name = name.strip().strip('"')
                 try:
-                    numbers[name.strip().strip('"')] = float(value)
+                    numbers[name] = numbers.get(name, 0.0) + float(value)  # a name registered twice has two lines
                 except ValueError:
                     continue
-            of_ranks = stages.setdefault((stage, event), [{} for _ in range(ranks)])
-            for name, value in numbers.items():  # an event that was registered twice has two lines
-                of_ranks[int(rank)][name] = of_ranks[int(rank)].get(name, 0.0) + value
     return stages
 
 
-def number_in(stages, rank, of_stages, events, name):
-    """Sum of a number of some events in some stages on a rank."""
-    return sum(stages[stage, event][rank].get(name, 0.0) for stage in of_stages for event in events
+def number_in(stages, of_stages, events, name):
+    """Sum of a number of some events in some stages."""
+    return sum(stages[stage, event].get(name, 0.0) for stage in of_stages for event in events
                if (stage, event) in stages)
 
 
-def parts_of(stages, rank):
+def parts_of(stages):
     """CPU time of a rank in parts that do not overlap [s]."""
-    parts = {name: number_in(stages, rank, of, ("summary",), "time") for name, of in STAGES.items()}
-    solving = {name: number_in(stages, rank, SOLVING_STAGES, events, "time") for name, events in
+    parts = {name: number_in(stages, of, ("summary",), "time") for name, of in STAGES.items()}
+    solving = {name: number_in(stages, SOLVING_STAGES, events, "time") for name, events in
                (("assembly", EVALUATION), ("factorization", FACTORIZATION), ("solve", SOLVE))}
-    rest = number_in(stages, rank, SOLVING_STAGES, ("summary",), "time") - sum(solving.values())
-    solving["assembly"] += number_in(stages, rank, ("stiffness",), ("summary",), "time")
+    rest = number_in(stages, SOLVING_STAGES, ("summary",), "time") - sum(solving.values())
+    solving["assembly"] += number_in(stages, ("stiffness",), ("summary",), "time")
     parts |= solving | {"rest": rest}
     return {name: parts[name] for name in PARTS}
 
 
-def messages_of(stages, rank):
-    """What PETSc sends while it solves; it counts what is sent and what is received."""
-    return {"messages": 0.5*number_in(stages, rank, SOLVING_STAGES, ("summary",), "numMessages"),
-            "bytes": 0.5*number_in(stages, rank, SOLVING_STAGES, ("summary",), "messageLength"),
-            "collectives": number_in(stages, rank, SOLVING_STAGES, ("summary",), "numReductions")}
+def messages_of(stages):
+    """What PETSc sends on a rank while it solves; it counts what is sent and what is received."""
+    return {"messages": 0.5*number_in(stages, SOLVING_STAGES, ("summary",), "numMessages"),
+            "bytes": 0.5*number_in(stages, SOLVING_STAGES, ("summary",), "messageLength"),
+            "collectives": number_in(stages, SOLVING_STAGES, ("summary",), "numReductions")}
 
 
 def read_counts(path):

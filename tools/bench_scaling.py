@@ -221,6 +221,7 @@ def message_cases(quick):
         return {"strip, reduced, no friction, 16 bumps": strip_case(4, 2, 16, bumps=16, friction=0.0, steps=1),
                 "bearing, reduced, 26 bumps": bearing_case(1)}
     return {"strip, reduced, no friction, 64 bumps": strip_case(8, 2, 32, bumps=64, friction=0.0, steps=1),
+            "strip, reduced, friction, 64 bumps": strip_case(8, 2, 32, bumps=64, steps=1),
             "bearing, reduced, 26 bumps": bearing_case(1), "bearing, full order, 26 bumps": bearing_case(1, "none")}
 
 
@@ -229,7 +230,7 @@ def count_messages(bench, options):
     measured, bench.limits = {}, Limits(min(options.seconds, COUNTING), options.memory)
     for words, case in message_cases(options.quick).items():
         rows = measured.setdefault(words, [])
-        for ranks in [ranks for ranks in RANKS if ranks <= (8 if options.quick else 16 if "bearing" in words else 64)]:
+        for ranks in [ranks for ranks in RANKS if ranks <= (8 if options.quick else RANKS[-1])]:
             row = bench.row(f"messages, {words}, {mark(case)}, {ranks}",
                             lambda ranks=ranks, case=case: bench.run_case(case, ranks))
             rows.append({**row, "ranks": ranks})

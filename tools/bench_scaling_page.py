@@ -267,7 +267,7 @@ def model_rows(measured, growth):
         one, base = message_exponents(rows), done(rows)
         if one is None or base[0]["ranks"] != 1:
             continue
-        kind = "strip longer"
+        kind = "strip longer" if "no friction" in words else "strip reduced"
         if "bearing" in words:
             kind = "bearing " + ("full" if "full order" in words else "reduced")
         large = done(growth.get(kind, []))
