@@ -19,7 +19,6 @@ REDUCED = ("strip reduced", "strip longer", "bearing reduced")
 # A common cluster, for the model on paper.
 LATENCY, NODE_BANDWIDTH, NODE_RANKS = 2.0e-6, 12.5e9, 64  # [s], [B/s], ranks that share it
 MODEL_RANKS = (64, 256, 1000)
-LEAST_RANKS = 4  # from which on counts are fitted
 UP_TO = 4.0e6  # bytes of a number that are shown in kB
 
 
@@ -234,13 +233,13 @@ def bytes_text(value):
 
 
 def message_exponents(rows):
-    """Exponents of the counts with the number of ranks, and the last counts."""
-    used = [row for row in done(rows) if row["ranks"] >= LEAST_RANKS]
+    """Exponents of the counts over the last two numbers of ranks, and the last counts."""
+    used = [row for row in done(rows) if row["ranks"] > 1][-2:]
     if len(used) < 2:
         return None
     ranks, found = [row["ranks"] for row in used], [counts(row) for row in used]
     return {name: (fit(ranks, [max(one[name], 1.0) for one in found]), found[-1][name])
-            for name in ("messages", "bytes", "collectives", "all bytes")} | {"ranks": ranks[-1]}
+            for name in ("messages", "bytes", "collectives", "all bytes")} | {"from": ranks[0], "ranks": ranks[1]}
 
 
 def message_text(measured):
@@ -251,7 +250,7 @@ def message_text(measured):
         if one is None:
             continue
         last = counts(done(rows)[-1])
-        lines.append(f"- **{words}**: from {LEAST_RANKS} to {one['ranks']} ranks the messages of a rank go with "
+        lines.append(f"- **{words}**: from {one['from']} to {one['ranks']} ranks the messages of a rank go with "
                      f"ranks^{one['messages'][0]:.2f}, its bytes with ranks^{one['bytes'][0]:.2f}, all bytes with "
                      f"ranks^{one['all bytes'][0]:.2f}; MUMPS sends {100*last['by MUMPS']:.0f} % of the bytes on "
                      f"{one['ranks']} ranks. " + ("The rank that sends most does not send less with more ranks: it "
@@ -275,11 +274,12 @@ def model_rows(measured, growth):
         iteration = solving(target)/max(1.0, target["summary"]["newton_iterations"])
         bigger = target["summary"]["unknowns"]/base[0]["summary"]["unknowns"]
         for ranks in MODEL_RANKS:
-            now = {name: one[name][1]*(ranks/one["ranks"])**one[name][0] for name in ("messages", "bytes",
-                                                                                     "collectives")}
+            now = {name: one[name][1]*(ranks/one["ranks"])**one[name][0] for name in ("messages", "collectives",
+                                                                                     "all bytes")}
+            mean, beyond = now["all bytes"]/ranks, one["bytes"][1] - one["all bytes"][1]/one["ranks"]
             lines.append((f"{words.rsplit(', ', 1)[0]}, {target['summary']['unknowns']:,.0f} unknowns", ranks,
                           iteration/ranks, LATENCY*now["messages"],
-                          bigger*now["bytes"]*NODE_RANKS/NODE_BANDWIDTH,
+                          bigger*max(mean*NODE_RANKS, mean + beyond)/NODE_BANDWIDTH,
                           2.0*LATENCY*math.log2(ranks)*now["collectives"], iteration))
     return lines
 
@@ -445,7 +445,8 @@ MESSAGES = """## Messages
 
 Counted, not timed: the ranks share the cores of one machine. PETSc counts its own messages (`-log_view`), a probe
 those of MUMPS in factorizations and solves; what the factorization of a large last front sends through ScaLAPACK is not
-counted. `collectives`: calls that all ranks take part in.
+counted. `collectives`: calls that all ranks take part in. On more than 16 ranks right sides go through the first rank:
+MUMPS would take a collective call for every rank in each solve ([cluster.md](cluster.md)).
 
 ![Messages and bytes of a Newton iteration against ranks](scaling_messages.png)
 
@@ -454,8 +455,8 @@ MODEL = """### A thousand ranks on paper
 
 Assumed: {latency:g} us for a message, {bandwidth:g} GB/s of a node shared by {ranks} ranks, a collective call in
 2 log2(ranks) messages. Computing is the CPU time of a Newton iteration of the largest mesh measured on one rank, shared
-out evenly: better than any partition. The counts above are continued by power laws, bytes in proportion to the
-unknowns, as if nothing overlapped.
+out evenly: better than any partition. The counts above are continued by the power laws of the last two numbers of ranks,
+bytes in proportion to the unknowns; what the busiest rank sends beyond the mean stays as it is. Nothing overlaps.
 
 """
 

@@ -5,6 +5,7 @@ module gfb_direct_solver
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: rank_count
   implicit none (type)
   private
   public :: use_factors, factor_matrix, factor_failure, keep_factors_on_disk, set_option_default
@@ -12,6 +13,8 @@ module gfb_direct_solver
   !> Prefixes of PETSc's options of all solvers that factor.
   character(len=*), parameter :: prefixes(*) = [character(len=10) :: 'strip_', 'bearing_', 'film_', &
                                                 'foil_', 'stability_']
+
+  integer, parameter :: few_ranks = 16 !! on which right sides stay distributed
 
 contains
 
@@ -39,6 +42,9 @@ contains
     ! or PORD where rows are dense.
     call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', dense_rows))
     call set_option_default('-'//prefix//'mat_mumps_icntl_33', '1') ! the determinant, for its sign
+    ! A distributed right side costs MUMPS a collective call for every rank in each solve; one vector on
+    ! the first rank is cheaper where ranks are many.
+    if (rank_count() > few_ranks) call set_option_default('-'//prefix//'mat_mumps_icntl_20', '0')
   end subroutine use_factors
 
   !> Makes MUMPS write the factors to files, in the folder that MUMPS_OOC_TMPDIR names, else in /tmp.
