@@ -87,18 +87,18 @@ contains
     logical, intent(in) :: reduced            !! bumps are condensed
     integer, intent(in) :: linear_solver      !! `linear_solver_direct`, ...
     real(wp) :: bytes
-    real(wp), parameter :: fixed = 4.3e3_wp   !! of an unknown beside its factors [B]
-    real(wp), parameter :: an_entry = 30.0_wp !! of factors; foils lie over each other [B]
+    real(wp), parameter :: an_entry = 15.0_wp !! of factors; foils lie over each other [B]
     real(wp), parameter :: in_files = 0.35_wp !! of the factors stays in memory
     real(wp) :: an_unknown, a_coupling
 
     an_unknown = an_entry*factor_entries(huge(rows), rows)
-    a_coupling = 260.0_wp
     if (linear_solver == linear_solver_out_of_core) then
-      an_unknown = in_files*an_unknown
+      an_unknown = 3.5e3_wp + in_files*an_unknown
       a_coupling = 200.0_wp
+    else
+      an_unknown = 4.3e3_wp + an_unknown
+      a_coupling = 225.0_wp
     end if
-    an_unknown = fixed + an_unknown
     bytes = real((node_unknowns + 1)*nodes, wp)*an_unknown
     if (reduced) then
       bytes = bytes + bump_unknowns*real(node_unknowns*rows, wp)*a_coupling
