@@ -25,8 +25,6 @@ static cost_type cost[phases];
 static int phase = outside;
 
 static int alone = 1; /* whether the job has one rank */
-static struct timespec nap = {0, 20000};
-static long between = 2000, patience = 200; /* ns that are no work; yields in a row */
 static double waited; /* s of CPU time spent asking whether a message has come */
 
 static double cpu_time(void)
@@ -45,6 +43,8 @@ double MPI_Wtime(void)
  * its waking costs is no work. MUMPS yields while it works, too, between its fronts; that is no waiting. */
 int sched_yield(void)
 {
+  static const long between = 2000, patience = 200; /* ns that are no work; yields in a row */
+  static const struct timespec nap = {0, 20000};
   static struct timespec last;
   static double woken = -1.0;
   static long yields;
@@ -73,11 +73,6 @@ __attribute__((constructor)) static void wake_in_time(void)
 
   unsetenv("LD_PRELOAD"); /* what Open MPI starts beside a process that runs alone would write its counts anew */
   alone = !ranks || atoi(ranks) < 2;
-  if (!alone && atoi(ranks) > 2) { /* many share few cores and are there to be counted: asking all takes longer */
-    nap.tv_nsec = 10000L * atoi(ranks);
-    between = 2000L * atoi(ranks);
-    patience = 2;
-  }
   prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
 }
 
