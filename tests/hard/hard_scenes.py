@@ -28,7 +28,7 @@ status 0 or 2 (1 where it is refused as it is read), without NaN, and within a b
 
 Iterations and factorizations are those of the dearest run of a scene, the time that of all its runs.
 
-A rigid film with ripples is nothing a case file can ask for; `tests/unit/film/film_convergence_test.pf` has one, three and
+A rigid film with ripples is nothing a case file can ask for; `tests/unit/formulas/film/film_convergence_test.pf` has one, three and
 a half waves of a tenth of the gap without side leakage, 16 elements a wave, against Runge-Kutta's method. At a bearing
 number of 1000 Galerkin's largest error is 0.15 p_a, its undershoot 0.14 p_a; SUPG's 6e-4 p_a, with no undershoot; at
 100 they are 0.016 and 0.002 p_a, at 10 both 0.001 p_a, none with an undershoot.

@@ -1,0 +1,410 @@
+#include "gfb_petsc.h"
+!> Follows a branch of answers by its own length, round the folds where the path's parameter turns.
+!>
+!> A step from an answer \( x_0 \) goes along the tangent \( t \), and ends where
+!> \( t \cdot (x - x_0) = s \) ([Riks1979]). The measure is the mean square of the scaled unknowns,
+!> with a small weight for the parameter. The sign of the determinant of the equations bordered by the
+!> tangent is the same all along a branch: it tells the tangent's sense.
+!>
+!> Where contacts open or close the branch has corners; a step round one goes along the penetration of
+!> the contact that changes, which goes on evenly while all else may turn back.
+module gfb_arc_length
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: contact_direction
+  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, find_determinant_sign, &
+                        solve_with_factors, destroy_newton
+  use gfb_bordered_system, only: path_system_type, create_path_system, destroy_path_system
+  implicit none (type)
+  private
+  public :: begin_arc, create_arc, advance_arc, end_arc
+
+  real(wp), parameter :: first_step = 1.0e-3_wp
+  real(wp), parameter :: shortest_step = 1.0e-7_wp
+  real(wp), parameter :: longest_step = 0.05_wp
+  real(wp), parameter :: least_start = 5.0e-4_wp   !! to which a step after a very short one is lengthened
+  real(wp), parameter :: growth = 2.0_wp
+  real(wp), parameter :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
+  real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
+  real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
+  real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
+  integer, parameter :: corner_attempts = 4
+  real(wp), parameter :: longest_leap = 5.0_wp     !! round a corner, over the last step
+  real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
+  real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
+  real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
+  real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
+  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
+  real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
+  integer, parameter :: most_retreats = 6          !! before one, for shorter steps
+  integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
+  integer, parameter :: hasty_iterations = 12      !! more are not given to a step
+
+  !> A branch and the last answer on it. Keep it where it is.
+  type, public :: arc_type
+    type(path_system_type) :: path
+    type(newton_type) :: newton
+    real(wp) :: place = 0.0_wp        !! lambda of the last answer
+    real(wp) :: place_before = 0.0_wp !! of the one before
+    integer :: steps = 0
+    integer :: orientation = 0 !! sign of the determinant with the tangent in its sense
+    real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
+    logical :: turned = .false.       !! it changed in the last step
+    type(bearing_system_type), pointer, private :: bearing => null()
+    real(wp) :: step = first_step      !! to try next
+    Vec :: tangent                    !! at the last answer, of length one
+    real(wp) :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
+    real(wp) :: distance = 0.0_wp     !! of that contact from it, over the clearance [1]
+    real(wp) :: last_way = least_start !! length of the last step
+    logical, private :: closes = .false.
+    Vec, private :: coming            !! direction in which it comes on
+    real(wp) :: place_earlier = 0.0_wp !! lambda of the answer before those two
+    real(wp) :: earlier_step = 0.0_wp !! its length
+    integer :: retreats = 0           !! before the fold ahead
+    real(wp) :: step_limit = longest_step !! until that is passed
+    Vec :: previous, earlier          !! the answers before the last one
+    Vec :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
+    Vec, private :: work
+  contains
+    procedure :: between
+    procedure :: return_to
+    procedure :: nears_fold
+    procedure :: to_turn
+  end type arc_type
+
+contains
+
+  !> Begins at the bearing's present answer, on the path to another point.
+  subroutine begin_arc(bearing, newton, last, sense, arc)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton !! of the bearing: its settings
+    type(operating_point_type), intent(in) :: last
+    real(wp), intent(in) :: sense           !! +1: towards that point, -1: away from it
+    type(arc_type), target, intent(inout) :: arc
+    PetscErrorCode :: ierr
+
+    call create_arc(bearing, newton, last, arc)
+    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
+    call start_along_path(arc, sense)
+    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
+  end subroutine begin_arc
+
+  !> Prepares what an arc needs, on the path from the bearing's present point to another.
+  subroutine create_arc(bearing, newton, last, arc)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton !! of the bearing: its settings
+    type(operating_point_type), intent(in) :: last
+    type(arc_type), target, intent(inout) :: arc
+    PetscErrorCode :: ierr
+
+    arc%bearing => bearing
+    call create_path_system(bearing, last, arc%path)
+    call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
+    arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
+    PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%previous, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%earlier, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%previous_tangent, ierr))
+    PetscCallA(VecDuplicate(arc%path%state, arc%earlier_tangent, ierr))
+  end subroutine create_arc
+
+  !> The first direction is the one in which the path goes in the sense asked for.
+  subroutine start_along_path(arc, sense)
+    type(arc_type), target, intent(inout) :: arc
+    real(wp), intent(in) :: sense
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(arc%tangent, 0.0_wp, ierr))
+    call arc%path%set_place(arc%tangent, sense/sqrt(place_weight))
+    arc%orientation = 0
+    call find_tangent(arc)
+    arc%step = first_step
+    arc%steps = 0
+    arc%place = 0.0_wp
+    arc%place_before = 0.0_wp
+  end subroutine start_along_path
+
+  !> The branch's direction at the last answer, of length one, in the sense in which it is followed:
+  !> \( f_x t_x + f_\lambda t_\lambda = 0 \), and one along the last direction.
+  subroutine find_tangent(arc)
+    type(arc_type), target, intent(inout) :: arc
+    integer :: sense
+    real(wp) :: length
+    PetscErrorCode :: ierr
+
+    call weigh(arc, arc%tangent, arc%path%direction)
+    call find_determinant_sign(arc%newton, sense)
+    if (sense == 0) return
+    if (arc%orientation == 0) arc%orientation = sense
+    PetscCallA(VecSet(arc%work, 0.0_wp, ierr))
+    call arc%path%set_place(arc%work, 1.0_wp)
+    call solve_with_factors(arc%newton, arc%work, arc%tangent)
+    length = length_of(arc, arc%tangent)
+    PetscCallA(VecScale(arc%tangent, real(sense*arc%orientation, wp)/length, ierr))
+  end subroutine find_tangent
+
+  !> One step along the branch; the bearing is at the new answer, or where it was.
+  subroutine advance_arc(arc, moved)
+    type(arc_type), target, intent(inout) :: arc
+    logical, intent(out) :: moved
+    real(wp) :: length, place
+    logical :: easy
+    PetscErrorCode :: ierr
+
+    call remember(arc)
+    PetscCallA(VecCopy(arc%path%state, arc%path%base, ierr))
+    call find_next_change(arc)
+    moved = .false.
+    easy = .false.
+    if (arc%next_change < near*arc%step) call turn_corner(arc, moved)
+    do while (.not. moved .and. arc%step >= shortest_step)
+      call try_step(arc, moved, easy)
+      if (.not. moved) arc%step = min(cut*arc%step, max(short_of_it*arc%next_change, cut**3*arc%step))
+    end do
+    if (.not. moved) call turn_corner(arc, moved)
+    if (.not. moved) then
+      PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
+      place = arc%path%give()
+      return
+    end if
+    place = arc%path%give()
+    arc%turned = arc%steps > 0 .and. arc%heading*(place - arc%place) < 0.0_wp
+    arc%heading = sign(1.0_wp, place - arc%place)
+    arc%place_before = arc%place
+    arc%place = place
+    length = way_gone(arc)
+    arc%last_way = length
+    call find_tangent(arc)
+    arc%step = min(arc%step_limit, max(least_start, length))
+    if (easy) arc%step = min(arc%step_limit, growth*arc%step)
+    arc%steps = arc%steps + 1
+  end subroutine advance_arc
+
+  !> Keeps the last answer but one, and how the branch led from there.
+  subroutine remember(arc)
+    type(arc_type), intent(inout) :: arc
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(arc%previous, arc%earlier, ierr))
+    PetscCallA(VecCopy(arc%previous_tangent, arc%earlier_tangent, ierr))
+    PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
+    PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
+    arc%place_earlier = arc%place_before
+    arc%earlier_step = arc%last_way
+  end subroutine remember
+
+  !> A step along the tangent.
+  subroutine try_step(arc, moved, easy)
+    type(arc_type), target, intent(inout) :: arc
+    logical, intent(out) :: moved
+    logical, intent(out) :: easy      !! it took few iterations
+    type(newton_report_type) :: solved
+    PetscErrorCode :: ierr
+
+    call weigh(arc, arc%tangent, arc%path%direction)
+    arc%path%step = arc%step
+    PetscCallA(VecWAXPY(arc%path%state, arc%step, arc%tangent, arc%path%base, ierr))
+    call solve_newton(arc%newton, solved)
+    easy = solved%iterations <= easy_iterations
+    moved = solved%converged
+    if (moved) moved = arc%step >= sharpest_turn*way_gone(arc)
+  end subroutine try_step
+
+  !> Where on the tangent a contact opens or closes, and the direction in which it comes on.
+  subroutine find_next_change(arc)
+    type(arc_type), intent(inout) :: arc
+    Vec :: ahead, along
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(arc%bearing%state, ahead, ierr))
+    PetscCallA(VecDuplicate(arc%bearing%state, along, ierr))
+    PetscCallA(VecWAXPY(arc%path%state, 1.0_wp, arc%tangent, arc%path%base, ierr))
+    place = arc%path%give()
+    PetscCallA(VecCopy(arc%bearing%state, ahead, ierr))
+    PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
+    place = arc%path%give()
+    call contact_direction(arc%bearing, ahead, along, arc%next_change, arc%distance, arc%closes)
+    call arc%path%join(along, 0.0_wp, arc%coming)
+    PetscCallA(VecDestroy(along, ierr))
+    PetscCallA(VecDestroy(ahead, ierr))
+  end subroutine find_next_change
+
+  !> A step round a corner of the branch: those contacts that open or close next are moved on until
+  !> they have.
+  subroutine turn_corner(arc, moved)
+    type(arc_type), target, intent(inout) :: arc
+    logical, intent(out) :: moved
+    type(newton_report_type) :: solved
+    real(wp) :: beyond
+    Vec :: start
+    integer :: attempt
+    PetscErrorCode :: ierr
+
+    arc%newton%settings%maximum_iterations = corner_iterations
+    PetscCallA(VecDuplicate(arc%path%base, start, ierr))
+    PetscCallA(VecCopy(arc%path%base, start, ierr))
+    call arc%newton%log%detail('corner of the branch: contacts that change are moved on')
+    moved = .false.
+    beyond = merge(beyond_closing, beyond_opening, arc%closes)
+    PetscCallA(VecCopy(arc%coming, arc%path%direction, ierr))
+    attempt = 0
+    do while (.not. moved .and. attempt < corner_attempts)
+      attempt = attempt + 1
+      PetscCallA(VecCopy(start, arc%path%base, ierr))
+      PetscCallA(VecCopy(start, arc%path%state, ierr))
+      arc%path%step = arc%distance + beyond
+      call solve_newton(arc%newton, solved)
+      moved = solved%converged
+      if (moved) moved = stays_near(arc)
+      beyond = closer*beyond
+    end do
+    if (.not. moved) then
+      PetscCallA(VecCopy(start, arc%path%base, ierr))
+    end if
+    PetscCallA(VecDestroy(start, ierr))
+    arc%newton%settings%maximum_iterations = hasty_iterations
+  end subroutine turn_corner
+
+  !> Whether a step round a corner is not a leap to another branch.
+  function stays_near(arc) result(near_by)
+    type(arc_type), intent(inout) :: arc
+    logical :: near_by
+    near_by = way_gone(arc) <= min(longest_step, longest_leap*max(arc%last_way, least_start))
+  end function stays_near
+
+  !> Puts the bearing between the last two answers.
+  subroutine between(self, share)
+    class(arc_type), intent(inout) :: self
+    real(wp), intent(in) :: share !! of the way from the one before the last to the last [1]
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%path%state, self%work, ierr))
+    PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%previous, ierr))
+    place = self%path%give()
+    PetscCallA(VecCopy(self%work, self%path%state, ierr))
+  end subroutine between
+
+  !> Puts the bearing back to the last answer.
+  subroutine return_to(self)
+    class(arc_type), intent(inout) :: self
+    real(wp) :: place
+    place = self%path%give()
+  end subroutine return_to
+
+  !> Puts the bearing where the place has just turned: at the answer before the last, or where a contact
+  !> changed since then, if the place went farther there.
+  subroutine to_turn(self)
+    class(arc_type), target, intent(inout) :: self
+    type(newton_report_type) :: solved
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%path%state, self%earlier, ierr))
+    PetscCallA(VecCopy(self%previous, self%path%base, ierr))
+    PetscCallA(VecCopy(self%previous, self%path%state, ierr))
+    if (self%next_change <= self%last_way) then
+      PetscCallA(VecCopy(self%coming, self%path%direction, ierr))
+      self%path%step = self%distance
+      call solve_newton(self%newton, solved)
+      place = self%path%place(self%path%state)
+      if (solved%converged .and. self%heading*(place - self%place_before) < 0.0_wp) then
+        self%place_before = place
+      else
+        PetscCallA(VecCopy(self%previous, self%path%state, ierr))
+      end if
+    end if
+    place = self%path%give()
+    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
+  end subroutine to_turn
+
+  !> Where the place has just turned: goes back behind the turn to pass it in shorter steps, unless
+  !> they are short already. Without that the turn is at `place_before`, to about the last step.
+  subroutine nears_fold(self, again)
+    class(arc_type), intent(inout) :: self
+    logical, intent(out) :: again !! the turn is still ahead
+    PetscErrorCode :: ierr
+
+    again = self%turned .and. self%retreats < most_retreats .and. &
+      max(abs(self%place - self%place_before), abs(self%place_before - self%place_earlier)) > sharp_fold
+    if (.not. again) then
+      self%retreats = 0
+      self%step_limit = longest_step
+      return
+    end if
+    self%retreats = self%retreats + 1
+    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
+    PetscCallA(VecCopy(self%earlier_tangent, self%tangent, ierr))
+    self%step = max(shortest_step, cut*min(self%step_limit, self%earlier_step, self%last_way))
+    self%step_limit = self%step
+    self%place = self%place_earlier
+    self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
+    self%place_before = self%place_earlier
+    self%turned = .false.
+    call self%return_to()
+  end subroutine nears_fold
+
+  !> Length of the way from the base to the state.
+  function way_gone(arc) result(length)
+    type(arc_type), intent(inout) :: arc
+    real(wp) :: length
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecWAXPY(arc%work, -1.0_wp, arc%path%base, arc%path%state, ierr))
+    length = length_of(arc, arc%work)
+  end function way_gone
+
+  !> Length of a vector in the arc's measure.
+  function length_of(arc, vector) result(length)
+    type(arc_type), intent(in) :: arc
+    Vec, intent(in) :: vector
+    real(wp) :: length
+    Vec :: weighted
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(vector, weighted, ierr))
+    call weigh(arc, vector, weighted)
+    PetscCallA(VecDot(vector, weighted, length, ierr))
+    PetscCallA(VecDestroy(weighted, ierr))
+    length = sqrt(length)
+  end function length_of
+
+  !> A vector times the weights of the measure.
+  subroutine weigh(arc, vector, weighted)
+    type(arc_type), intent(in) :: arc
+    Vec, intent(in) :: vector
+    Vec, intent(in) :: weighted
+    real(wp) :: place
+    PetscErrorCode :: ierr
+
+    place = arc%path%place(vector)
+    PetscCallA(VecCopy(vector, weighted, ierr))
+    PetscCallA(VecScale(weighted, 1.0_wp/real(arc%bearing%unknowns, wp), ierr))
+    call arc%path%set_place(weighted, place_weight*place)
+  end subroutine weigh
+
+  !> Frees what PETSc holds; adds what was spent to the bearing's own Newton method.
+  subroutine end_arc(arc, newton)
+    type(arc_type), intent(inout) :: arc
+    type(newton_type), intent(inout) :: newton
+    PetscErrorCode :: ierr
+
+    newton%iterations = newton%iterations + arc%newton%iterations
+    newton%factorizations = newton%factorizations + arc%newton%factorizations
+    call destroy_newton(arc%newton)
+    call destroy_path_system(arc%path)
+    PetscCallA(VecDestroy(arc%tangent, ierr))
+    PetscCallA(VecDestroy(arc%work, ierr))
+    PetscCallA(VecDestroy(arc%coming, ierr))
+    PetscCallA(VecDestroy(arc%previous, ierr))
+    PetscCallA(VecDestroy(arc%earlier, ierr))
+    PetscCallA(VecDestroy(arc%previous_tangent, ierr))
+    PetscCallA(VecDestroy(arc%earlier_tangent, ierr))
+  end subroutine end_arc
+end module gfb_arc_length

@@ -1,0 +1,290 @@
+#include "gfb_petsc.h"
+!> A bearing along a path of operating points, with the place on the path as one more unknown.
+!>
+!> The bearing's equations are \( f(x, \lambda) = 0 \), where \( \lambda \) goes from 0 at the path's
+!> first point to 1 at its last. A step of length \( s \) from an answer \( x_0 \) asks for
+!> \( t \cdot (x - x_0) = s \), with a direction \( t \). The matrix of both stays regular where
+!> \( \lambda \) turns back, as long as \( x \) moves along \( t \) ([Riks1979]).
+module gfb_bordered_system
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_operating_point, only: operating_point_type, point_between
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_matrix_rows, only: copy_row, row_length
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  implicit none (type)
+  private
+  public :: create_path_system, destroy_path_system
+
+  real(wp), parameter :: shift = 1.0e-4_wp !! of lambda for its derivative; exact where f is linear in it
+
+  !> The bearing and its place on the path. It is handed to SNES by address: keep it where it is.
+  type, extends(nonlinear_system_type), public :: path_system_type
+    type(operating_point_type) :: first, last !! of the path
+    real(wp) :: step = 0.0_wp                 !! s
+    Vec :: base                               !! x_0, with its lambda
+    Vec :: direction                          !! t, with 0 for lambda
+    type(bearing_system_type), pointer, private :: bearing => null()
+    Vec, private :: inner                     !! like the bearing's state
+    Vec, private :: low, high                 !! its residuals beside a place
+    VecScatter, private :: to_last            !! a vector's values on the rank that owns lambda
+    Vec, private :: gathered                  !! there
+    logical, private :: last_rank = .false.
+    logical, private :: created = .false.
+    integer, private :: owned = 0             !! unknowns of the bearing that this rank owns
+  contains
+    procedure :: evaluate => evaluate_path
+    procedure :: linearise => linearise_path
+    procedure :: settle => settle_path
+    procedure :: begin_step => begin_path_step
+    procedure :: virtual_work => path_work
+    procedure :: place
+    procedure :: set_place
+    procedure :: join
+    procedure :: give
+    procedure, private :: aim
+  end type path_system_type
+
+contains
+
+  !> Sets the path up from the bearing's present point, at its present state. The bearing's matrix
+  !> must have been filled before.
+  subroutine create_path_system(bearing, last, path)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(operating_point_type), intent(in) :: last
+    type(path_system_type), intent(inout) :: path
+    PetscInt :: owned
+    PetscErrorCode :: ierr
+
+    path%bearing => bearing
+    path%first = bearing%point
+    path%last = last
+    path%last_rank = bearing%last_rank
+    path%dense_rows = .true.
+    PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
+    path%owned = int(owned)
+    if (path%last_rank) owned = owned + 1
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, owned, PETSC_DETERMINE, path%state, ierr))
+    PetscCallA(VecDuplicate(path%state, path%base, ierr))
+    PetscCallA(VecDuplicate(path%state, path%direction, ierr))
+    PetscCallA(VecDuplicate(bearing%state, path%inner, ierr))
+    PetscCallA(VecDuplicate(bearing%state, path%low, ierr))
+    PetscCallA(VecDuplicate(bearing%state, path%high, ierr))
+    call create_bordered_matrix(path, owned)
+    call create_gathering(path)
+    call path%join(bearing%state, 0.0_wp, path%state)
+    path%created = .true.
+  end subroutine create_path_system
+
+  !> Prepares bringing a whole vector to the rank that owns lambda.
+  subroutine create_gathering(path)
+    type(path_system_type), intent(inout) :: path
+    IS :: all
+    PetscInt :: size_of_state
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecGetSize(path%state, size_of_state, ierr))
+    if (.not. path%last_rank) size_of_state = 0
+    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, size_of_state, path%gathered, ierr))
+    PetscCallA(ISCreateStride(PETSC_COMM_SELF, size_of_state, 0_pint, 1_pint, all, ierr))
+    PetscCallA(VecScatterCreate(path%state, all, path%gathered, PETSC_NULL_IS, path%to_last, ierr))
+    PetscCallA(ISDestroy(all, ierr))
+  end subroutine create_gathering
+
+  !> The bearing's matrix with room for one more row and column, both full.
+  subroutine create_bordered_matrix(path, owned)
+    type(path_system_type), intent(inout) :: path
+    PetscInt, intent(in) :: owned !! with lambda
+    PetscInt :: first, last, row
+    PetscInt, allocatable :: room(:)
+    PetscErrorCode :: ierr
+
+    allocate (room(owned))
+    PetscCallA(MatGetOwnershipRange(path%bearing%jacobian, first, last, ierr))
+    do row = first, last - 1
+      room(row - first + 1) = row_length(path%bearing%jacobian, row) + 1
+    end do
+    if (path%last_rank) room(owned) = path%bearing%unknowns + 1
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, path%jacobian, ierr))
+    PetscCallA(MatSetSizes(path%jacobian, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(path%jacobian, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(path%jacobian, 0_pint, room, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(path%jacobian, 0_pint, min(room, owned), 0_pint, room, ierr))
+  end subroutine create_bordered_matrix
+
+  !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
+  function place(self, state) result(lambda)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: state
+    real(wp) :: lambda
+    real(wp) :: owner(1)
+    PetscScalar, pointer :: whole(:), part(:)
+    PetscErrorCode :: ierr
+
+    lambda = 0.0_wp
+    PetscCallA(GFB_VecGetArrayRead(state, whole, ierr))
+    PetscCallA(GFB_VecGetArray(self%inner, part, ierr))
+    part(:self%owned) = whole(:self%owned)
+    if (self%last_rank) lambda = whole(self%owned + 1)
+    PetscCallA(GFB_VecRestoreArray(self%inner, part, ierr))
+    PetscCallA(GFB_VecRestoreArrayRead(state, whole, ierr))
+    owner = sum_over_ranks([lambda]) ! the other ranks have none
+    lambda = owner(1)
+  end function place
+
+  !> Sets a state's lambda.
+  subroutine set_place(self, state, lambda)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: state
+    real(wp), intent(in) :: lambda
+    PetscScalar, pointer :: whole(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(state, whole, ierr))
+    if (self%last_rank) whole(self%owned + 1) = lambda
+    PetscCallA(GFB_VecRestoreArray(state, whole, ierr))
+  end subroutine set_place
+
+  !> Moves the bearing to a place on the path.
+  subroutine aim(self, lambda)
+    class(path_system_type), intent(in) :: self
+    real(wp), intent(in) :: lambda
+    self%bearing%point = point_between(self%first, self%last, lambda)
+    call self%bearing%apply_point()
+  end subroutine aim
+
+  !> Puts a vector of the bearing and a value for lambda together.
+  subroutine join(self, inner, lambda, whole)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: inner
+    real(wp), intent(in) :: lambda
+    Vec, intent(in) :: whole
+    PetscScalar, pointer :: all(:), part(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(whole, all, ierr))
+    PetscCallA(GFB_VecGetArrayRead(inner, part, ierr))
+    all(:self%owned) = part(:self%owned)
+    if (self%last_rank) all(self%owned + 1) = lambda
+    PetscCallA(GFB_VecRestoreArrayRead(inner, part, ierr))
+    PetscCallA(GFB_VecRestoreArray(whole, all, ierr))
+  end subroutine join
+
+  !> Gives the present state to the bearing, and puts it at its place; returns lambda.
+  function give(self) result(lambda)
+    class(path_system_type), intent(in) :: self
+    real(wp) :: lambda
+    PetscErrorCode :: ierr
+
+    lambda = self%place(self%state)
+    PetscCallA(VecCopy(self%inner, self%bearing%state, ierr))
+    call self%aim(lambda)
+  end function give
+
+  !> Residual of the bearing and of the step's length.
+  subroutine evaluate_path(self, state, residual, valid)
+    class(path_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    Vec, intent(in) :: residual
+    logical, intent(out) :: valid
+    real(wp) :: lambda, along, along_base
+    PetscErrorCode :: ierr
+
+    lambda = self%place(state)
+    call self%aim(lambda)
+    call self%bearing%evaluate(self%inner, self%low, valid)
+    PetscCallA(VecDot(self%direction, state, along, ierr))
+    PetscCallA(VecDot(self%direction, self%base, along_base, ierr))
+    call self%join(self%low, along - along_base - self%step, residual)
+  end subroutine evaluate_path
+
+  !> The bearing's matrix, bordered by the derivatives after lambda and by the direction.
+  subroutine linearise_path(self, state)
+    class(path_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    real(wp) :: lambda
+    logical :: valid
+    PetscScalar, pointer :: column(:), direction(:)
+    PetscInt :: first, last, row, entries, i, border
+    PetscInt, allocatable :: number(:)
+    PetscScalar, allocatable :: value(:)
+    PetscErrorCode :: ierr
+
+    lambda = self%place(state)
+    call self%aim(lambda)
+    call self%bearing%linearise(self%inner)
+    call self%aim(lambda + shift)
+    call self%bearing%evaluate(self%inner, self%high, valid)
+    call self%aim(lambda - shift)
+    call self%bearing%evaluate(self%inner, self%low, valid)
+    call self%aim(lambda)
+    PetscCallA(VecAXPBY(self%high, -0.5_wp/shift, 0.5_wp/shift, self%low, ierr))
+    border = self%bearing%unknowns
+    allocate (number(self%bearing%unknowns + 1), value(self%bearing%unknowns + 1))
+    PetscCallA(GFB_VecGetArrayRead(self%high, column, ierr))
+    PetscCallA(MatGetOwnershipRange(self%bearing%jacobian, first, last, ierr))
+    do row = first, last - 1
+      call copy_row(self%bearing%jacobian, row, entries, number, value)
+      PetscCallA(MatSetValues(self%jacobian, 1_pint, [row], entries, number, value, INSERT_VALUES, ierr))
+      PetscCallA(MatSetValues(self%jacobian, 1_pint, [row], 1_pint, [border], [column(row - first + 1)], INSERT_VALUES, ierr))
+    end do
+    PetscCallA(GFB_VecRestoreArrayRead(self%high, column, ierr))
+    PetscCallA(VecScatterBegin(self%to_last, self%direction, self%gathered, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(VecScatterEnd(self%to_last, self%direction, self%gathered, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    if (self%last_rank) then
+      PetscCallA(GFB_VecGetArrayRead(self%gathered, direction, ierr))
+      number = [(i, i=0_pint, border)]
+      value = direction
+      PetscCallA(MatSetValues(self%jacobian, 1_pint, [border], border + 1_pint, number, value, INSERT_VALUES, ierr))
+      PetscCallA(GFB_VecRestoreArrayRead(self%gathered, direction, ierr))
+    end if
+    PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine linearise_path
+
+  !> Moves the contacts to where the foils have gone.
+  subroutine settle_path(self, state, moved)
+    class(path_system_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    logical, intent(out) :: moved
+    real(wp) :: lambda
+
+    lambda = self%place(state)
+    call self%bearing%settle(self%inner, moved)
+    self%settled = self%bearing%settled
+  end subroutine settle_path
+
+  !> A new Newton step begins where the contacts are.
+  subroutine begin_path_step(self)
+    class(path_system_type), intent(inout) :: self
+    call self%bearing%begin_step()
+  end subroutine begin_path_step
+
+  !> Work of the residual forces on the foil along a step, scaled.
+  function path_work(self, residual, step) result(work)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: residual, step
+    real(wp) :: work
+    work = self%bearing%virtual_work(residual, step)
+  end function path_work
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy_path_system(path)
+    type(path_system_type), intent(inout) :: path
+    PetscErrorCode :: ierr
+
+    if (.not. path%created) return
+    PetscCallA(MatDestroy(path%jacobian, ierr))
+    PetscCallA(VecScatterDestroy(path%to_last, ierr))
+    PetscCallA(VecDestroy(path%gathered, ierr))
+    PetscCallA(VecDestroy(path%high, ierr))
+    PetscCallA(VecDestroy(path%low, ierr))
+    PetscCallA(VecDestroy(path%inner, ierr))
+    PetscCallA(VecDestroy(path%direction, ierr))
+    PetscCallA(VecDestroy(path%base, ierr))
+    PetscCallA(VecDestroy(path%state, ierr))
+    path%created = .false.
+  end subroutine destroy_path_system
+end module gfb_bordered_system

@@ -1,0 +1,135 @@
+#include "gfb_petsc.h"
+!> Looks beyond the place where a path of operating points stops.
+!>
+!> There the free edge of the top foil is moved on instead, and the operating point on the path is
+!> what follows from it. Where the point turns back, the branch of answers folds: with a foil that
+!> leaves its bumps that is a corner, where no small step along the path itself has an answer.
+module gfb_fold_search
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_direction
+  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
+  use gfb_bordered_system, only: path_system_type, create_path_system, destroy_path_system
+  implicit none (type)
+  private
+  public :: look_beyond
+
+  integer, parameter, public :: branch_lost = 0    !! nothing was found
+  integer, parameter, public :: branch_goes_on = 1 !! answers there are beyond
+  integer, parameter, public :: branch_folds = 2   !! the point turns back
+
+  real(wp), parameter :: first_move = 1.0e-3_wp    !! of the edge, over the clearance [1]
+  real(wp), parameter :: shortest_move = 1.0e-9_wp
+  real(wp), parameter :: longest_way = 0.02_wp     !! of any unknown in a move; beyond, it is another branch
+  real(wp), parameter :: closest_way = 2.0e-3_wp   !! of any unknown, that tells where a fold lies
+  integer, parameter :: most_moves = 40
+  integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
+
+contains
+
+  !> Moves the free edge on from an answer, until the point is `wanted` ahead on the path, or turns
+  !> back. On return the bearing is at the answer that lies farthest ahead.
+  !>
+  !> The edge goes on in the sense in which it moved; where that is not known, in both.
+  subroutine look_beyond(bearing, newton, target, before, known, wanted, outcome, ahead)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton !! of the bearing: settings, and what is spent
+    type(operating_point_type), intent(in) :: target   !! end of the path
+    Vec, intent(in) :: before                !! the answer before the present one
+    logical, intent(in) :: known             !! there is one
+    real(wp), intent(in) :: wanted           !! share of the way from here to the target [1]
+    integer, intent(out) :: outcome
+    real(wp), intent(out) :: ahead           !! share of that way that was gone [1]
+
+    type(path_system_type), target :: path
+    type(newton_type), target :: mover
+    Vec :: farthest
+    PetscErrorCode :: ierr
+
+    ahead = 0.0_wp
+    call create_path_system(bearing, target, path)
+    call aim_at_edge(bearing, path, before, known)
+    call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
+    PetscCallA(VecDuplicate(path%state, farthest, ierr))
+    PetscCallA(VecCopy(path%state, farthest, ierr))
+    call newton%log%detail('the free edge is moved on, the path follows')
+    call move_edge(path, mover, wanted, farthest, outcome, ahead)
+    if (outcome == branch_folds .and. .not. known) then
+      PetscCallA(VecScale(path%direction, -1.0_wp, ierr))
+      call move_edge(path, mover, wanted, farthest, outcome, ahead)
+    end if
+    PetscCallA(VecCopy(farthest, path%state, ierr))
+    ahead = path%give()
+    newton%iterations = newton%iterations + mover%iterations
+    newton%factorizations = newton%factorizations + mover%factorizations
+    PetscCallA(VecDestroy(farthest, ierr))
+    call destroy_newton(mover)
+    call destroy_path_system(path)
+  end subroutine look_beyond
+
+  !> Moves the edge in one sense.
+  subroutine move_edge(path, mover, wanted, farthest, outcome, ahead)
+    type(path_system_type), intent(inout) :: path
+    type(newton_type), target, intent(inout) :: mover
+    real(wp), intent(in) :: wanted   !! share of the way [1]
+    Vec, intent(in) :: farthest      !! answer that lies farthest ahead
+    integer, intent(out) :: outcome
+    real(wp), intent(inout) :: ahead !! its share of the way [1]
+    type(newton_report_type) :: solved
+    real(wp) :: move, place, way
+    integer :: moves
+    PetscErrorCode :: ierr
+
+    outcome = branch_lost
+    move = first_move
+    moves = 0
+    do while (outcome == branch_lost .and. moves < most_moves .and. move >= shortest_move)
+      moves = moves + 1
+      PetscCallA(VecCopy(farthest, path%base, ierr))
+      PetscCallA(VecCopy(farthest, path%state, ierr))
+      path%step = move
+      call solve_newton(mover, solved)
+      place = path%place(path%state)
+      PetscCallA(VecAXPY(path%base, -1.0_wp, path%state, ierr))
+      PetscCallA(VecNorm(path%base, NORM_INFINITY, way, ierr))
+      if (.not. solved%converged .or. way > longest_way) then
+        move = 0.1_wp*move
+      else if (place > ahead) then
+        ahead = place
+        PetscCallA(VecCopy(path%state, farthest, ierr))
+        if (ahead >= wanted) outcome = branch_goes_on
+        if (solved%iterations <= easy_iterations) move = 2.0_wp*move
+      else
+        if (way <= closest_way) outcome = branch_folds
+        move = 0.25_wp*move
+      end if
+    end do
+  end subroutine move_edge
+
+  !> Makes the mean displacement of the top foil's free edge, over the clearance, the path's length,
+  !> in the sense in which it was moving.
+  subroutine aim_at_edge(bearing, path, before, known)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(path_system_type), intent(inout) :: path
+    Vec, intent(in) :: before
+    logical, intent(in) :: known
+    Vec :: edge
+    real(wp) :: was, is
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(bearing%state, edge, ierr))
+    call edge_direction(bearing, edge)
+    PetscCallA(VecDot(edge, bearing%state, is, ierr))
+    was = is
+    if (known) then
+      PetscCallA(VecDot(edge, before, was, ierr))
+    end if
+    if (is < was) then
+      PetscCallA(VecScale(edge, -1.0_wp, ierr))
+    end if
+    call path%join(edge, 0.0_wp, path%direction)
+    PetscCallA(VecDestroy(edge, ierr))
+  end subroutine aim_at_edge
+end module gfb_fold_search

@@ -1,0 +1,83 @@
+!> An answer on half the width as a start on the whole width, where nothing tilts yet.
+module gfb_full_width_start
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: fetch_entries
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_shell_foil, only: shell_foil_type
+  use gfb_foil_builder, only: axial, about_tangent
+  use gfb_bearing_system, only: bearing_system_type, film_values
+  implicit none (type, external)
+  private
+  public :: widen
+
+contains
+
+  !> Makes the answer on half the width, and its mirror, the state on the whole width.
+  subroutine widen(half, whole)
+    type(bearing_system_type), intent(in) :: half
+    type(bearing_system_type), intent(inout) :: whole
+    real(wp) :: narrow(half%local_size()), unknown(whole%local_size())
+    integer :: i
+
+    call half%get_unknowns(narrow)
+    unknown = 0.0_wp
+    associate (mesh => whole%mesh, nodes => size(whole%mesh%mesh_node))
+      unknown(:nodes) = film_values(half, narrow(:size(half%mesh%mesh_node)), &
+                                    [(mirrored(mesh%mesh_node(i), whole%whole%rows()), i=1, nodes)])
+      where (.not. mesh%owned) unknown(:nodes) = 0.0_wp
+    end associate
+    if (whole%floats) unknown(whole%first_shaft + 1:) = merge(half%eccentricity(), 0.0_wp, whole%last_rank)
+    select type (wide => whole%foil)
+    class is (shell_foil_type)
+      select type (foil => half%foil)
+      class is (shell_foil_type)
+        call widen_structure(foil, foil%top, narrow, wide, wide%top, .false., unknown)
+        call widen_structure(foil, foil%bumps, narrow, wide, wide%bumps, .true., unknown)
+      end select
+    end select
+    call whole%add_up(unknown, whole%state)
+  end subroutine widen
+
+  !> The owned unknowns of one foil; what turns its sense in the mirror is negative where z is.
+  subroutine widen_structure(half, narrow_mesh, narrow, whole, wide_mesh, of_bumps, unknown)
+    class(shell_foil_type), intent(in) :: half, whole
+    type(foil_structure_type), intent(in) :: narrow_mesh, wide_mesh
+    real(wp), intent(in) :: narrow(:)      !! half's local unknowns of the bearing, in SI
+    logical, intent(in) :: of_bumps        !! instead of the top foil
+    real(wp), intent(inout) :: unknown(:)  !! whole's
+    integer, allocatable :: own(:), wanted(:)
+    real(wp), allocatable :: value(:, :)
+    integer :: i, k, place, rows
+
+    own = pack(narrow_mesh%part%mesh_node, narrow_mesh%part%owned)
+    allocate (value(node_unknowns, size(own)), source=0.0_wp)
+    do i = 1, size(own)
+      do k = 1, node_unknowns
+        place = half%own_unknown(of_bumps, k, own(i))
+        if (place > 0) value(k, i) = narrow(half%first + place)
+      end do
+    end do
+    wanted = pack(wide_mesh%part%mesh_node, wide_mesh%part%owned)
+    rows = wide_mesh%mesh%rows
+    value = fetch_entries(narrow_mesh%mesh%nodes(), own, value, [(mirrored(wanted(i), rows), i=1, size(wanted))])
+    do i = 1, size(wanted)
+      if (modulo(wanted(i) - 1, rows) < rows/2) value([axial, about_tangent], i) = -value([axial, about_tangent], i)
+      do k = 1, node_unknowns
+        place = whole%own_unknown(of_bumps, k, wanted(i))
+        if (place > 0) unknown(whole%first + place) = value(k, i)
+      end do
+    end do
+  end subroutine widen_structure
+
+  !> The half's node that is a node of the whole, or its mirror; numbers run along stations of rows.
+  pure function mirrored(node, rows) result(number)
+    integer, intent(in) :: node, rows !! of the whole width, an odd number of rows
+    integer :: number
+    integer :: station, row
+
+    station = (node - 1)/rows
+    row = abs(modulo(node - 1, rows) - rows/2)
+    number = station*(rows/2 + 1) + row + 1
+  end function mirrored
+end module gfb_full_width_start
