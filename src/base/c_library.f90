@@ -60,7 +60,7 @@ contains
 
   !> Makes a folder and those above it; no failure where it exists already.
   subroutine make_folder(path)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file or folder
     integer(c_int) :: ignored
     integer :: i
 
@@ -72,7 +72,7 @@ contains
 
   !> Renames a file over another one in one step; false where that failed.
   function rename_file(old, new) result(done)
-    character(len=*), intent(in) :: old, new
+    character(len=*), intent(in) :: old, new !! name it has, name it gets
     logical :: done
 
     done = c_rename(trim(old)//c_null_char, trim(new)//c_null_char) == 0
@@ -80,7 +80,7 @@ contains
 
   !> Removes a file if it exists.
   subroutine remove_file(path)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file or folder
     integer(c_int) :: ignored
 
     ignored = c_remove(trim(path)//c_null_char)
@@ -88,7 +88,7 @@ contains
 
   !> Ends the process with an exit status and without a word.
   subroutine exit_with_status(status)
-    integer, intent(in) :: status
+    integer, intent(in) :: status !! exit status of the program
 
     call c_exit(int(status, c_int))
   end subroutine exit_with_status

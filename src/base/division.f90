@@ -10,7 +10,7 @@ contains
   !> even, and there is nothing (a last before the first) for some where things are too few.
   pure function stretch_of(items, takers, taker) result(ends)
     integer, intent(in) :: items  !! in the row, numbered from 1
-    integer, intent(in) :: takers
+    integer, intent(in) :: takers !! among whom they are shared
     integer, intent(in) :: taker  !! number of the one asked about, from 1
     integer :: ends(2)
 
@@ -23,7 +23,7 @@ contains
   !> Who takes a thing of the row.
   pure function owner_of(item, items, takers) result(taker)
     integer, intent(in) :: item !! number in the row, from 1
-    integer, intent(in) :: items, takers
+    integer, intent(in) :: items, takers !! what is shared, and among how many
     integer :: taker
 
     associate (each => items/takers, more => modulo(items, takers))

@@ -20,7 +20,7 @@ contains
 
   !> Creates an error.
   pure subroutine fail(error, message, status)
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     character(len=*), intent(in) :: message       !! what is wrong, and the rule
     integer, intent(in), optional :: status       !! exit status, `status_input` if absent
 
@@ -31,7 +31,7 @@ contains
 
   !> Puts the place where it happened before an error's message; nothing where there is no error.
   pure subroutine add_context(error, place)
-    type(error_type), allocatable, intent(inout) :: error
+    type(error_type), allocatable, intent(inout) :: error !! what went wrong, if anything did
     character(len=*), intent(in) :: place !! such as 'bump 3'
 
     if (allocated(error)) error%message = place//': '//error%message

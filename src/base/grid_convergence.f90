@@ -33,7 +33,7 @@ contains
 
   !> Judges values on meshes from coarse to fine.
   pure function estimate_error(value, formal_order) result(found)
-    real(wp), intent(in) :: value(:)     !! each mesh twice as fine as the one before
+    real(wp), intent(in) :: value(:) !! [in its unit] each mesh twice as fine as the one before
     real(wp), intent(in) :: formal_order !! of the elements [1]
     type(convergence_type) :: found
     real(wp) :: last, before

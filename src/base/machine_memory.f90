@@ -52,7 +52,7 @@ contains
   !> Path of this process' group, without a slash at its end; empty for the topmost one.
   function group_path(file, controller) result(path)
     character(len=*), intent(in) :: file       !! lines such as 4:memory:/some/group
-    character(len=*), intent(in) :: controller
+    character(len=*), intent(in) :: controller !! of the control groups: memory
     character(len=:), allocatable :: path
     character(len=longest_line) :: line
     integer :: unit, status, found
@@ -76,7 +76,7 @@ contains
   !> The number behind a name at the beginning of a line of a file, or the first number where no
   !> name is given; negative where there is none.
   function named_number(file, name) result(number)
-    character(len=*), intent(in) :: file, name
+    character(len=*), intent(in) :: file, name !! of `/proc`; what stands before the number
     real(wp) :: number
     character(len=longest_line) :: line
     integer :: unit, status

@@ -18,7 +18,7 @@ module gfb_run_log
       import :: run_listener_type
       implicit none (type, external)
       class(run_listener_type), intent(inout) :: self
-      character(len=*), intent(in) :: words
+      character(len=*), intent(in) :: words !! the line
     end subroutine hear
   end interface
 
@@ -43,7 +43,7 @@ contains
   !> One event.
   subroutine run_log_line(self, words)
     class(run_log_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! the line
 
     if (.not. self%active) return
     write (self%unit, '(a)') words
@@ -70,7 +70,7 @@ contains
   !> One line of a table of iterations.
   subroutine run_log_detail(self, words)
     class(run_log_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! the line
 
     if (self%verbose) call self%line('    '//words)
   end subroutine run_log_detail
@@ -78,7 +78,7 @@ contains
   !> Begins a part of the log.
   subroutine run_log_heading(self, words)
     class(run_log_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! the line
 
     call self%line('')
     call self%line(words)
@@ -88,7 +88,7 @@ contains
   !> What the user should know although the run goes on.
   subroutine run_log_warning(self, words)
     class(run_log_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! the line
 
     call self%line('warning: '//words)
   end subroutine run_log_warning
@@ -96,7 +96,7 @@ contains
   !> What ends the run, on the error stream.
   subroutine run_log_complaint(self, words)
     class(run_log_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! the line
 
     if (.not. self%active) return
     if (self%unit /= output_unit) then

@@ -69,7 +69,7 @@ contains
 
   !> The shortest decimal that reads back as exactly this number.
   pure function exact_text(number) result(words)
-    real(wp), intent(in) :: number
+    real(wp), intent(in) :: number !! in any unit [1]
     character(len=:), allocatable :: words
     real(wp) :: again
     integer :: digits, status
@@ -105,7 +105,7 @@ contains
 
   !> ASCII letters in lower case, all else as it was.
   pure function lower_case(words) result(lowered)
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! in capitals or not
     character(len=len(words)) :: lowered
     integer :: i, code
 
@@ -118,7 +118,7 @@ contains
 
   !> Insertions, deletions, replacements and swaps of neighbours that turn one word into another.
   pure function edit_distance(first, second) result(distance)
-    character(len=*), intent(in) :: first, second
+    character(len=*), intent(in) :: first, second !! the words compared
     integer :: distance
     integer :: table(0:len(first), 0:len(second))
     integer :: i, j, cost, swapped
@@ -165,7 +165,7 @@ contains
   !> Words with a separator between them.
   pure function join(words, separator) result(joined)
     character(len=*), intent(in) :: words(:)  !! blank-padded
-    character(len=*), intent(in) :: separator
+    character(len=*), intent(in) :: separator !! between two of them
     character(len=:), allocatable :: joined
     integer :: i
 

@@ -18,10 +18,10 @@ contains
 
   !> A branch can be asked for by the lift of an edge that is free to lift.
   subroutine check_edge_lift(keys, operation, model, top_foil, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(operation_case_type), intent(in) :: operation
-    type(model_case_type), intent(in) :: model
-    type(top_foil_case_type), intent(in) :: top_foil
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(top_foil_case_type), intent(in) :: top_foil !! what `&top_foil` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     character(len=:), allocatable :: problem
     integer :: i
@@ -44,9 +44,9 @@ contains
 
   !> A branch is followed round its folds between two values, with all its points in equilibrium.
   subroutine check_turn_folds(keys, sweep, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(sweep_case_type), intent(in) :: sweep
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     real(wp), allocatable :: change(:)
 
     if (.not. sweep%turn_folds) return

@@ -63,9 +63,9 @@ contains
   !>
   !> Fails with all mistakes of the file, one a line.
   subroutine read_scene(file, scene, error)
-    character(len=*), intent(in) :: file
-    type(scene_type), intent(out) :: scene
-    type(error_type), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: file !! name of the case file
+    type(scene_type), intent(out) :: scene !! what the case file asks for
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     character(len=:), allocatable :: words
 
     call read_case_text(file, words, error)
@@ -77,8 +77,8 @@ contains
   subroutine read_scene_text(words, file, scene, error)
     character(len=*), intent(in) :: words  !! of the whole file
     character(len=*), intent(in) :: file   !! its name
-    type(scene_type), intent(out) :: scene
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(out) :: scene !! what the case file asks for
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     type(case_keys_type) :: keys
 
     scene%file = trim(file)

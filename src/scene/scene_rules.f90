@@ -29,9 +29,9 @@ contains
 
   !> A sweep needs an analysis that fits to its parameter.
   subroutine check_sweep(keys, sweep, operation, analysis, may_rest)
-    type(case_keys_type), intent(inout) :: keys
-    type(sweep_case_type), intent(in) :: sweep
-    type(operation_case_type), intent(in) :: operation
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
     integer :: point
@@ -68,10 +68,10 @@ contains
 
   !> Friction that remembers needs foils that rub.
   subroutine check_friction_memory(keys, sweep, model, contact)
-    type(case_keys_type), intent(inout) :: keys
-    type(sweep_case_type), intent(in) :: sweep
-    type(model_case_type), intent(in) :: model
-    type(contact_case_type), intent(in) :: contact
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(contact_case_type), intent(in) :: contact !! what `&contact` asks for
 
     if (.not. sweep%friction_memory .or. model%foil == 0) return
     if (.not. meshes_foils(model%foil)) then
@@ -85,9 +85,9 @@ contains
 
   !> Stability is that of foils under a film.
   subroutine check_stability(keys, solver, model, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(solver_case_type), intent(in) :: solver
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(solver_case_type), intent(in) :: solver !! what `&solver` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
 
     if (.not. solver%stability .or. analysis == 0 .or. model%foil == 0) return
@@ -101,9 +101,9 @@ contains
 
   !> A run can be gone on with where it has steps.
   subroutine check_restart(keys, output, sweep, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(output_case_type), intent(in) :: output
-    type(sweep_case_type), intent(in) :: sweep
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(output_case_type), intent(in) :: output !! what `&output` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
 
     if (output%restart_every == 0 .or. analysis == 0) return
@@ -115,9 +115,9 @@ contains
 
   !> Iterations are those of shells whose matrix is sparse; modes have a solver of their own.
   subroutine check_linear_solver(keys, solver, model, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(solver_case_type), intent(in) :: solver
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(solver_case_type), intent(in) :: solver !! what `&solver` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     character(len=*), parameter :: name = 'linear_solver'
 
@@ -137,8 +137,8 @@ contains
 
   !> An elastic foundation needs its stiffness, or what it is computed from.
   subroutine check_foundation(keys, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     character(len=*), parameter :: needed(*) = [character(len=14) :: &
                                                 'thickness', 'youngs_modulus', 'poissons_ratio', &
                                                 'half_length']
@@ -164,12 +164,12 @@ contains
 
   !> A bump foil that is meshed: its thickness, its flats, its size.
   subroutine check_strip(keys, foil, mesh, modes, analysis, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(in) :: foil
-    type(mesh_case_type), intent(in) :: mesh
-    type(modes_case_type), intent(in) :: modes
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    type(mesh_case_type), intent(in) :: mesh !! what `&mesh` asks for
+    type(modes_case_type), intent(in) :: modes !! what `&modes` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
-    type(model_case_type), intent(in) :: model
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     real(wp) :: diameter
     integer(long) :: elements
     logical :: strip, bearing
@@ -203,10 +203,10 @@ contains
 
   !> A bearing of shells or beams: its strip is fixed at an edge and as wide as it, its pad open.
   subroutine check_shell_bearing(keys, foil, bearing, model, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(in) :: foil
-    type(bearing_case_type), intent(in) :: bearing
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     real(wp), parameter :: rounding = 1.0e-9_wp !! of a width that is the bearing's, relative
 
@@ -228,8 +228,8 @@ contains
 
   !> Plates are either forced or moved.
   subroutine check_plates(keys, load, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(strip_load_case_type), intent(in) :: load
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     logical :: forced, moved
 
@@ -246,11 +246,11 @@ contains
 
   !> Half the width can be asked for only where the film is symmetric to the midplane.
   subroutine check_half_width(keys, model, mesh, operation, sweep)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(in) :: model
-    type(mesh_case_type), intent(in) :: mesh
-    type(operation_case_type), intent(in) :: operation
-    type(sweep_case_type), intent(in) :: sweep
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(mesh_case_type), intent(in) :: mesh !! what `&mesh` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
 
     if (model%half_width /= half_width_yes) return
     if (.not. is_symmetric(operation, sweep)) then
@@ -264,8 +264,8 @@ contains
 
   !> Whether no point of the scene is tilted, so that one half mirrors the other.
   pure function is_symmetric(operation, sweep) result(symmetric)
-    type(operation_case_type), intent(in) :: operation
-    type(sweep_case_type), intent(in) :: sweep
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     logical :: symmetric
 
     symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. &
@@ -274,11 +274,11 @@ contains
 
   !> A rigid pad leaves the shaft no more room than the clearance, at both ends of the bearing.
   subroutine check_rigid_position(keys, model, bearing, operation, sweep)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(in) :: model
-    type(bearing_case_type), intent(in) :: bearing
-    type(operation_case_type), intent(in) :: operation
-    type(sweep_case_type), intent(in) :: sweep
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     real(wp) :: way
     integer :: point
 

@@ -102,7 +102,7 @@ contains
 
   !> Stiffness of the half arc from a right corner to the crest: the mirror image of the left one.
   pure function right_arch_stiffness(left) result(stiffness)
-    real(wp), intent(in) :: left(6, 6) !! of the left half arc
+    real(wp), intent(in) :: left(6, 6) !! [N/m], [N], [N m] of the left half arc
     real(wp) :: stiffness(6, 6)
     real(wp), parameter :: mirror(6) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
     integer :: i, j

@@ -66,9 +66,9 @@ contains
 
   !> Presses on the crests of a chain.
   pure subroutine solve_bump_chain(chain, crest_force, solution)
-    type(bump_chain_type), intent(in) :: chain
+    type(bump_chain_type), intent(in) :: chain !! bumps, forces and friction
     real(wp), intent(in) :: crest_force(:) !! (N), towards the sleeve, grown in proportion [N]
-    type(bump_chain_solution_type), intent(out) :: solution
+    type(bump_chain_solution_type), intent(out) :: solution !! displacements and contact forces
 
     type(freedoms_type) :: freedoms
     type(coulomb_contacts_type) :: contacts

@@ -43,7 +43,7 @@ contains
   !> sweeps alone (Gauss-Seidel, slow and sure). Where friction leaves a floating body's place open,
   !> because all contacts slip, their displacements' sum is zero.
   pure subroutine solve_contacts(contacts, displacement, converged)
-    type(coulomb_contacts_type), intent(in) :: contacts
+    type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
     real(wp), intent(out) :: displacement(:) !! u (n), exactly 0 where a contact sticks [m]
     logical, intent(out) :: converged        !! all laws hold
 
@@ -88,7 +88,7 @@ contains
 
   !> Friction each contact can bear, \( \mu_i \sum_k \max(N_k, 0) \) [N].
   pure function friction_limits(contacts, displacement) result(limits)
-    type(coulomb_contacts_type), intent(in) :: contacts
+    type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
     real(wp), intent(in) :: displacement(:) !! u (n) [m]
     real(wp) :: limits(size(displacement))
     real(wp) :: normal(size(contacts%owner))

@@ -30,9 +30,9 @@ contains
 
   !> Solves equations whose matrix is symmetric and positive definite; `.false.` if it is not.
   pure subroutine solve_positive(matrix, right_sides, solved)
-    real(wp), intent(in) :: matrix(:, :)         !! (n, n)
-    real(wp), intent(inout) :: right_sides(:, :) !! (n, m): in the right sides, out the solutions
-    logical, intent(out) :: solved
+    real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    real(wp), intent(inout) :: right_sides(:, :) !! (n, m), in and out [SI]
+    logical, intent(out) :: solved !! the matrix is regular
     real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1))
     integer :: n, info
 
@@ -44,9 +44,9 @@ contains
 
   !> Solves equations of any matrix; `.false.` if it is singular.
   pure subroutine solve_general(matrix, right_side, solved)
-    real(wp), intent(in) :: matrix(:, :)    !! (n, n)
-    real(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution
-    logical, intent(out) :: solved
+    real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    real(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution [SI]
+    logical, intent(out) :: solved !! the matrix is regular
     real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)), column(max(1, size(matrix, 1)), 1)
     integer :: pivots(size(matrix, 1)), n, info
 

@@ -49,7 +49,7 @@ contains
 
   !> Stiffness of a linear element: forces along x and v and moments of both ends, first and second.
   pure function linear_beam_stiffness(section, ends) result(stiffness)
-    type(beam_section_type), intent(in) :: section
+    type(beam_section_type), intent(in) :: section !! thickness and material of the beam
     real(wp), intent(in) :: ends(2, 2)     !! (x, v) of the first and of the second end [m]
     real(wp) :: stiffness(2*beam_unknowns, 2*beam_unknowns)
     real(wp) :: length, tangent(2), normal(2)
@@ -67,7 +67,7 @@ contains
 
   !> Stiffness of a bent element, in the same order.
   pure function bent_beam_stiffness(section, ends) result(stiffness)
-    type(beam_section_type), intent(in) :: section
+    type(beam_section_type), intent(in) :: section !! thickness and material of the beam
     real(wp), intent(in) :: ends(2, 2)     !! (x, v) of the first and of the second end [m]
     real(wp) :: stiffness(2*beam_unknowns, 2*beam_unknowns)
     type(beam_section_type) :: softer
@@ -81,7 +81,7 @@ contains
   !> Tension and bending moment in the middle of an element, linear or bent, per metre of width
   !> [N/m], [N]. The moment is positive where it stretches the upper face.
   pure function beam_resultants(section, ends, displacement) result(force)
-    type(beam_section_type), intent(in) :: section
+    type(beam_section_type), intent(in) :: section !! thickness and material of the beam
     real(wp), intent(in) :: ends(2, 2)         !! (x, v) of the first and of the second end [m]
     real(wp), intent(in) :: displacement(beam_unknowns, 2) !! of the ends [m], [rad]
     real(wp) :: force(2)

@@ -45,7 +45,7 @@ contains
 
   !> Normal force and its derivative by the penetration, [Gu2020] eq. 9.
   pure subroutine normal_force(law, length, penetration, force, slope)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: length      !! of contact line the node stands for [m]
     real(wp), intent(in) :: penetration !! [m]
     real(wp), intent(out) :: force      !! [N]
@@ -67,7 +67,7 @@ contains
 
   !> Friction and its derivatives by slip and normal force, [Gu2020] eq. 10.
   pure subroutine friction_force(law, slip, pressing, force, by_slip, by_pressing)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: slip(2)         !! s = u - u_s; the second is zero for a one-way law [m]
     real(wp), intent(in) :: pressing        !! normal force, not negative [N]
     real(wp), intent(out) :: force(2)       !! [N]
@@ -109,7 +109,7 @@ contains
 
   !> Force of a contact and its derivative by the approach.
   pure subroutine contact_force(law, length, approach, force, derivative)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: length            !! of contact line the node stands for [m]
     real(wp), intent(in) :: approach(3)       !! (s_1, s_2, delta) [m]
     real(wp), intent(out) :: force(3)         !! (t_1, t_2, f_n) [N]
@@ -131,7 +131,7 @@ contains
   !> found, and with steps far above the stick length the answer is Coulomb's. With reset, as
   !> [Gu2020] has it: none where the sliding has turned, else all of it. An open contact forgets.
   pure function carried_slip(law, slip, moved, pressing) result(carried)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: slip(2)  !! at the end of the step [m]
     real(wp), intent(in) :: moved(2) !! change of the slip within the step [m]
     real(wp), intent(in) :: pressing !! normal force [N]
@@ -151,14 +151,14 @@ contains
 
   !> Slip from which on a contact slides [m].
   elemental function drag_length(law) result(length)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp) :: length
     length = merge(1.0_wp, dragged, law%friction_law == law_coulomb)*law%stick_length
   end function drag_length
 
   !> Whether a contact is open, sticks or slips.
   elemental function contact_state(law, distance, pressing) result(state)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: distance !! length of the slip [m]
     real(wp), intent(in) :: pressing !! normal force [N]
     integer :: state
@@ -177,7 +177,7 @@ contains
   !> At its approach, but where a sliding contact turned back it is first taken to stick: from one
   !> sliding direction to the other the law has no slope that would tell of the way between.
   pure function next_place(law, place, approach) result(next)
-    type(contact_law_type), intent(in) :: law
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: place(3)    !! where it was linearised [m]
     real(wp), intent(in) :: approach(3) !! where that led to [m]
     real(wp) :: next(3)

@@ -70,7 +70,7 @@ contains
   pure function project(corner, point, facing) result(projection)
     real(wp), intent(in) :: corner(3, master_nodes)  !! positions of the nodes [m]
     real(wp), intent(in) :: point(3)                 !! R [m]
-    real(wp), intent(in), optional :: facing(3)      !! the normal's side, about; any length
+    real(wp), intent(in), optional :: facing(3) !! the normal's side, about; any length [1]
     type(projection_type) :: projection
     type(surface_type) :: surface
     logical :: found
@@ -228,7 +228,7 @@ contains
   !> Zero for a degenerate projection.
   pure function coordinates_by_point(corner, projection) result(derivative)
     real(wp), intent(in) :: corner(3, master_nodes) !! positions of the nodes [m]
-    type(projection_type), intent(in) :: projection
+    type(projection_type), intent(in) :: projection !! where a node meets its master element
     real(wp) :: derivative(2, 3)                    !! (coordinate, direction) [1/m]
     type(surface_type) :: surface
     real(wp) :: slope(3, 2), hessian(2, 2)
@@ -245,7 +245,7 @@ contains
   !>
   !> $$ \delta = d_0 - (\mathbf{R} - \mathbf{r}) \cdot \mathbf{n} $$
   pure function penetration(projection, offset) result(depth)
-    type(projection_type), intent(in) :: projection
+    type(projection_type), intent(in) :: projection !! where a node meets its master element
     real(wp), intent(in) :: offset !! d_0, distance of the mid-surfaces at first touch [m]
     real(wp) :: depth              !! [m]
 
@@ -257,7 +257,7 @@ contains
   !> Exact: the foot's own motion lies in the tangent plane, and \( \mathbf{R} - \mathbf{r} \) is
   !> parallel to the normal, whose change is at right angles to it. Both drop out.
   pure subroutine penetration_derivative(projection, by_point, by_node)
-    type(projection_type), intent(in) :: projection
+    type(projection_type), intent(in) :: projection !! where a node meets its master element
     real(wp), intent(out) :: by_point(3)              !! [1]
     real(wp), intent(out) :: by_node(3, master_nodes) !! (direction, node) [1]
 
@@ -272,7 +272,7 @@ contains
   !> Source: [Gu2020] 2.2. The couple of the friction at the distance \( d_0 - \delta \) between
   !> slave and foot stays with the two surfaces, as there.
   pure function master_forces(projection, force) result(reaction)
-    type(projection_type), intent(in) :: projection
+    type(projection_type), intent(in) :: projection !! where a node meets its master element
     real(wp), intent(in) :: force(3)          !! on the slave [N]
     real(wp) :: reaction(3, master_nodes)     !! [N]
 

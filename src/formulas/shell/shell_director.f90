@@ -49,7 +49,7 @@ contains
   pure subroutine corner_normals(position, normal, error)
     real(wp), intent(in) :: position(3, shell_nodes) !! of the nodes [m]
     real(wp), intent(out) :: normal(3, shell_nodes)  !! unit vectors [1]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
     real(wp) :: along(3), across(3), length
@@ -87,7 +87,7 @@ contains
     real(wp), intent(out) :: director(:, :, :) !! (3, 4, elements) [1]
     real(wp), intent(out) :: axis(:, :, :)     !! (3, 2, nodes), V1 and V2 [1]
     logical, intent(out) :: kink(:)            !! of each node
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     integer :: start(node_count + 1), corner(size(element_nodes))
     real(wp) :: near, mean(3)

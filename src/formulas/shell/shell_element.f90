@@ -31,10 +31,10 @@ contains
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_stiffness(geometry, section, stiffness, error)
-    type(shell_geometry_type), intent(in) :: geometry
-    type(shell_section_type), intent(in) :: section
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
     real(wp), intent(out) :: stiffness(shell_unknowns, shell_unknowns) !! [N/m], [N], [N m]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     real(wp) :: factor(shell_unknowns, columns)
     type(shell_turn_type) :: turn
@@ -195,11 +195,11 @@ contains
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_internal_force(geometry, section, displacement, internal_force, error)
-    type(shell_geometry_type), intent(in) :: geometry
-    type(shell_section_type), intent(in) :: section
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
     real(wp), intent(in) :: displacement(shell_unknowns)    !! u, v, w [m], alpha, beta [rad] a node
     real(wp), intent(out) :: internal_force(shell_unknowns) !! forces [N], couples [N m]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     real(wp), dimension(3, shell_nodes) :: translation, change, force, couple
     real(wp), dimension(shear_points) :: tied, work

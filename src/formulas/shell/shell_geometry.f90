@@ -64,9 +64,9 @@ contains
   !> nodes run clockwise about the directors, when the element is folded or too thick for its
   !> curvature, and when a director lies in the plane of its rotation axes.
   pure subroutine check_shell(geometry, section, error)
-    type(shell_geometry_type), intent(in) :: geometry
-    type(shell_section_type), intent(in) :: section
-    type(error_type), allocatable, intent(out) :: error
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     real(wp) :: sine(shell_nodes)
 
     sine = corner_sines(geometry)
@@ -167,7 +167,7 @@ contains
 
   !> Covariant base vectors: derivatives of the position by xi, eta, zeta in columns.
   pure function shell_base(geometry, thickness, shape, by_xi, by_eta, zeta) result(base)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness                              !! h [m]
     real(wp), intent(in), dimension(shell_nodes) :: shape, by_xi, by_eta !! [1]
     real(wp), intent(in) :: zeta                                   !! in [-1, 1]
@@ -217,7 +217,7 @@ contains
 
   !> Vector product.
   pure function cross(first, second) result(product)
-    real(wp), intent(in) :: first(3), second(3)
+    real(wp), intent(in) :: first(3), second(3) !! another [1]
     real(wp) :: product(3)
 
     product = [first(2)*second(3) - first(3)*second(2), first(3)*second(1) - first(1)*second(3), &

@@ -18,7 +18,7 @@ contains
   !> it was before deformation is loaded, so there are no couples. 2 x 2 Gauss, exact on any
   !> element.
   pure subroutine shell_pressure_load(geometry, overpressure, force)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: overpressure(shell_nodes) !! p - p_a at the nodes [Pa]
     real(wp), intent(out) :: force(shell_unknowns)    !! forces [N], couples (zero) [N m]
 
@@ -43,7 +43,7 @@ contains
 
   !> Exact derivative of `shell_pressure_load` with respect to the nodal pressures.
   pure subroutine shell_pressure_derivative(geometry, by_pressure)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(out) :: by_pressure(shell_unknowns, shell_nodes) !! [m2]
 
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta

@@ -27,10 +27,10 @@ contains
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_mass(geometry, section, mass, error)
-    type(shell_geometry_type), intent(in) :: geometry
-    type(shell_section_type), intent(in) :: section
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
     real(wp), intent(out) :: mass(shell_unknowns, shell_unknowns) !! [kg], [kg m], [kg m2]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     real(wp) :: moment(shell_nodes, shell_nodes, 0:powers - 1), unit(shell_unknowns)
     real(wp), dimension(3, shell_nodes) :: translation, change

@@ -28,9 +28,9 @@ contains
 
   !> Derivatives of the four tied strains with respect to the element's unknowns.
   pure function shear_rows(geometry, thickness, turn) result(rows)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness                !! h [m]
-    type(shell_turn_type), intent(in) :: turn
+    type(shell_turn_type), intent(in) :: turn !! rotations of the directors
     real(wp) :: rows(shell_unknowns, shear_points)
     real(wp) :: side(3), half_thickness(3)
     integer :: point, i, j, row_i, row_j, k
@@ -57,7 +57,7 @@ contains
 
   !> The four tied strains.
   pure function shear_strains(geometry, thickness, translation, change) result(strain)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness                   !! h [m]
     real(wp), intent(in) :: translation(3, shell_nodes) !! of the nodes [m]
     real(wp), intent(in) :: change(3, shell_nodes)      !! of half the thickness vectors [m]
@@ -76,7 +76,7 @@ contains
 
   !> Adds the nodal forces of four numbers that do work on the tied strains.
   pure subroutine shear_forces(geometry, thickness, work, force, couple)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness                  !! h [m]
     real(wp), intent(in) :: work(shear_points)         !! conjugate to the tied strains [N/m]
     real(wp), intent(inout) :: force(3, shell_nodes)   !! on the translations [N]

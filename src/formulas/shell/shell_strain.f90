@@ -22,7 +22,7 @@ contains
   !> strain along the thickness is left out (plane stress).
   pure function lamina_strain(base, lamina, slope_xi, slope_eta, tied, weight) result(strain)
     real(wp), intent(in) :: base(3, 3)          !! covariant base vectors [m]
-    type(shell_lamina_type), intent(in) :: lamina
+    type(shell_lamina_type), intent(in) :: lamina !! directions at a Gauss point
     real(wp), intent(in) :: slope_xi(3)         !! derivative of the displacement by xi [m]
     real(wp), intent(in) :: slope_eta(3)        !! derivative of the displacement by eta [m]
     real(wp), intent(in) :: tied(shear_points)  !! of `shear_strains` [m2]
@@ -49,7 +49,7 @@ contains
   !>    \sigma_{12} = 2 G \varepsilon_{12}, \quad \sigma_{13} = 2 k G \varepsilon_{13}, \quad
   !>    \sigma_{33} = 0, \quad k = 5/6 $$
   pure function lamina_stress(section, strain) result(stress)
-    type(shell_section_type), intent(in) :: section
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
     real(wp), intent(in) :: strain(3, 3) !! in the lamina frame [1]
     real(wp) :: stress(3, 3)             !! in the lamina frame [Pa]
     real(wp) :: plane, shear

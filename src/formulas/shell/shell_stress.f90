@@ -41,12 +41,12 @@ contains
   !>
   !> Fails as `check_shell` does.
   pure subroutine shell_stress(geometry, section, displacement, xi, eta, stress, error)
-    type(shell_geometry_type), intent(in) :: geometry
-    type(shell_section_type), intent(in) :: section
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
     real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
     real(wp), intent(in) :: xi, eta                      !! in [-1, 1]
-    type(shell_stress_type), intent(out) :: stress
-    type(error_type), allocatable, intent(out) :: error
+    type(shell_stress_type), intent(out) :: stress !! at the Gauss points
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     real(wp), dimension(3, shell_nodes) :: translation, change, motion
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta

@@ -37,7 +37,7 @@ contains
 
   !> How the directors of one element turn.
   pure function shell_turn(geometry, thickness) result(turn)
-    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness !! h [m]
     type(shell_turn_type) :: turn
     real(wp) :: normal(3), rate(3)
@@ -92,7 +92,7 @@ contains
 
   !> Translations and changes of half the thickness vectors of the nodes.
   pure subroutine shell_motion(turn, displacement, translation, change)
-    type(shell_turn_type), intent(in) :: turn
+    type(shell_turn_type), intent(in) :: turn !! rotations of the directors
     real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
     real(wp), intent(out) :: translation(3, shell_nodes) !! [m]
     real(wp), intent(out) :: change(3, shell_nodes)      !! [m]
@@ -111,7 +111,7 @@ contains
   !> Forces on the unknowns from forces on translations and half the thickness vectors: the
   !> transpose of `shell_motion`.
   pure function shell_generalized(turn, force, couple) result(generalized)
-    type(shell_turn_type), intent(in) :: turn
+    type(shell_turn_type), intent(in) :: turn !! rotations of the directors
     real(wp), intent(in) :: force(3, shell_nodes)   !! [N]
     real(wp), intent(in) :: couple(3, shell_nodes)  !! on the changes of half the thickness [N]
     real(wp) :: generalized(shell_unknowns)         !! forces [N], couples [N m]

@@ -59,7 +59,7 @@ contains
 
   !> Mesh of a pad with given sides of elements.
   pure function film_mesh_at(side_angle, radius, length, axial, half, order) result(mesh)
-    real(wp), intent(in) :: side_angle(:)    !! theta where elements meet, rising [rad]
+    real(wp), intent(in) :: side_angle(:) !! theta where elements meet, rising [rad]
     real(wp), intent(in) :: radius           !! of the bearing [m]
     real(wp), intent(in) :: length           !! whole width of the bearing [m]
     integer, intent(in) :: axial             !! elements along the whole width
@@ -92,7 +92,7 @@ contains
   !> Nodes of the elements that a part of the mesh's cells make up: counter-clockwise where they are
   !> bilinear, else station by station.
   pure function gather_elements(mesh, mesh_node, cells) result(element_nodes)
-    type(film_mesh_type), intent(in) :: mesh
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
     integer, intent(in) :: mesh_node(:)     !! number in the whole mesh of each node of the part
     integer, intent(in) :: cells(:, :) !! (4, cells) nodes of the part
     integer, allocatable :: element_nodes(:, :) !! (4 or 9, elements) nodes of the part
@@ -129,7 +129,7 @@ contains
   !> Lengths of the axis that make up a field's integral along it: by the trapezoidal rule, or
   !> Simpson's.
   pure function row_weights(mesh) result(weight)
-    type(film_mesh_type), intent(in) :: mesh
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
     real(wp) :: weight(size(mesh%row_axial)) !! of the rows [m]
     integer :: j
 
@@ -147,11 +147,11 @@ contains
 
   !> The nodes around a place, and their bilinear shares of it.
   pure subroutine find_film_place(mesh, angle, axial, node, share)
-    type(film_mesh_type), intent(in) :: mesh
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
     real(wp), intent(in) :: angle     !! theta on the pad [rad]
     real(wp), intent(in) :: axial     !! z on the meshed width [m]
     integer, intent(out) :: node(4)   !! of the whole mesh
-    real(wp), intent(out) :: share(4) !! adding up to one
+    real(wp), intent(out) :: share(4) !! of the four nodes, adding up to one [1]
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: along, across
     integer :: i, j, here, next

@@ -61,7 +61,7 @@ contains
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
   !> trailing_edge, fixed_edge, free_edge, midplane; crest_1 and corner_1 lie at the smallest x.
   pure function bump_strip_mesh(shape, rows, half, window) result(mesh)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     real(wp), intent(in) :: rows(:) !! z [m]
     logical, intent(in) :: half     !! rows begin at z = 0
     !> first and last station of the stretch; default: all
@@ -76,7 +76,7 @@ contains
 
   !> Stations of a strip where its substructures meet or end, rising.
   pure function dividing_stations(shape) result(divide)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     integer, allocatable :: divide(:)
     type(station_type), allocatable :: station(:)
     integer :: i
@@ -88,7 +88,7 @@ contains
 
   !> Where the stations of a strip are, from the smallest x on [m].
   pure function station_positions(shape) result(x)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     real(wp), allocatable :: x(:)
     type(station_type), allocatable :: station(:)
 
@@ -100,8 +100,8 @@ contains
   !> The strip's pieces between its corners and crests, from the smallest x on; those outside the
   !> mesh's stretch have no nodes.
   pure function strip_substructures(shape, mesh) result(pieces)
-    type(strip_shape_type), intent(in) :: shape
-    type(quad_mesh_type), intent(in) :: mesh
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     type(substructure_type), allocatable :: pieces(:)
     integer, allocatable :: divide(:)
     integer :: i, first, last
@@ -126,7 +126,7 @@ contains
 
   !> Where the crests of a strip are, from the smallest x on [m].
   pure function crest_positions(shape) result(x)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     real(wp), allocatable :: x(:)
     type(station_type), allocatable :: station(:)
 

@@ -14,7 +14,7 @@ contains
     real(wp), intent(in) :: position(:, :)       !! (3, nodes) [m]
     integer, intent(in) :: most                  !! nodes in a patch
     integer, allocatable, intent(out) :: patch(:) !! (nodes)
-    integer, intent(out) :: patches
+    integer, intent(out) :: patches !! how many there are
     integer, allocatable :: order(:), first(:)
     integer :: i, parts, part, axis, middle
     real(wp) :: extent(size(position, 1))

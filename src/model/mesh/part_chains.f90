@@ -18,7 +18,7 @@ contains
 
   !> Columns of the film's elements, and of the top foil of shells below them where there is one.
   pure function film_chain(film, shells) result(columns)
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
     logical, intent(in) :: shells !! on a top foil of shells
     type(chain_type) :: columns
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
@@ -34,7 +34,7 @@ contains
 
   !> Part of every column of the film's cells from the parts of its elements' columns.
   pure function film_columns(film, part) result(column_part)
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
     integer, intent(in) :: part(:) !! of the chain's pieces
     integer :: column_part(film%order*size(part))
     integer :: i
@@ -44,7 +44,7 @@ contains
 
   !> Substructures of a bump foil, or its columns where it is not condensed.
   pure function strip_chain(shape, rows, reduced) result(pieces)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     integer, intent(in) :: rows    !! nodes of a station
     logical, intent(in) :: reduced !! substructures are condensed
     type(chain_type) :: pieces
@@ -57,7 +57,7 @@ contains
 
   !> Columns of shells, or what is condensed onto as many unknowns.
   pure function column_chain(bound, rows) result(columns)
-    real(wp), intent(in) :: bound(:) !! of the columns, rising
+    real(wp), intent(in) :: bound(:) !! of the columns, rising [m]
     integer, intent(in) :: rows      !! nodes of a station
     type(chain_type) :: columns
 
@@ -66,8 +66,8 @@ contains
 
   !> Part of every column of a bump foil from the parts of its chain.
   pure function strip_columns(shape, reduced, part) result(column_part)
-    type(strip_shape_type), intent(in) :: shape
-    logical, intent(in) :: reduced
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
+    logical, intent(in) :: reduced !! bumps are condensed
     integer, intent(in) :: part(:) !! of the chain's pieces
     integer, allocatable :: column_part(:)
     integer, allocatable :: divide(:)
@@ -85,7 +85,7 @@ contains
 
   !> Kinds of a strip's substructures, seen on two of its rows: along the axis all rows are alike.
   pure function strip_kinds(shape, rows, half) result(kind)
-    type(strip_shape_type), intent(in) :: shape
+    type(strip_shape_type), intent(in) :: shape !! the strip's shape
     real(wp), intent(in) :: rows(:) !! z [m]
     logical, intent(in) :: half     !! rows begin at z = 0
     integer, allocatable :: kind(:)

@@ -54,7 +54,7 @@ contains
   !> Pieces with given bounds, and as many unknowns each as they are told.
   pure function chain(bound, weight, closed) result(made)
     real(wp), intent(in) :: bound(:)  !! rising [m]
-    real(wp), intent(in) :: weight(:) !! unknowns
+    real(wp), intent(in) :: weight(:) !! unknowns of each link [1]
     logical, intent(in) :: closed     !! a ring
     type(chain_type) :: made
 
@@ -75,9 +75,9 @@ contains
   subroutine divide(film, bumps, parts, division, error)
     type(chain_type), intent(in) :: film  !! no pieces: a strip alone
     type(chain_type), intent(in) :: bumps !! no pieces: a film alone
-    integer, intent(in) :: parts
-    type(division_type), intent(out) :: division
-    type(error_type), allocatable, intent(out) :: error
+    integer, intent(in) :: parts !! ranks
+    type(division_type), intent(out) :: division !! the rank of every link
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     integer, allocatable :: joint(:, :), part(:)
     integer :: i, pieces, wanted

@@ -54,8 +54,8 @@ contains
   !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no
   !> such set.
   pure function node_set(mesh, name) result(nodes)
-    type(quad_mesh_type), intent(in) :: mesh
-    character(len=*), intent(in) :: name
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    character(len=*), intent(in) :: name !! of the set
     integer, allocatable :: nodes(:)
     integer :: i
 
@@ -69,8 +69,8 @@ contains
 
   !> Sets whose names begin so and end with a number.
   pure function set_count(mesh, beginning) result(sets)
-    type(quad_mesh_type), intent(in) :: mesh
-    character(len=*), intent(in) :: beginning
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    character(len=*), intent(in) :: beginning !! of the names that are counted
     integer :: sets
     integer :: i
 
@@ -82,9 +82,9 @@ contains
 
   !> Adds a set of nodes.
   pure subroutine add_node_set(mesh, name, nodes)
-    type(quad_mesh_type), intent(inout) :: mesh
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: nodes(:)
+    type(quad_mesh_type), intent(inout) :: mesh !! the foil's mesh
+    character(len=*), intent(in) :: name !! of the set
+    integer, intent(in) :: nodes(:) !! that belong to it
     type(node_set_type), allocatable :: longer(:)
     integer :: sets
 
@@ -100,7 +100,7 @@ contains
   !> The mesh of a stretch alone, numbered from 1; what is not there is not there either. It has no
   !> sets.
   pure function sub_mesh(mesh, stretch) result(part)
-    type(quad_mesh_type), intent(in) :: mesh
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     integer, intent(in) :: stretch(2) !! first and last station of the whole mesh
     type(quad_mesh_type) :: part
     integer :: before, first, last

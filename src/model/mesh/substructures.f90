@@ -21,8 +21,8 @@ contains
 
   !> The piece that some elements make.
   pure function substructure(mesh, elements, is_retained) result(piece)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: elements(:)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    integer, intent(in) :: elements(:) !! of the mesh, that belong to it
     logical, intent(in) :: is_retained(:) !! one a node of the whole mesh
     type(substructure_type) :: piece
     logical :: used(size(mesh%position, 2))
@@ -41,9 +41,9 @@ contains
   !> Numbers the kinds of pieces: those that a translation makes the same, with the same supports
   !> inside. Supports at retained nodes do not count.
   pure subroutine find_kinds(mesh, fixed, pieces)
-    type(quad_mesh_type), intent(in) :: mesh
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     logical, intent(in) :: fixed(:, :) !! (5, nodes) unknowns held by supports
-    type(substructure_type), intent(inout) :: pieces(:)
+    type(substructure_type), intent(inout) :: pieces(:) !! a substructure
     integer :: first(size(pieces)), i, kind, kinds
 
     kinds = 0
@@ -60,7 +60,7 @@ contains
 
   !> Kinds among pieces.
   pure function kind_count(pieces) result(kinds)
-    type(substructure_type), intent(in) :: pieces(:)
+    type(substructure_type), intent(in) :: pieces(:) !! a substructure
     integer :: kinds
     integer :: i
 
@@ -109,8 +109,8 @@ contains
 
   !> Places of nodes in a piece.
   pure function places_in(piece, nodes) result(places)
-    type(substructure_type), intent(in) :: piece
-    integer, intent(in) :: nodes(:)
+    type(substructure_type), intent(in) :: piece !! a substructure
+    integer, intent(in) :: nodes(:) !! of the mesh, rising
     integer :: places(size(nodes))
     integer :: i, low, high, middle
 

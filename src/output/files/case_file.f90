@@ -30,17 +30,17 @@ contains
   subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, &
     provenance, &
                              summary, history, arrays, file, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator, information !! MPI's
-    logical, intent(in) :: first_rank
+    logical, intent(in) :: first_rank !! this rank leads
     character(len=*), intent(in) :: verbatim         !! text of the case file
     character(len=*), intent(in) :: echo             !! every key with the value used
-    type(quantity_type), intent(in) :: provenance(:)
-    type(quantity_type), intent(in) :: summary(:)
-    type(history_row_type), intent(in) :: history(:)
+    type(quantity_type), intent(in) :: provenance(:) !! program, machine, command
+    type(quantity_type), intent(in) :: summary(:) !! the answer
+    type(history_row_type), intent(in) :: history(:) !! a row a step or point
     type(case_array_type), intent(in) :: arrays(:)   !! their groups are made as needed
-    type(result_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(result_file_type), intent(out) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     call open_result_file(path, communicator, information, first_rank, file, error)
     if (allocated(error)) return
@@ -59,9 +59,9 @@ contains
   !> Component by component: of a structure constructor gfortran never frees the copies, and it
   !> reads beyond the end of values that are a part of a larger array.
   subroutine fill_array(path, unit, meaning, values, array, by_step)
-    character(len=*), intent(in) :: path, unit, meaning
-    real(wp), intent(in) :: values(:, :)             !! (columns, rows) of the file
-    type(case_array_type), intent(out) :: array
+    character(len=*), intent(in) :: path, unit, meaning !! where it goes; of the numbers; a sentence
+    real(wp), intent(in) :: values(:, :) !! (columns, rows) of the file, in `unit` [SI]
+    type(case_array_type), intent(out) :: array !! path, unit, meaning and values
     logical, intent(in), optional :: by_step         !! a row is a load step or sweep point
 
     array%path = path
@@ -73,8 +73,8 @@ contains
 
   !> Puts arrays at the end of a list; an array constructor would not free all that it copies.
   subroutine add_arrays(list, more)
-    type(case_array_type), allocatable, intent(inout) :: list(:)
-    type(case_array_type), intent(in) :: more(:)
+    type(case_array_type), allocatable, intent(inout) :: list(:) !! gets them behind its own
+    type(case_array_type), intent(in) :: more(:) !! to be added
     type(case_array_type), allocatable :: grown(:)
     integer :: i
 
@@ -108,9 +108,9 @@ contains
 
   !> One dataset a quantity.
   subroutine write_quantities(file, group, quantity)
-    type(result_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: group
-    type(quantity_type), intent(in) :: quantity(:)
+    type(result_file_type), intent(inout) :: file !! the file being written
+    character(len=*), intent(in) :: group !! of the file
+    type(quantity_type), intent(in) :: quantity(:) !! to be written, a dataset each
     integer :: i
 
     call file%group(group)
@@ -127,8 +127,8 @@ contains
 
   !> One dataset a name, one entry a row; a row without the name has NaN there.
   subroutine write_history(file, history)
-    type(result_file_type), intent(inout) :: file
-    type(history_row_type), intent(in) :: history(:)
+    type(result_file_type), intent(inout) :: file !! the file being written
+    type(history_row_type), intent(in) :: history(:) !! a row a step or point
     type(quantity_type), allocatable :: column(:)
     real(wp), allocatable :: values(:)
     integer :: i, row
@@ -181,7 +181,7 @@ contains
 
   !> `name = value [unit]`, one a line.
   function summary_text(summary) result(words)
-    type(quantity_type), intent(in) :: summary(:)
+    type(quantity_type), intent(in) :: summary(:) !! the answer
     character(len=:), allocatable :: words
     integer :: i
 

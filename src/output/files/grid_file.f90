@@ -36,7 +36,7 @@ contains
   pure subroutine block_bounds(total, rank, ranks, first, last)
     integer, intent(in) :: total       !! entries in all
     integer, intent(in) :: rank, ranks !! this one, from 0, and their number
-    integer, intent(out) :: first, last
+    integer, intent(out) :: first, last !! first and last of this rank's entries
 
     first = int(int(rank, long)*total/ranks) + 1
     last = int(int(rank + 1, long)*total/ranks)
@@ -47,13 +47,13 @@ contains
   !> Fails when the file cannot be written.
   subroutine write_grid_file(path, communicator, information, rank, ranks, grid, point_field, &
                              cell_field, file, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator, information !! MPI's
     integer, intent(in) :: rank, ranks               !! this one, from 0, and their number
     type(grid_type), intent(in) :: grid              !! parts by `block_bounds`
-    type(grid_field_type), intent(in) :: point_field(:), cell_field(:)
-    type(result_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(grid_field_type), intent(in) :: point_field(:), cell_field(:) !! values of elements
+    type(result_file_type), intent(out) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer :: first, last
 
     call open_result_file(path, communicator, information, rank == 0, file, error)

@@ -18,9 +18,9 @@ contains
 
   !> Adds a group that holds rows.
   subroutine put_rows(file, group, rows)
-    type(result_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: group
-    type(history_row_type), intent(in) :: rows(:)
+    type(result_file_type), intent(inout) :: file !! the file being written
+    character(len=*), intent(in) :: group !! of the file
+    type(history_row_type), intent(in) :: rows(:) !! a row a step or point
     type(quantity_type), allocatable :: known(:)
     real(wp), allocatable :: entry(:, :)
     character(len=:), allocatable :: words
@@ -89,9 +89,9 @@ contains
 
   !> Reads a group that holds rows; none where something cannot be read.
   subroutine read_rows(file, group, rows)
-    type(stored_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: group
-    type(history_row_type), allocatable, intent(out) :: rows(:)
+    type(stored_file_type), intent(inout) :: file !! the file being read
+    character(len=*), intent(in) :: group !! of the file
+    type(history_row_type), allocatable, intent(out) :: rows(:) !! a row a step or point
     type(quantity_type), allocatable :: known(:)
     type(quantity_type) :: one
     real(wp), allocatable :: entry(:, :)

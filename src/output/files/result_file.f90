@@ -43,12 +43,12 @@ contains
   !>
   !> Fails when it cannot be made.
   subroutine open_result_file(path, communicator, information, first_rank, file, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's, of the ranks that write
     integer, intent(in) :: information  !! MPI's null information
-    logical, intent(in) :: first_rank
-    type(result_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    logical, intent(in) :: first_rank !! this rank leads
+    type(result_file_type), intent(out) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer(hid_t) :: access
     integer :: status
 
@@ -69,8 +69,8 @@ contains
   !>
   !> Fails when anything in it could not be written.
   subroutine close_result_file(file, error)
-    type(result_file_type), intent(inout) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(result_file_type), intent(inout) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer :: status
 
     call h5pclose_f(file%collective, status)
@@ -85,8 +85,8 @@ contains
   !>
   !> Fails when the system refuses.
   subroutine keep_result_file(file, error)
-    type(result_file_type), intent(in) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(result_file_type), intent(in) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
     if (.not. file%first_rank) return
     if (.not. rename_file(file%path//unfinished, file%path)) then
@@ -96,7 +96,7 @@ contains
 
   !> Removes a file that was not kept.
   subroutine drop_result_file(file)
-    type(result_file_type), intent(in) :: file
+    type(result_file_type), intent(in) :: file !! the file being written
 
     if (file%first_rank .and. allocated(file%path)) call remove_file(file%path//unfinished)
   end subroutine drop_result_file
@@ -104,7 +104,7 @@ contains
   !> Adds a group.
   subroutine add_group(self, path)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t) :: group
     integer :: status
 
@@ -116,7 +116,7 @@ contains
   !> Adds a group unless it is there.
   subroutine need_group(self, path)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     logical :: there
     integer :: status
 
@@ -127,7 +127,7 @@ contains
   !> Adds a text.
   subroutine put_text(self, path, words, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path, words, meaning
+    character(len=*), intent(in) :: path, words, meaning !! where it goes; the text; a sentence
     character(kind=c_char, len=:), allocatable, target :: buffer
     integer(hid_t) :: kind, space, dataset
     integer :: status
@@ -151,9 +151,9 @@ contains
   !> Adds a list of words that all ranks know.
   subroutine put_words(self, path, words, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=*), intent(in) :: words(:) !! blank-padded
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! a sentence
     character(kind=c_char, len=len(words)), target :: buffer(max(1, size(words)))
     integer(hid_t) :: kind
     integer :: status
@@ -169,9 +169,9 @@ contains
   !> Adds numbers that all ranks know.
   subroutine put_numbers(self, path, numbers, unit, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
-    real(wp), intent(in) :: numbers(:) !! in `unit`
-    character(len=*), intent(in) :: unit, meaning
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    real(wp), intent(in) :: numbers(:) !! [SI] in `unit`
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
     integer :: mine
 
     mine = merge(size(numbers), 0, self%first_rank)
@@ -181,9 +181,9 @@ contains
   !> Adds one number that all ranks know, as a dataset without dimensions.
   subroutine put_scalar(self, path, number, unit, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
-    real(wp), intent(in) :: number !! in `unit`
-    character(len=*), intent(in) :: unit, meaning
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    real(wp), intent(in) :: number !! [SI] in `unit`
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
     real(wp), target :: value
     integer(hid_t) :: space, dataset
     integer :: status
@@ -203,11 +203,11 @@ contains
   !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
   subroutine put_block(self, path, block, offset, total, unit, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
-    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank)
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in `unit` [SI]
     integer, intent(in) :: offset       !! entries before this rank's
     integer, intent(in) :: total        !! entries of all ranks
-    character(len=*), intent(in) :: unit, meaning
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
     real(wp), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = reshape(block, [size(block)])
@@ -219,11 +219,11 @@ contains
   !> Adds 64-bit integers of which each rank has consecutive entries.
   subroutine put_long_block(self, path, block, offset, total, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(long), intent(in) :: block(:) !! entries of this rank
     integer, intent(in) :: offset         !! entries before this rank's
     integer, intent(in) :: total          !! entries of all ranks
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! a sentence
     integer(long), target :: buffer(max(1, size(block)))
     integer(hid_t) :: kind
 
@@ -236,11 +236,11 @@ contains
   !> Adds unsigned bytes of which each rank has consecutive entries.
   subroutine put_byte_block(self, path, block, offset, total, meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(c_int8_t), intent(in) :: block(:) !! entries of this rank
     integer, intent(in) :: offset             !! entries before this rank's
     integer, intent(in) :: total              !! entries of all ranks
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! a sentence
     integer(c_int8_t), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = block
@@ -253,11 +253,11 @@ contains
     unit, &
                         meaning)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t), intent(in) :: stored, held !! types in the file and in memory
-    type(c_ptr), intent(in) :: buffer
-    integer, intent(in) :: components, entries, offset, total
-    character(len=*), intent(in) :: unit, meaning
+    type(c_ptr), intent(in) :: buffer !! this rank's entries
+    integer, intent(in) :: components, entries, offset, total !! of an entry; here, before, in all
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
 
     integer(hsize_t) :: extent(2), part(2), start(2)
     integer(hid_t) :: space, memory, dataset
@@ -293,8 +293,8 @@ contains
   !> Unit and meaning of a dataset.
   subroutine describe(self, dataset, unit, meaning)
     class(result_file_type), intent(inout) :: self
-    integer(hid_t), intent(in) :: dataset
-    character(len=*), intent(in) :: unit, meaning
+    integer(hid_t), intent(in) :: dataset !! of the HDF5 library
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
 
     call write_text_attribute(dataset, 'unit', unit, self%failed)
     call write_text_attribute(dataset, 'meaning', meaning, self%failed)
@@ -303,7 +303,7 @@ contains
   !> Adds a text attribute to a group.
   subroutine mark_text(self, group, name, words)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: group, name, words
+    character(len=*), intent(in) :: group, name, words !! of the file; the attribute and its text
     integer(hid_t) :: place
     integer :: status
 
@@ -315,8 +315,8 @@ contains
   !> Adds an attribute of integers to a group.
   subroutine mark_longs(self, group, name, numbers)
     class(result_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: group, name
-    integer(long), intent(in) :: numbers(:)
+    character(len=*), intent(in) :: group, name !! of the file; of the attribute
+    integer(long), intent(in) :: numbers(:) !! of the attribute
     integer(long), target :: buffer(size(numbers))
     integer(hid_t) :: place, kind, space, attribute
     integer :: status

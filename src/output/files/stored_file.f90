@@ -30,11 +30,11 @@ contains
   !>
   !> Fails when it is no HDF5 file.
   subroutine open_stored_file(path, communicator, information, file, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's, of the ranks that read
     integer, intent(in) :: information  !! MPI's null information
-    type(stored_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(stored_file_type), intent(out) :: file !! the file being read
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer(hid_t) :: access
     integer :: status
 
@@ -54,7 +54,7 @@ contains
 
   !> Ends reading.
   subroutine close_stored_file(file)
-    type(stored_file_type), intent(inout) :: file
+    type(stored_file_type), intent(inout) :: file !! the file being read
     integer :: status
 
     call h5pclose_f(file%collective, status)
@@ -64,7 +64,7 @@ contains
   !> Whether there is a dataset or group of this path, in a group that is there.
   function has(self, path) result(there)
     class(stored_file_type), intent(in) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     logical :: there
     integer :: status
 
@@ -75,7 +75,7 @@ contains
   !> A text; empty where there is none.
   function words(self, path)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=:), allocatable :: words
     character(kind=c_char, len=:), allocatable, target :: buffer
     type(c_ptr) :: address
@@ -106,7 +106,7 @@ contains
   !> One number.
   function scalar(self, path) result(number)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp) :: number
     real(wp), target :: value
     type(c_ptr) :: address
@@ -127,7 +127,7 @@ contains
   !> One whole number.
   function whole_number(self, path) result(number)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer :: number
     number = nint(self%scalar(path))
   end function whole_number
@@ -135,7 +135,7 @@ contains
   !> A list of numbers, all of it on all ranks.
   function numbers(self, path) result(list)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), allocatable :: list(:)
     integer :: entries
 
@@ -146,7 +146,7 @@ contains
   !> Entries of a list; 0 where it cannot be read.
   function entries_of(self, path) result(entries)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer :: entries
     integer(hid_t) :: dataset, space
     integer(hsize_t) :: extent(1), most(1)
@@ -173,8 +173,8 @@ contains
   !> Consecutive entries of a field, for each rank its own; one component makes it a plain list.
   function block_of_rank(self, path, components, offset, entries) result(block)
     class(stored_file_type), intent(inout) :: self
-    character(len=*), intent(in) :: path
-    integer, intent(in) :: components
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    integer, intent(in) :: components !! of an entry
     integer, intent(in) :: offset  !! entries before this rank's
     integer, intent(in) :: entries !! of this rank
     real(wp) :: block(components, entries)

@@ -24,12 +24,12 @@ contains
   !> Fails when it cannot be written.
   subroutine write_table_file(path, communicator, information, provenance, summary, members, &
                               file, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator, information !! MPI's, of one rank
-    type(quantity_type), intent(in) :: provenance(:), summary(:)
-    type(table_member_type), intent(in) :: members(:)
-    type(result_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(quantity_type), intent(in) :: provenance(:), summary(:) !! the answer
+    type(table_member_type), intent(in) :: members(:) !! a row each
+    type(result_file_type), intent(out) :: file !! the file being written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     character(len=:), allocatable :: names(:), reasons(:)
     type(history_row_type) :: rows(size(members))
     integer :: i, length

@@ -16,9 +16,9 @@ contains
   !>
   !> Fails when the system refuses.
   subroutine write_text_file(path, words, error)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=*), intent(in) :: words !! with its line ends
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer :: unit, status
     logical :: done
 
@@ -40,7 +40,7 @@ contains
 
   !> Whether a file can be made in a folder.
   function folder_is_writable(folder) result(writable)
-    character(len=*), intent(in) :: folder
+    character(len=*), intent(in) :: folder !! of the results
     logical :: writable
     integer :: unit, status
 

@@ -34,8 +34,8 @@ contains
 
   !> Reads the group.
   subroutine read_accuracy_case(keys, accuracy, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(accuracy_case_type), intent(out) :: accuracy
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(accuracy_case_type), intent(out) :: accuracy !! what `&accuracy` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
 
     call keys%start_group('accuracy', optional=.true., present_in_file=accuracy%present, &
@@ -54,10 +54,10 @@ contains
 
   !> The number must be one of the analysis, and of one answer.
   subroutine check_accuracy(keys, accuracy, sweep, output, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(accuracy_case_type), intent(in) :: accuracy
-    type(sweep_case_type), intent(in) :: sweep
-    type(output_case_type), intent(in) :: output
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(accuracy_case_type), intent(in) :: accuracy !! what `&accuracy` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    type(output_case_type), intent(in) :: output !! what `&output` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
 
     if (.not. accuracy%present .or. analysis == 0) return

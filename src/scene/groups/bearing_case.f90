@@ -26,8 +26,8 @@ contains
 
   !> Reads the group.
   subroutine read_bearing_case(keys, bearing, needed, with_film, misplaced)
-    type(case_keys_type), intent(inout) :: keys
-    type(bearing_case_type), intent(out) :: bearing
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bearing_case_type), intent(out) :: bearing !! what `&bearing` asks for
     logical, intent(in) :: needed             !! the scene has a pad
     logical, intent(in) :: with_film          !! and a film between it and a shaft
     character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
@@ -52,14 +52,14 @@ contains
 
   !> Angle that the pad covers [rad].
   elemental function pad_angle(bearing) result(angle)
-    type(bearing_case_type), intent(in) :: bearing
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     real(wp) :: angle
     angle = full_turn - bearing%leading_edge_angle
   end function pad_angle
 
   !> Length of the unrolled pad [m].
   elemental function pad_length(bearing) result(length)
-    type(bearing_case_type), intent(in) :: bearing
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     real(wp) :: length
     length = bearing%radius*pad_angle(bearing)
   end function pad_length

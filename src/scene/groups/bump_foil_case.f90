@@ -42,9 +42,9 @@ contains
 
   !> Reads the group.
   subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass, with_pitch, with_width)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(out) :: foil
-    type(bearing_case_type), intent(in) :: bearing
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bump_foil_case_type), intent(out) :: foil !! what `&bump_foil` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     logical, intent(in) :: as_shell   !! the strip is meshed: its shape must be known
     logical, intent(in) :: with_mass  !! and its density too
     logical, intent(in) :: with_pitch !! more of it than an arc is meshed; no pad tells the pitch
@@ -88,14 +88,14 @@ contains
 
   !> Whether there are flats between the bumps.
   elemental function has_flats(foil) result(flats)
-    type(bump_foil_case_type), intent(in) :: foil
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: flats
     flats = foil%pitch > 2.0_wp*foil%half_length*(1.0_wp + rounding)
   end function has_flats
 
   !> Whether a pitch is shorter than the bump's arc, or not known.
   elemental function bumps_overlap(foil) result(overlap)
-    type(bump_foil_case_type), intent(in) :: foil
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: overlap
     overlap = foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)
   end function bumps_overlap

@@ -50,10 +50,10 @@ contains
 
   !> Reads the group; a strip that touches nothing need not have it.
   subroutine read_contact_case(keys, contact, load, foil, clearance, analysis, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(contact_case_type), intent(out) :: contact
-    type(strip_load_case_type), intent(in) :: load
-    type(bump_foil_case_type), intent(in) :: foil
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(contact_case_type), intent(out) :: contact !! what `&contact` asks for
+    type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp), intent(in) :: clearance !! of a bearing [m]
     integer, intent(in) :: analysis   !! 0 where it is not known
     integer, intent(in) :: model      !! of the foils, `foil_rigid`, ...; 0 where it is not known

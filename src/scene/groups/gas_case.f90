@@ -18,8 +18,8 @@ contains
 
   !> Reads the group.
   subroutine read_gas_case(keys, gas, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(gas_case_type), intent(out) :: gas
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(gas_case_type), intent(out) :: gas !! what `&gas` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
     logical :: needed
 

@@ -29,11 +29,11 @@ contains
 
   !> Reads the group; its defaults are those of the bearing.
   subroutine read_mesh_case(keys, mesh, bearing, foil, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(mesh_case_type), intent(out) :: mesh
-    type(bearing_case_type), intent(in) :: bearing
-    type(bump_foil_case_type), intent(in) :: foil
-    type(model_case_type), intent(in) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(mesh_case_type), intent(out) :: mesh !! what `&mesh` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     logical :: given, can_align
 
     call keys%start_group('mesh')
@@ -80,8 +80,8 @@ contains
 
   !> Elements along the pad where the case does not say: whole pitches that cover it.
   elemental function default_circumferential_elements(bearing, foil) result(elements)
-    type(bearing_case_type), intent(in) :: bearing
-    type(bump_foil_case_type), intent(in) :: foil
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer :: elements
     real(wp), parameter :: rounding = 1.0e-9_wp !! whole pitches are not rounded up, relative
     real(wp) :: pitches

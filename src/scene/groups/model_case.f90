@@ -58,8 +58,8 @@ contains
 
   !> Reads the group.
   subroutine read_model_case(keys, model, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(out) :: model
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(model_case_type), intent(out) :: model !! what `&model` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
 
     call keys%start_group('model', required=is_bearing(analysis))

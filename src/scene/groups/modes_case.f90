@@ -28,8 +28,8 @@ contains
 
   !> Reads the group.
   subroutine read_modes_case(keys, modes, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(modes_case_type), intent(out) :: modes
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(modes_case_type), intent(out) :: modes !! what `&modes` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
 
     call keys%start_group('modes', optional=analysis /= analysis_modes, &

@@ -27,8 +27,8 @@ contains
 
   !> Reads the group; what it must hold depends on the analysis.
   subroutine read_operation_case(keys, operation, analysis, may_rest)
-    type(case_keys_type), intent(inout) :: keys
-    type(operation_case_type), intent(out) :: operation
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(operation_case_type), intent(out) :: operation !! what `&operation` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
 

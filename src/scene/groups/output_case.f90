@@ -24,8 +24,8 @@ contains
 
   !> Reads the group.
   subroutine read_output_case(keys, output)
-    type(case_keys_type), intent(inout) :: keys
-    type(output_case_type), intent(out) :: output
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(output_case_type), intent(out) :: output !! what `&output` asks for
     logical :: chosen(size(field_words))
 
     chosen = field_words == 'all'

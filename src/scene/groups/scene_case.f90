@@ -23,8 +23,8 @@ contains
 
   !> Reads the group. The analysis is 0 where it was misspelt.
   subroutine read_scene_case(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_case_type), intent(out) :: scene
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_case_type), intent(out) :: scene !! what `&scene` asks for
 
     scene%title = ''
     call keys%start_group('scene')

@@ -28,8 +28,8 @@ contains
 
   !> Reads the group; without it nothing touches.
   subroutine read_shaft_contact_case(keys, contact, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(shaft_contact_case_type), intent(out) :: contact
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(shaft_contact_case_type), intent(out) :: contact !! what `&shaft_contact` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
 
     call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
@@ -46,11 +46,11 @@ contains
 
   !> What the asperities load must have equations of its own, and at rest they must carry something.
   subroutine check_shaft_contact(keys, contact, model, operation, sweep, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(shaft_contact_case_type), intent(in) :: contact
-    type(model_case_type), intent(in) :: model
-    type(operation_case_type), intent(in) :: operation
-    type(sweep_case_type), intent(in) :: sweep
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(shaft_contact_case_type), intent(in) :: contact !! what `&shaft_contact` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
     logical :: rests
 

@@ -36,9 +36,9 @@ contains
 
   !> Reads the group; the touch-down gap's default is a part of the clearance.
   subroutine read_solver_case(keys, solver, bearing, touches)
-    type(case_keys_type), intent(inout) :: keys
-    type(solver_case_type), intent(out) :: solver
-    type(bearing_case_type), intent(in) :: bearing
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(solver_case_type), intent(out) :: solver !! what `&solver` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     logical, intent(in) :: touches !! solid contact carries the shaft where the film does not
 
     call keys%start_group('solver')

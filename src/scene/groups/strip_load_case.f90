@@ -46,8 +46,8 @@ contains
 
   !> Reads the group.
   subroutine read_strip_load_case(keys, load, bumps, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(strip_load_case_type), intent(out) :: load
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(strip_load_case_type), intent(out) :: load !! what `&strip_load` asks for
     integer, intent(in) :: bumps    !! of the strip, 0 where not known
     integer, intent(in) :: analysis !! 0 where it is not known
     logical :: needed
@@ -139,8 +139,8 @@ contains
 
   !> Pressure on every bump, from the smallest x on [Pa].
   pure function crest_pressures(load, bumps) result(pressure)
-    type(strip_load_case_type), intent(in) :: load
-    integer, intent(in) :: bumps
+    type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
+    integer, intent(in) :: bumps !! of the strip
     real(wp) :: pressure(bumps)
     integer :: n
 
@@ -157,15 +157,15 @@ contains
 
   !> Force on every crest line over the whole width [N].
   pure function crest_forces(load, foil) result(force)
-    type(strip_load_case_type), intent(in) :: load
-    type(bump_foil_case_type), intent(in) :: foil
+    type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp) :: force(foil%bumps)
     force = crest_pressures(load, foil%bumps)*foil%pitch*foil%width
   end function crest_forces
 
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
   elemental function bump_stiffness(foil) result(stiffness)
-    type(bump_foil_case_type), intent(in) :: foil
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp) :: stiffness
     real(wp), parameter :: largest_power = 60.0_wp !! of ten; no foil comes near, and products hold
     real(wp) :: power
@@ -183,8 +183,8 @@ contains
   !> About how far the whole load presses the bumps down [m]; a small part of their height where
   !> there is no load.
   elemental function typical_deflection(load, foil) result(deflection)
-    type(strip_load_case_type), intent(in) :: load
-    type(bump_foil_case_type), intent(in) :: foil
+    type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp) :: deflection
     real(wp), parameter :: part_of_height = 1.0e-3_wp
     real(wp) :: stiffness !! [N/m^3]

@@ -37,8 +37,8 @@ contains
 
   !> Reads the group.
   subroutine read_sweep_case(keys, sweep, analysis)
-    type(case_keys_type), intent(inout) :: keys
-    type(sweep_case_type), intent(out) :: sweep
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(out) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
     type(rule_type) :: rule
 
@@ -64,8 +64,8 @@ contains
 
   !> The operating point with one of the sweep's values in it.
   pure function operation_at(operation, sweep, point) result(there)
-    type(operation_case_type), intent(in) :: operation
-    type(sweep_case_type), intent(in) :: sweep
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: point  !! number of the value
     type(operation_case_type) :: there
 

@@ -26,8 +26,8 @@ contains
 
   !> Reads the group.
   subroutine read_top_foil_case(keys, foil, needed, with_mass)
-    type(case_keys_type), intent(inout) :: keys
-    type(top_foil_case_type), intent(out) :: foil
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(top_foil_case_type), intent(out) :: foil !! what `&top_foil` asks for
     logical, intent(in) :: needed    !! the scene has the foil as a structure
     logical, intent(in) :: with_mass !! its density must be known
 

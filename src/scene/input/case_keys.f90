@@ -37,13 +37,13 @@ contains
   !> One real number.
   subroutine real_key(self, name, value, unit, meaning, rule, required, default, given)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
-    real(wp), intent(inout) :: value            !! the default on entry
-    character(len=*), intent(in) :: unit, meaning
-    type(rule_type), intent(in), optional :: rule
-    logical, intent(in), optional :: required
-    character(len=*), intent(in), optional :: default
-    logical, intent(out), optional :: given
+    character(len=*), intent(in) :: name !! of the key
+    real(wp), intent(inout) :: value !! [its unit] the default on entry
+    character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
+    type(rule_type), intent(in), optional :: rule !! that the value keeps
+    logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
+    logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
 
     call self%describe(name, 'real', unit, meaning)
@@ -55,13 +55,13 @@ contains
   !> A fixed number of real numbers; all of them must be given.
   subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
-    real(wp), intent(inout) :: values(:)        !! the defaults on entry
-    character(len=*), intent(in) :: unit, meaning
-    type(rule_type), intent(in), optional :: rule
-    logical, intent(in), optional :: required
-    character(len=*), intent(in), optional :: default
-    logical, intent(out), optional :: given
+    character(len=*), intent(in) :: name !! of the key
+    real(wp), intent(inout) :: values(:) !! [their unit] the defaults on entry
+    character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
+    type(rule_type), intent(in), optional :: rule !! that the value keeps
+    logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
+    logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
     integer :: i
 
@@ -81,13 +81,13 @@ contains
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
   subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
-    real(wp), allocatable, intent(out) :: values(:)
+    character(len=*), intent(in) :: name !! of the key
+    real(wp), allocatable, intent(out) :: values(:) !! [their unit] as many as the file gives
     integer, intent(in) :: most                 !! values at most
-    character(len=*), intent(in) :: unit, meaning
-    type(rule_type), intent(in), optional :: rule
-    logical, intent(in), optional :: required
-    character(len=*), intent(in), optional :: default
+    character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
+    type(rule_type), intent(in), optional :: rule !! that the value keeps
+    logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     integer, allocatable :: elements(:)
     integer :: i
     logical :: must
@@ -106,13 +106,13 @@ contains
   !> One whole number.
   subroutine integer_key(self, name, value, meaning, rule, required, default, given)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry
-    character(len=*), intent(in) :: meaning
-    type(rule_type), intent(in) :: rule
-    logical, intent(in), optional :: required
-    character(len=*), intent(in), optional :: default
-    logical, intent(out), optional :: given
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    type(rule_type), intent(in) :: rule !! that the value keeps
+    logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
+    logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
     integer :: number
@@ -134,10 +134,10 @@ contains
   !> Yes or no.
   subroutine logical_key(self, name, value, meaning, default)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     logical, intent(inout) :: value             !! the default on entry
-    character(len=*), intent(in) :: meaning
-    character(len=*), intent(in), optional :: default
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
     logical :: truth
@@ -158,9 +158,9 @@ contains
   !> Free text.
   subroutine string_key(self, name, value, meaning)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     character(len=:), allocatable, intent(inout) :: value !! the default on entry
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem, words
 
@@ -184,11 +184,11 @@ contains
   !> One of several words, as its number in their list.
   subroutine choice_key(self, name, value, words, meaning, required)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry; 0 where none was read
     character(len=*), intent(in) :: words(:)    !! blank-padded
-    character(len=*), intent(in) :: meaning
-    logical, intent(in), optional :: required
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    logical, intent(in), optional :: required !! a case without it is wrong
     integer, allocatable :: elements(:)
 
     call self%describe(name, '`'//choices(words)//'`', '', meaning)
@@ -201,10 +201,10 @@ contains
   !> Several of several words.
   subroutine words_key(self, name, chosen, words, meaning)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     logical, intent(inout) :: chosen(:)         !! one a word; the default on entry
     character(len=*), intent(in) :: words(:)    !! blank-padded
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
     integer, allocatable :: elements(:)
     integer :: i, choice
 
@@ -222,7 +222,7 @@ contains
   !> A key that the rest of the scene has no use for: its echo must not show a value.
   subroutine useless_key(self, name, meaning, why)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name, meaning
+    character(len=*), intent(in) :: name, meaning !! of the key; what it means
     character(len=*), intent(in) :: why !! it must not be given
     integer, allocatable :: elements(:)
 

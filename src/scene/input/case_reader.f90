@@ -58,10 +58,10 @@ contains
   !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
   subroutine start_group(self, name, required, optional, present_in_file, misplaced)
     class(case_reader_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     logical, intent(in), optional :: required !! its absence is a mistake
     logical, intent(in), optional :: optional !! without it, what it describes is not there
-    logical, intent(out), optional :: present_in_file
+    logical, intent(out), optional :: present_in_file !! the file has the group
     character(len=*), intent(in), optional :: misplaced !! why it does not fit; empty where it does
     integer :: group
     logical :: is_required, is_optional
@@ -98,14 +98,14 @@ contains
   !> All mistakes as one error; none where the file is right.
   subroutine report(self, error)
     class(case_reader_type), intent(in) :: self
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     if (self%complaints%count > 0) call fail(error, self%complaints%report(), status_input)
   end subroutine report
 
   !> Complains about a key whose value does not fit the rest of the scene.
   subroutine complain(self, group, key, rule, element)
     class(case_reader_type), intent(inout) :: self
-    character(len=*), intent(in) :: group, key
+    character(len=*), intent(in) :: group, key !! names in the case file
     character(len=*), intent(in) :: rule      !! what it should be
     integer, intent(in), optional :: element  !! of a list
     integer, allocatable :: elements(:)
@@ -139,7 +139,7 @@ contains
   !> Whether a key stands in the file, be it misspelt; not before `finish`.
   function meant(self, group, key)
     class(case_reader_type), intent(in) :: self
-    character(len=*), intent(in) :: group, key
+    character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
     meant = self%book%is_meant(group, key)
   end function meant
@@ -154,9 +154,9 @@ contains
   !> Notes what a key is.
   subroutine describe(self, name, type_words, unit, meaning)
     class(case_reader_type), intent(inout) :: self
-    character(len=*), intent(in) :: name, type_words
+    character(len=*), intent(in) :: name, type_words !! of the key; kind of value, in words
     character(len=*), intent(in) :: unit    !! '1' for a pure number, empty for words
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
 
     self%key%name = name
     self%key%type_words = type_words
@@ -170,9 +170,9 @@ contains
     character(len=*), intent(in) :: value_words      !! the default in figures
     integer, intent(in) :: most                      !! values at most, or `single`
     integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
-    logical, intent(in), optional :: required
-    character(len=*), intent(in), optional :: default
-    logical, intent(out), optional :: given
+    logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: default !! shown where the default is no plain number
+    logical, intent(out), optional :: given !! the file has it
 
     self%complaints_before = self%complaints%count
     self%key%required = .false.
@@ -190,7 +190,7 @@ contains
   !> Writes the echo of the key.
   subroutine end_key(self, value_words, is_set)
     class(case_reader_type), intent(inout) :: self
-    character(len=*), intent(in) :: value_words
+    character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set  !! a value that is a default is more than a placeholder
     call self%notes%add_line(self%key, value_words, is_set)
   end subroutine end_key
@@ -200,8 +200,8 @@ contains
     class(case_reader_type), intent(inout) :: self
     integer, intent(in) :: item                !! the value's number in the file
     integer, intent(in) :: element             !! of a list, 0 for a single value
-    real(wp), intent(inout) :: value           !! unchanged where a rule is broken
-    type(rule_type), intent(in), optional :: rule
+    real(wp), intent(inout) :: value !! [its unit] unchanged where a rule is broken
+    type(rule_type), intent(in), optional :: rule !! that the value keeps
     character(len=:), allocatable :: problem
     real(wp) :: number
 
@@ -219,7 +219,7 @@ contains
     class(case_reader_type), intent(inout) :: self
     integer, intent(in) :: item             !! the value's number in the file
     integer, intent(in) :: element          !! of a list, 0 for a single value
-    character(len=*), intent(in) :: words(:)
+    character(len=*), intent(in) :: words(:) !! that may be chosen
     integer, intent(inout) :: value         !! unchanged where the word is none of the list
     character(len=:), allocatable :: word, near, problem
     integer :: i

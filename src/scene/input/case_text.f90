@@ -16,9 +16,9 @@ contains
   !>
   !> Fails when it does not exist, is a folder, cannot be read, is empty, too long or binary.
   subroutine read_case_text(file, words, error)
-    character(len=*), intent(in) :: file
+    character(len=*), intent(in) :: file !! name of the case file
     character(len=:), allocatable, intent(out) :: words
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     character(len=:), allocatable :: problem
 
     words = ''

@@ -95,7 +95,7 @@ contains
 
   !> What the user typed, fit for a terminal: printable, on one line and not too long.
   pure function shown(words) result(clean)
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! as the user typed them
     character(len=:), allocatable :: clean
     integer :: i, code
     logical :: gap

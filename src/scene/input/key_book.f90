@@ -38,9 +38,9 @@ contains
   !> Adds a group.
   pure subroutine add_group(self, group, line, required)
     class(key_book_type), intent(inout) :: self
-    character(len=*), intent(in) :: group
+    character(len=*), intent(in) :: group !! of the file
     integer, intent(in) :: line      !! of the file, 0 where it is absent
-    logical, intent(in) :: required
+    logical, intent(in) :: required !! a case without it is wrong
     type(name_type) :: name
 
     if (.not. allocated(self%groups)) then
@@ -56,10 +56,10 @@ contains
   !> Adds a key.
   pure subroutine add_key(self, group, key, given, required, meaning)
     class(key_book_type), intent(inout) :: self
-    character(len=*), intent(in) :: group, key
+    character(len=*), intent(in) :: group, key !! names in the case file
     logical, intent(in) :: given     !! it stands in the file
-    logical, intent(in) :: required
-    character(len=*), intent(in) :: meaning
+    logical, intent(in) :: required !! a case without it is wrong
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
     type(name_type) :: name
 
     name%given = given
@@ -73,7 +73,7 @@ contains
   !> Line of a group in the file, 0 where it is absent.
   pure function group_line(self, group) result(line)
     class(key_book_type), intent(in) :: self
-    character(len=*), intent(in) :: group
+    character(len=*), intent(in) :: group !! of the file
     integer :: line
     integer :: i
 
@@ -85,7 +85,7 @@ contains
   !> Whether a key stands in the file, be it misspelt.
   pure function is_meant(self, group, key) result(meant)
     class(key_book_type), intent(in) :: self
-    character(len=*), intent(in) :: group, key
+    character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
     meant = any(self%key_groups == group .and. self%key_names == key .and. &
                 (self%keys%given .or. self%keys%misspelt))
@@ -94,8 +94,8 @@ contains
   !> Complains about unknown groups and keys, and about missing ones that no misspelling explains.
   subroutine check_names(self, file, complaints)
     class(key_book_type), intent(inout) :: self
-    type(namelist_file_type), intent(in) :: file
-    type(complaints_type), intent(inout) :: complaints
+    type(namelist_file_type), intent(in) :: file !! the case file, scanned
+    type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     character(len=:), allocatable :: group_name
     integer :: i
 

@@ -15,12 +15,12 @@ contains
   !>
   !> There are no elements where the key is absent, and where a mistake was complained about.
   subroutine find_elements(file, group, key, most, elements, given, complaints)
-    type(namelist_file_type), intent(in) :: file
-    character(len=*), intent(in) :: group, key
+    type(namelist_file_type), intent(in) :: file !! the case file, scanned
+    character(len=*), intent(in) :: group, key !! names in the case file
     integer, intent(in) :: most                      !! values at most; 0: one, without index
     integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
     logical, intent(out), optional :: given          !! the key stands in the file
-    type(complaints_type), intent(inout), optional :: complaints
+    type(complaints_type), intent(inout), optional :: complaints !! the mistakes found so far
     type(complaints_type) :: found
     integer, allocatable :: filled(:), owner(:)
     integer :: entry, mistakes, last

@@ -38,7 +38,7 @@ contains
   !> Begins a group.
   pure subroutine start_group(self, name, is_echoed)
     class(key_notes_type), intent(inout) :: self
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the key
     logical, intent(in) :: is_echoed !! false for an optional group that is absent
 
     if (.not. allocated(self%echo)) then
@@ -65,7 +65,7 @@ contains
   !> Adds the row of a key.
   pure subroutine add_row(self, key, value_words)
     class(key_notes_type), intent(inout) :: self
-    type(key_type), intent(in) :: key
+    type(key_type), intent(in) :: key !! of the group
     character(len=*), intent(in) :: value_words !! default in figures
     character(len=:), allocatable :: default
 
@@ -79,8 +79,8 @@ contains
   !> Adds the line of a key.
   pure subroutine add_line(self, key, value_words, is_set)
     class(key_notes_type), intent(inout) :: self
-    type(key_type), intent(in) :: key
-    character(len=*), intent(in) :: value_words
+    type(key_type), intent(in) :: key !! of the group
+    character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set !! a value with a default in words is more than a placeholder
     character(len=:), allocatable :: line
 
@@ -99,7 +99,7 @@ contains
 
   !> Words as a namelist string.
   pure function quoted(words)
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! to stand in quotes
     character(len=:), allocatable :: quoted
     integer :: i
 
@@ -113,7 +113,7 @@ contains
 
   !> Numbers that read back exactly, separated by commas.
   pure function value_list(values) result(words)
-    real(wp), intent(in) :: values(:)
+    real(wp), intent(in) :: values(:) !! [their unit] of a key
     character(len=:), allocatable :: words
     integer :: i
 

@@ -31,8 +31,8 @@ contains
   !> Scans the text of a namelist file.
   pure subroutine scan_namelist(words, file, complaints)
     character(len=*), intent(in) :: words                !! the whole file
-    type(namelist_file_type), intent(out) :: file
-    type(complaints_type), intent(inout) :: complaints
+    type(namelist_file_type), intent(out) :: file !! the case file, scanned
+    type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     type(scanner_type) :: scanner
     integer :: i, n
 

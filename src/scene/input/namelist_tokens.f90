@@ -34,8 +34,8 @@ contains
   !> All tokens of a text; comments and blanks are dropped.
   pure subroutine find_tokens(words, tokens, complaints)
     character(len=*), intent(in) :: words                     !! the whole file
-    type(token_type), allocatable, intent(out) :: tokens(:)
-    type(complaints_type), intent(inout) :: complaints
+    type(token_type), allocatable, intent(out) :: tokens(:) !! names, signs and values of the line
+    type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     integer :: at, line, n
 
     allocate (tokens(len(words)))

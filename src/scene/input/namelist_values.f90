@@ -25,7 +25,7 @@ contains
 
   !> Kind of a value without quotes.
   pure function word_kind(words) result(kind_of_word)
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! a value as it was typed
     integer :: kind_of_word
 
     kind_of_word = value_word
@@ -37,7 +37,7 @@ contains
 
   !> A count as typed; -1 where the words are none, `huge` where it is too large to hold.
   pure function repeat_count(words) result(number)
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! a value as it was typed
     integer :: number
     integer(long) :: wide
     integer :: i
@@ -98,7 +98,7 @@ contains
   !> A real number; `problem` is empty where it could be read.
   pure subroutine read_real(words, number, problem)
     character(len=*), intent(in) :: words                 !! as typed
-    real(wp), intent(out) :: number
+    real(wp), intent(out) :: number !! [its unit] that stands there
     character(len=:), allocatable, intent(out) :: problem !! the rule that is broken
     character(len=:), allocatable :: plain
     integer :: i, power, status
@@ -181,7 +181,7 @@ contains
   !> A whole number; `problem` is empty where it could be read.
   pure subroutine read_integer(words, number, problem)
     character(len=*), intent(in) :: words                 !! as typed
-    integer, intent(out) :: number
+    integer, intent(out) :: number !! that stands there
     character(len=:), allocatable, intent(out) :: problem !! the rule that is broken
     character(len=:), allocatable :: bare
     real(wp) :: as_real
@@ -212,7 +212,7 @@ contains
   !> A logical; `problem` is empty where it could be read.
   pure subroutine read_logical(words, truth, problem)
     character(len=*), intent(in) :: words                 !! as typed
-    logical, intent(out) :: truth
+    logical, intent(out) :: truth !! that stands there
     character(len=:), allocatable, intent(out) :: problem !! the rule that is broken
 
     truth = .false.

@@ -23,36 +23,36 @@ contains
 
   !> low <= value
   elemental function at_least(low) result(rule)
-    real(wp), intent(in) :: low
+    real(wp), intent(in) :: low !! smallest value [its unit]
     type(rule_type) :: rule
     rule = rule_type(has_low=.true., low=low)
   end function at_least
 
   !> low <= value <= high
   elemental function from_to(low, high) result(rule)
-    real(wp), intent(in) :: low, high
+    real(wp), intent(in) :: low, high !! smallest and largest value [its unit]
     type(rule_type) :: rule
     rule = rule_type(has_low=.true., has_high=.true., low=low, high=high)
   end function from_to
 
   !> low <= value < high
   elemental function from_below(low, high) result(rule)
-    real(wp), intent(in) :: low, high
+    real(wp), intent(in) :: low, high !! smallest and largest value [its unit]
     type(rule_type) :: rule
     rule = rule_type(has_low=.true., has_high=.true., high_is_in=.false., low=low, high=high)
   end function from_below
 
   !> low < value < high
   elemental function between(low, high) result(rule)
-    real(wp), intent(in) :: low, high
+    real(wp), intent(in) :: low, high !! smallest and largest value [its unit]
     type(rule_type) :: rule
     rule = rule_type(.true., .true., .false., .false., low, high)
   end function between
 
   !> What a value breaks, in words; empty where it keeps the rule.
   pure function broken_rule(rule, value) result(words)
-    type(rule_type), intent(in) :: rule
-    real(wp), intent(in) :: value
+    type(rule_type), intent(in) :: rule !! that the value keeps
+    real(wp), intent(in) :: value !! [its unit] to be looked at
     character(len=:), allocatable :: words
     logical :: kept
 
