@@ -5,7 +5,7 @@ program gfb
   use gfb_run_log, only: run_log_type
   use gfb_job_groups, only: job_type, start_job, stop_job
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
-  use gfb_scene, only: key_table
+  use gfb_scene_reading, only: key_table
   use gfb_command_line, only: command_line_type, read_command_line, help_text
   use gfb_provenance, only: version_text
   use gfb_run_case, only: run_case

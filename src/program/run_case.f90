@@ -6,7 +6,8 @@ module gfb_run_case
   use gfb_run_log, only: run_log_type
   use gfb_partition_report, only: show_bearing_partition, show_strip_partition
   use gfb_petsc_session, only: this_rank, rank_count, wall_time, any_rank
-  use gfb_scene, only: scene_type, read_scene
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: read_scene
   use gfb_text_file, only: folder_is_writable
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type

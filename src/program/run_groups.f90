@@ -3,7 +3,8 @@ module gfb_run_groups
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_scene, only: scene_type, read_scene
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: read_scene
   use gfb_job_groups, only: job_type
   use gfb_command_line, only: command_line_type
   use gfb_run_case, only: check_scene, prepare_folder

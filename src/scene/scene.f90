@@ -1,40 +1,26 @@
-!> One case file as plain values: what was asked, in SI, checked.
+!> One case file as plain values: what was asked, in SI.
 module gfb_scene
-  use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: accuracy_case_type, read_accuracy_case, check_accuracy
-  use gfb_bearing_case, only: bearing_case_type, read_bearing_case
-  use gfb_branch_rules, only: check_edge_lift, check_turn_folds
-  use gfb_bump_foil_case, only: bump_foil_case_type, read_bump_foil_case
-  use gfb_case_keys, only: case_keys_type
-  use gfb_case_text, only: read_case_text
-  use gfb_contact_case, only: contact_case_type, read_contact_case
-  use gfb_gas_case, only: gas_case_type, read_gas_case
-  use gfb_mesh_case, only: mesh_case_type, read_mesh_case
-  use gfb_model_case, only: model_case_type, read_model_case, meshes_foils
-  use gfb_operation_case, only: operation_case_type, read_operation_case
-  use gfb_output_case, only: output_case_type, read_output_case
-  use gfb_modes_case, only: modes_case_type, read_modes_case, part_half_arc, part_arc, part_flat, &
-                            part_strip, part_top_foil
-  use gfb_scene_case, only: scene_case_type, read_scene_case, is_bearing, misplaced_group, &
-                            analysis_strip, analysis_modes
-  use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
-                             check_rigid_position, check_strip, check_plates, &
-                             check_friction_memory, check_stability, check_restart, &
-                             check_linear_solver
-  use gfb_shaft_contact_case, only: shaft_contact_case_type, read_shaft_contact_case, &
-                                    check_shaft_contact
-  use gfb_solver_case, only: solver_case_type, read_solver_case
-  use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
-  use gfb_sweep_case, only: sweep_case_type, read_sweep_case
-  use gfb_top_foil_case, only: top_foil_case_type, read_top_foil_case
+  use gfb_accuracy_case, only: accuracy_case_type
+  use gfb_bearing_case, only: bearing_case_type
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_contact_case, only: contact_case_type
+  use gfb_gas_case, only: gas_case_type
+  use gfb_mesh_case, only: mesh_case_type
+  use gfb_model_case, only: model_case_type
+  use gfb_modes_case, only: modes_case_type
+  use gfb_operation_case, only: operation_case_type
+  use gfb_output_case, only: output_case_type
+  use gfb_scene_case, only: scene_case_type
+  use gfb_shaft_contact_case, only: shaft_contact_case_type
+  use gfb_solver_case, only: solver_case_type
+  use gfb_strip_load_case, only: strip_load_case_type
+  use gfb_sweep_case, only: sweep_case_type
+  use gfb_top_foil_case, only: top_foil_case_type
   implicit none (type, external)
   private
-  public :: scene_type, read_scene, read_scene_text, key_table
-
-  character(len=*), parameter :: ending = '.nml'
 
   !> One scene.
-  type :: scene_type
+  type, public :: scene_type
     character(len=:), allocatable :: file      !! as the user gave it
     character(len=:), allocatable :: name      !! of the file, without folder and ending
     character(len=:), allocatable :: verbatim  !! text of the file
@@ -56,131 +42,4 @@ module gfb_scene
     type(solver_case_type) :: solver
     type(output_case_type) :: output
   end type scene_type
-
-contains
-
-  !> Reads a case file.
-  !>
-  !> Fails with all mistakes of the file, one a line.
-  subroutine read_scene(file, scene, error)
-    character(len=*), intent(in) :: file !! name of the case file
-    type(scene_type), intent(out) :: scene !! what the case file asks for
-    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    character(len=:), allocatable :: words
-
-    call read_case_text(file, words, error)
-    if (allocated(error)) return
-    call read_scene_text(words, file, scene, error)
-  end subroutine read_scene
-
-  !> Reads the text of a case file.
-  subroutine read_scene_text(words, file, scene, error)
-    character(len=*), intent(in) :: words  !! of the whole file
-    character(len=*), intent(in) :: file   !! its name
-    type(scene_type), intent(out) :: scene !! what the case file asks for
-    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    type(case_keys_type) :: keys
-
-    scene%file = trim(file)
-    scene%name = base_name(scene%file)
-    scene%verbatim = words
-    call keys%open_text(words, file)
-    call read_groups(keys, scene)
-    call keys%finish()
-    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis, &
-                     scene%shaft_contact%present)
-    call check_shaft_contact(keys, scene%shaft_contact, scene%model, scene%operation, scene%sweep, &
-                             scene%general%analysis)
-    call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
-    call check_foundation(keys, scene%model)
-    call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
-    call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
-    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
-                     scene%model)
-    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
-                             scene%general%analysis)
-    call check_plates(keys, scene%strip_load, scene%general%analysis)
-    call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
-    call check_turn_folds(keys, scene%sweep, scene%model)
-    call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
-    call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
-    scene%echo = keys%notes%echo
-    call keys%report(error)
-  end subroutine read_scene_text
-
-  !> All groups and keys there are, as a Markdown table.
-  function key_table() result(table)
-    character(len=:), allocatable :: table
-    type(case_keys_type) :: keys
-    type(scene_type) :: scene
-
-    call keys%open_text('', 'none')
-    call read_groups(keys, scene)
-    table = keys%notes%table
-  end function key_table
-
-  !> Reads the groups in the order in which they need each other.
-  subroutine read_groups(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(inout) :: scene
-    logical :: modes !! they are asked for, and of what is known
-    logical :: plate !! of the top foil
-    logical :: bumps !! the bump foil is meshed
-    logical :: both  !! of a bearing: both foils are meshed
-    logical :: arc   !! an arc of it alone
-
-    call read_scene_case(keys, scene%general)
-    call read_modes_case(keys, scene%modes, scene%general%analysis)
-    call read_model_case(keys, scene%model, scene%general%analysis)
-    associate (analysis => scene%general%analysis, part => scene%modes%part)
-      modes = analysis == analysis_modes .and. part /= 0
-      plate = modes .and. part == part_top_foil
-      both = is_bearing(analysis) .and. meshes_foils(scene%model%foil)
-      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. both
-      arc = modes .and. (part == part_half_arc .or. part == part_arc)
-      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
-                             is_bearing(analysis), bearing_misplaced(analysis, part))
-      call read_gas_case(keys, scene%gas, analysis)
-      call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
-      call read_operation_case(keys, scene%operation, analysis, scene%shaft_contact%present)
-      call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
-                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
-      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
-      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
-                             scene%bearing%clearance, analysis, scene%model%foil)
-    end associate
-    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-    call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
-    call read_output_case(keys, scene%output)
-    call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
-  end subroutine read_groups
-
-  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
-  pure function bearing_misplaced(analysis, part) result(words)
-    integer, intent(in) :: analysis, part !! 0 where they are not known
-    character(len=:), allocatable :: words
-
-    words = misplaced_group(analysis, is_bearing(analysis))
-    if (analysis /= analysis_modes) return
-    words = ''
-    if (part /= 0 .and. part /= part_top_foil) then
-      words = "needs part = 'top_foil' in &modes: no other part has a pad"
-    end if
-  end function bearing_misplaced
-
-  !> A file's name without its folder and its ending.
-  pure function base_name(file) result(name)
-    character(len=*), intent(in) :: file
-    character(len=:), allocatable :: name
-    integer :: last
-
-    name = file(index(file, '/', back=.true.) + 1:)
-    last = len(name) - len(ending)
-    if (last < 1) return
-    if (name(last + 1:) == ending) name = name(:last)
-  end function base_name
 end module gfb_scene
