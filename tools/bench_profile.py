@@ -8,7 +8,6 @@ difference of what engineers read is in the table.
 
 import os
 import pathlib
-import subprocess
 import tempfile
 
 import bench_bearing
@@ -16,6 +15,7 @@ import bench_strip
 from bench_runs import PARTS, Bench
 from bench_scaling import free_memory, strip_case
 from bench_scaling_page import smallest
+from gfb_builds import program_of, version_of
 from gfb_tools import ROOT, markdown_table, plain_table, stop
 
 SHELLS = {**bench_bearing.CASE, "model": {"foil": "shell"}}
@@ -42,7 +42,7 @@ LIMIT = 3600.0  # CPU time of a run [s]
 def add_options(parser):
     """The command's own options."""
     parser.add_argument("--before", metavar="PROGRAM", required=True,
-                        help="the program to compare with, or a git revision, which is built in build/bench/before")
+                        help="the program to compare with, or a git revision, which is built in build/compare")
     parser.add_argument("--repetitions", metavar="N", type=int, default=1, help="of each job; default: %(default)s")
     parser.add_argument("--jobs", metavar="N", type=int, default=len(JOBS), choices=range(1, len(JOBS) + 1),
                         help="only the first N of the jobs; the later ones need minutes")
@@ -72,28 +72,6 @@ def run(options):
     versions = before, version_of(programs["after"])
     (folder/"profile.md").write_text(page(measured, tables, options, versions), encoding="utf-8")
     return "\n".join(plain_table(*table) for table in tables) + f"\npage is in {folder}\n"
-
-
-def program_of(before):
-    """The program to compare with; a revision is built first."""
-    if os.path.isfile(before):
-        return os.path.abspath(before)
-    found = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", "--quiet", before + "^{commit}"],
-                           capture_output=True, text=True, check=False)
-    revision = found.stdout.strip()
-    if found.returncode != 0:
-        stop(f"--before {before}: neither a program nor a revision")
-    source, built = (ROOT/"build/bench/before"/revision/name for name in ("source", "build"))
-    if not (built/"gfb").exists():
-        print(f"building {revision[:12]} ...", flush=True)
-        source.mkdir(parents=True, exist_ok=True)
-        archive = subprocess.run(["git", "-C", ROOT, "archive", revision], capture_output=True, check=True).stdout
-        subprocess.run(["tar", "-x", "-C", source], input=archive, check=True)
-        for command in (["cmake", "-S", source, "-B", built, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"],
-                        ["cmake", "--build", built, "--target", "gfb"]):
-            if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode != 0:
-                stop(f"--before {before}: '{' '.join(map(str, command))}' failed", 3)
-    return str(built/"gfb")
 
 
 def times(rows):
@@ -138,11 +116,6 @@ def largest_parts(after):
     """The two parts that take most, in words."""
     order = sorted(PARTS, key=lambda name: -after[name])[:2]
     return " and ".join(f"{name} ({100.0*after[name]/after['whole']:.0f} %)" for name in order)
-
-
-def version_of(program):
-    """What a program says of itself."""
-    return subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
 
 
 def page(measured, tables, options, versions):
