@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Tests of tools/structure on a small tree made here: what is counted, and that a passed limit fails."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = pathlib.Path(os.environ.get("GFB_SOURCE", pathlib.Path(__file__).parents[2]))/"tools/structure"
+KINDS = "module gfb_kinds\n  implicit none\nend module gfb_kinds\n"
+GAP = """module gfb_gap
+  use gfb_kinds, only: wp
+  implicit none
+  private
+  public :: gap
+contains
+  pure function gap(angle, clearance, &
+                    tilt) result(h)
+    real(wp), intent(in) :: angle !! theta [rad]
+    !> C [m]
+    real(wp), intent(in) :: clearance
+    real(wp), intent(in) :: tilt(2)
+    real(wp) :: h
+    h = clearance*cos(angle)
+  end function gap
+  pure function inner(unexplained) result(h)
+    real(wp), intent(in) :: unexplained
+    real(wp) :: h
+    h = unexplained
+  end function inner
+end module gfb_gap
+"""
+FOIL = """module gfb_asks
+  use gfb_gap, only: gap
+contains
+  subroutine ask(bearing)
+    select type (foil => bearing%foil)
+    end select
+  end subroutine ask
+end module gfb_asks
+"""
+
+
+class Structure(unittest.TestCase):
+    """The tool on sources of three modules."""
+
+    def run_tool(self, *options, files=None):
+        """Output and exit status."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (files or {"base/kinds.f90": KINDS, "film/gap.f90": GAP}).items():
+                path = pathlib.Path(folder, "src", name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            run = subprocess.run([sys.executable, TOOL, "--sources", f"{folder}/src", *options],
+                                 capture_output=True, text=True, check=False)
+        return run.stdout + run.stderr, run.returncode
+
+    def test_comments_of_public_procedures_are_counted(self):
+        words, _ = self.run_tool()
+        self.assertIn("dummy arguments with a comment: 66.7 % (at least 95 %), of 3", words)
+        self.assertIn("real dummy arguments with a unit: 66.7 %", words)
+
+    def test_what_is_missing_is_named(self):
+        words, _ = self.run_tool("--missing")
+        self.assertEqual(words.strip(), "src/film/gap.f90:7: gap: tilt has no comment")
+
+    def test_a_passed_limit_fails(self):
+        self.assertEqual(self.run_tool("--check")[1], 1)
+        whole = GAP.replace(":: tilt(2)", ":: tilt(2) !! of the shaft [rad]")
+        self.assertEqual(self.run_tool("--check", files={"base/kinds.f90": KINDS, "film/gap.f90": whole})[1], 0)
+
+    def test_chains_and_types_of_foils_are_seen(self):
+        words, _ = self.run_tool(files={"base/kinds.f90": KINDS, "film/gap.f90": GAP, "run/asks.f90": FOIL})
+        self.assertIn("longest chain of use: 3 ", words)
+        self.assertIn("select type on foil models outside src/model/foil: 1 (limit 0), asks.f90", words)
+
+    def test_a_full_folder_and_a_long_file_are_seen(self):
+        files = {f"base/m{i}.f90": f"module gfb_m{i}\nend module gfb_m{i}\n" for i in range(17)}
+        files["film/long.f90"] = "module gfb_long\n" + "! line\n"*400 + "end module gfb_long\n"
+        words, status = self.run_tool("--check", files=files)
+        self.assertIn("! files in one folder, at most: 17 (limit 16), src/base", words)
+        self.assertIn("! lines of a file, at most: 402 (limit 400), src/film/long.f90", words)
+        self.assertEqual(status, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
