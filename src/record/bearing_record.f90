@@ -12,8 +12,7 @@ module gfb_bearing_record
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type
   use gfb_bearing_summary, only: answer_quantities, count_quantities
-  use gfb_contact_output, only: contact_record_type
-  use gfb_foil_output, only: record_foil_contacts
+  use gfb_contact_record, only: contact_record_type, record_foil_contacts
   use gfb_tilt_response, only: tilt_response_type, row_quantities
   implicit none (type, external)
   private
@@ -61,8 +60,8 @@ contains
     call add_quantity(row%quantity, count_quantities(newton%iterations, newton%factorizations))
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
-    call record_foil_contacts(bearing, size(record%history), max(1, size(scene%sweep%values)), &
-                              record%contacts)
+    call record_foil_contacts(bearing%foil, size(record%history), &
+                              max(1, size(scene%sweep%values)), record%contacts)
   end subroutine add_row
 
   !> The word for the scene's analysis.

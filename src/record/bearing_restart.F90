@@ -12,7 +12,6 @@ module gfb_bearing_restart
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
-  use gfb_shell_foil, only: shell_foil_type
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors
   use gfb_arc_length, only: create_arc
   use gfb_arc_memory, only: arc_memory_size, arc_numbers, recall_arc
@@ -76,10 +75,7 @@ contains
     call file%put_numbers('/bearing/point', point_numbers(bearing%point), 'SI', point_words)
     call put_vector(bearing_order(bearing), bearing%state, '/bearing/state', &
                     'scaled unknowns: film, foil, shaft', file)
-    select type (foil => bearing%foil)
-    class is (shell_foil_type)
-      call put_contacts(foil%contacts, foil%bumps%mesh%rows, '/bearing/contacts', file)
-    end select
+    call put_contacts(bearing%foil%contacts, bearing%foil%contacts%rows, '/bearing/contacts', file)
   end subroutine put_state
 
   !> An operating point as plain numbers.
@@ -182,12 +178,9 @@ contains
     call file%group('/record')
     call file%put_numbers('/record/tilt_response', response_numbers(record%tilted), 'SI', &
                           'slopes of the torque and what belongs to them')
-    select type (foil => bearing%foil)
-    class is (shell_foil_type)
-      if (size(record%history) == 0) return
-      call put_contact_record(foil%nodal_contacts(), foil%bumps%mesh%rows, record%contacts, &
-                              size(record%history), '/record/contacts', file)
-    end select
+    if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
+    call put_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, record%contacts, &
+                            size(record%history), '/record/contacts', file)
   end subroutine put_record
 
   !> Builds a scene's equations and puts them where the file says.
@@ -241,10 +234,7 @@ contains
     bearing%film%flow%upwind = file%count('/bearing/upwind') == 1
     call read_point(file, '/bearing/point', bearing%point)
     call read_vector(bearing_order(bearing), '/bearing/state', file, bearing%state)
-    select type (foil => bearing%foil)
-    class is (shell_foil_type)
-      call read_contacts(foil%bumps%mesh%rows, '/bearing/contacts', file, foil%contacts)
-    end select
+    call read_contacts(bearing%foil%contacts%rows, '/bearing/contacts', file, bearing%foil%contacts)
   end subroutine read_state
 
   !> The reverse of `put_record`.
@@ -263,11 +253,8 @@ contains
     if (file%failed) return
     record%judged = judged(1)%quantity
     call recall_response(number, record%tilted)
-    select type (foil => bearing%foil)
-    class is (shell_foil_type)
-      if (size(record%history) == 0) return
-      call read_contact_record(foil%nodal_contacts(), foil%bumps%mesh%rows, size(record%history), &
-                               '/record/contacts', file, record%contacts)
-    end select
+    if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
+    call read_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, size(record%history), &
+                             '/record/contacts', file, record%contacts)
   end subroutine read_record
 end module gfb_bearing_restart

@@ -3,16 +3,10 @@
 module gfb_natural_order
   use petscvec
   use gfb_kinds, only: wp, long
-  use gfb_petsc_session, only: this_rank, rank_count, largest_over_ranks, fetch_entries
+  use gfb_petsc_session, only: this_rank, rank_count, largest_number, fetch_entries
   use gfb_mesh_dm, only: local_mesh_type
-  use gfb_shell_geometry, only: node_unknowns
   use gfb_bump_contacts, only: contact_sleeve, contact_top
   use gfb_contact_set, only: contact_set_type
-  use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_model, only: foil_model_type
-  use gfb_foundation_foil, only: foundation_foil_type
-  use gfb_shell_foil, only: shell_foil_type
-  use gfb_beam_foil, only: beam_foil_type
   use gfb_unknown_layout, only: shaft_unknowns
   use gfb_bearing_system, only: bearing_system_type
   use gfb_strip_system, only: strip_system_type, plate_forced
@@ -39,9 +33,9 @@ contains
     integer :: i
 
     film = film_numbers(bearing%mesh)
-    foil = foil_numbers(bearing%foil)
-    order%number = [film, largest(film) + foil]
-    order%total = largest(order%number)
+    foil = bearing%foil%natural_numbers()
+    order%number = [film, largest_number(film) + foil]
+    order%total = largest_number(order%number)
     if (.not. bearing%floats) return
     if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, shaft_unknowns)]
     order%total = order%total + shaft_unknowns
@@ -62,8 +56,8 @@ contains
     type(strip_system_type), intent(in) :: strip
     type(natural_order_type) :: order
 
-    order%number = structure_numbers(strip%foil)
-    order%total = largest(order%number)
+    order%number = strip%foil%natural_numbers()
+    order%total = largest_number(order%number)
     if (strip%plate /= plate_forced) return
     order%total = order%total + 1
     if (this_rank() == rank_count() - 1) order%number = [order%number, order%total]
@@ -77,11 +71,11 @@ contains
     integer :: sleeve_lines
 
     associate (point => contacts%point)
-      sleeve_lines = largest(pack(point%line, point%law == contact_sleeve))
+      sleeve_lines = largest_number(pack(point%line, point%law == contact_sleeve))
       order%number = (point%line - 1)*rows + modulo(point%node - 1, rows) + 1
       where (point%law == contact_top) order%number = order%number + sleeve_lines*rows
     end associate
-    order%total = largest(order%number)
+    order%total = largest_number(order%number)
   end function contact_order
 
   !> Numbers of the film nodes this rank owns, in the order of the vectors.
@@ -96,58 +90,6 @@ contains
       if (mesh%owned(node)) number(mesh%first_unknown(node) - first + 1) = mesh%mesh_node(node)
     end do
   end function film_numbers
-
-  !> Numbers of the foil's unknowns this rank owns, in the order of the vectors.
-  function foil_numbers(foil) result(number)
-    class(foil_model_type), intent(in) :: foil
-    integer, allocatable :: number(:), top(:), bumps(:)
-
-    allocate (number(0))
-    select type (foil)
-    class is (beam_foil_type)
-      number = foil%global_unknown(foil%own_place)
-    class is (shell_foil_type)
-      top = structure_numbers(foil%top)
-      bumps = structure_numbers(foil%bumps)
-      number = [top, largest(top) + bumps]
-    class is (foundation_foil_type)
-      number = foil%global_unknown(foil%owned_station)
-    end select
-  end function foil_numbers
-
-  !> Numbers of a structure's unknowns this rank owns, in the order of the vectors.
-  function structure_numbers(structure) result(number)
-    type(foil_structure_type), intent(in) :: structure
-    integer, allocatable :: number(:), unknown(:), natural(:)
-    integer :: node, component, found, here
-
-    associate (part => structure%part)
-      allocate (number(part%owned_unknowns), unknown(part%owned_unknowns), natural(part%owned_unknowns))
-      found = 0
-      do node = 1, size(part%mesh_node)
-        if (.not. part%owned(node)) cycle
-        do component = 1, node_unknowns
-          here = structure%unknown(component, part%mesh_node(node))
-          if (here < 0) cycle
-          found = found + 1
-          unknown(found) = here
-          natural(found) = node_unknowns*(part%mesh_node(node) - 1) + component
-        end do
-      end do
-    end associate
-    if (found /= size(number)) error stop 'a node''s unknowns are not where its mesh says'
-    if (found > 0) number(unknown - minval(unknown) + 1) = natural
-  end function structure_numbers
-
-  !> The largest number on any rank, 0 where there is none.
-  function largest(number)
-    integer, intent(in) :: number(:) !! of this rank
-    integer :: largest
-    real(wp) :: found(1)
-
-    found = largest_over_ranks([real(maxval([0, number]), wp)])
-    largest = nint(found(1))
-  end function largest
 
   !> Numbers before those that this rank writes and reads, an equal part.
   function offset_of_rank(self) result(offset)

@@ -9,7 +9,7 @@ module gfb_restart_fields
   use gfb_contact_memory, only: memory_size, contact_memory, recall_contacts
   use gfb_result_file, only: result_file_type
   use gfb_stored_file, only: stored_file_type
-  use gfb_contact_output, only: contact_record_type, record_fields
+  use gfb_contact_record, only: contact_record_type, record_fields
   implicit none (type)
   private
   public :: put_vector, read_vector, put_contacts, read_contacts, put_contact_record, read_contact_record

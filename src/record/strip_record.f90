@@ -3,7 +3,7 @@ module gfb_strip_record
   use gfb_strip_answer, only: strip_answer_type
   use gfb_strip_companions, only: companions_type
   use gfb_case_file, only: history_row_type
-  use gfb_contact_output, only: contact_record_type
+  use gfb_contact_record, only: contact_record_type
   implicit none (type, external)
   private
 

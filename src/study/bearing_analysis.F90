@@ -38,7 +38,8 @@ module gfb_bearing_analysis
   use gfb_case_file, only: case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
-  use gfb_foil_output, only: add_foil_grids, foil_contact_arrays, foil_quantities
+  use gfb_foil_output, only: add_foil_grids
+  use gfb_contact_record, only: foil_contact_arrays
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -79,7 +80,7 @@ contains
     call enter_stage('output')
     call write_bearing(scene, plan, folder, provenance(command), log, bearing, converged, record, &
                        cost_of(bearing, newton, start_time), rank_count(), &
-                       foil_contact_arrays(bearing, record%contacts, size(record%history)), summary, error)
+                       foil_contact_arrays(bearing%foil, record%contacts, size(record%history)), summary, error)
     if (present(answer)) call move_alloc(summary, answer)
     if (converged .and. .not. allocated(error)) call drop_restart(restart)
     call leave_stage()
@@ -113,7 +114,7 @@ contains
     call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
       bearing%force_scale))
     call add_quantity(summary, summary_quantities(record%tilted))
-    call add_quantity(summary, foil_quantities(bearing))
+    call add_quantity(summary, bearing%foil%sizes())
     if (allocated(record%judged)) call add_quantity(summary, record%judged)
     call add_quantity(summary, cost_quantities(cost))
     call show_closing_block(log, converged, answer, bearing%film%clearance, cost, ranks, blas_in_use())

@@ -17,7 +17,7 @@ module gfb_bearing_refinement
   use gfb_bearing_analysis, only: solve_scene, write_bearing, cost_of
   use gfb_newton, only: newton_type, destroy_newton
   use gfb_restart, only: restart_type
-  use gfb_foil_output, only: foil_contact_arrays
+  use gfb_contact_record, only: foil_contact_arrays
   use gfb_petsc_session, only: rank_count
   use gfb_provenance, only: provenance
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -98,7 +98,7 @@ contains
     cost%factorizations = self%factorizations
     self%record%judged = [self%record%judged, more]
     call write_bearing(scene, self%plan, folder, provenance(command), log, self%bearing, good, self%record, cost, &
-                       rank_count(), foil_contact_arrays(self%bearing, self%record%contacts, &
+                       rank_count(), foil_contact_arrays(self%bearing%foil, self%record%contacts, &
                        size(self%record%history)), summary, error)
     call leave_stage()
   end subroutine write_refined_bearing

@@ -26,7 +26,8 @@ module gfb_branch_analysis
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
-  use gfb_foil_output, only: add_foil_grids, foil_contact_arrays, foil_quantities
+  use gfb_foil_output, only: add_foil_grids
+  use gfb_contact_record, only: foil_contact_arrays
   use gfb_provenance, only: provenance
   use gfb_c_library, only: peak_memory
   implicit none (type, external)
@@ -160,11 +161,11 @@ contains
       bearing%film%clearance, bearing%force_scale))
     call add_quantity(summary, count_quantity('branches', size(order), &
       'equilibria found; those above are the first''s'))
-    call add_quantity(summary, foil_quantities(bearing))
+    call add_quantity(summary, bearing%foil%sizes())
     call add_quantity(summary, cost_quantities(cost_type(bearing%unknowns, newton%iterations, &
       newton%factorizations, wall_time() - start_time, peak_memory())))
     call write_result_set(scene, folder, .true., provenance(command), summary, record%history, &
-                          foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, log, error)
+                          foil_contact_arrays(bearing%foil, record%contacts, size(record%history)), grids, log, error)
     call leave_stage()
   end subroutine write_branches
 

@@ -26,7 +26,7 @@ module gfb_strip_analysis
   use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path
   use gfb_case_file, only: history_row_type, case_array_type, add_arrays
   use gfb_result_set, only: result_grid_type, write_result_set
-  use gfb_foil_grid, only: create_foil_grid, add_displacement, add_node_field, add_stress
+  use gfb_foil_grid, only: create_foil_grid, add_displacement, add_contacts, add_stress
   use gfb_foil_stress, only: shell_stresses
   use gfb_foil_plan, only: plan_foil
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -35,7 +35,7 @@ module gfb_strip_analysis
   use gfb_strip_record, only: strip_run_type
   use gfb_strip_restart, only: keep_strip, recall_strip
   use gfb_strip_companions, only: strip_companions, show_companions, companion_arrays
-  use gfb_contact_output, only: record_contacts, contact_arrays, contact_field
+  use gfb_contact_record, only: record_contacts, contact_arrays
   use gfb_provenance, only: provenance, blas_in_use
   implicit none (type)
   private
@@ -306,7 +306,7 @@ contains
 
     type(result_grid_type) :: grid
     type(case_array_type), allocatable :: arrays(:)
-    real(wp), allocatable :: moved(:, :), force(:, :), state(:, :)
+    real(wp), allocatable :: moved(:, :)
     Vec :: solution
     PetscErrorCode :: ierr
 
@@ -314,11 +314,9 @@ contains
     call strip%foil_solution(solution)
     call strip%foil%displacements(solution, moved)
     PetscCallA(VecDestroy(solution, ierr))
-    call contact_field(strip%contacts, strip%foil, force, state)
     call create_foil_grid(strip%foil, 'bump_foil', grid)
     call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
-    call add_node_field(strip%foil, 'contact_force', 'N/m', 'on the foil, per length of contact line', force, grid)
-    call add_node_field(strip%foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
+    call add_contacts(strip%contacts, strip%foil, grid)
     call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
     arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
     call add_arrays(arrays, companion_arrays(run%companions))

@@ -62,7 +62,7 @@ contains
       largest(7) = film%peclet(pressure, gap, rough_step)
       largest = largest_over_ranks(largest)
     end associate
-    if (bearing%foil%has_elastic) call read_lifts(bearing, unknown, answer)
+    if (bearing%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
     if (bearing%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces) + answer%solid_force

@@ -7,30 +7,21 @@ module gfb_bearing_builder
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: pad_angle, leading_edge_periodic
   use gfb_operation_case, only: operation_case_type, angular_speed
-  use gfb_bump_foil_case, only: bump_foil_case_type
-  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
-                            foil_beam, meshes_foils, foundation_pressure_axial_mean, reduction_guyan
-  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations, shape_on_pad
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
   use gfb_solid_contact, only: solid_contact_type
-  use gfb_shell_foil, only: shell_foil_type
-  use gfb_shell_foil_builder, only: create_shell_foil
-  use gfb_beam_foil, only: beam_foil_type
-  use gfb_beam_foil_builder, only: create_beam_foil
+  use gfb_foil_models, only: build_foil
   use gfb_foil_model, only: foil_model_type
-  use gfb_rigid_foil, only: rigid_foil_type, create_rigid_foil
-  use gfb_foundation_foil, only: foundation_foil_type, create_local_foundation, &
-                                 create_mean_foundation
   use gfb_operating_point, only: operating_point_type
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, divide_bearing, film_mesh_of, operating_point, foundation_stiffness
+  public :: build_bearing, divide_bearing, film_mesh_of, operating_point
 
   !> What the program decided about a scene, and the mesh it asks for.
   type, public :: bearing_plan_type
@@ -69,7 +60,7 @@ contains
     associate (contact => scene%shaft_contact)
       bearing%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate
-    call create_foil(scene, bearing, division, foil, error)
+    call build_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)
     call leave_stage()
@@ -111,69 +102,6 @@ contains
       end if
     end associate
   end function film_mesh_of
-
-  !> The foil model the scene asks for.
-  !>
-  !> Fails where an element of a foil is degenerate.
-  subroutine create_foil(scene, bearing, division, foil, error)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(in) :: bearing !! with its film
-    type(division_type), intent(in) :: division      !! of film and bumps
-    class(foil_model_type), allocatable, intent(out) :: foil
-    type(error_type), allocatable, intent(out) :: error
-
-    type(shell_foil_type), allocatable :: shells
-    type(beam_foil_type), allocatable :: beams
-    type(rigid_foil_type), allocatable :: rigid
-    type(foundation_foil_type), allocatable :: foundation
-    integer :: rank, ranks
-    PetscErrorCode :: ierr
-
-    select case (scene%model%foil)
-    case (foil_rigid)
-      allocate (rigid)
-      call create_rigid_foil(size(bearing%mesh%mesh_node), rigid)
-      call move_alloc(rigid, foil)
-    case (foil_elastic_foundation)
-      allocate (foundation)
-      if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
-        call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
-        call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
-        call create_mean_foundation(bearing%whole, bearing%mesh, rank, ranks, &
-                                    foundation_stiffness(scene%model, scene%bump_foil), &
-                                    scene%gas%ambient_pressure, scene%bearing%clearance, foundation)
-      else
-        call create_local_foundation(size(bearing%mesh%mesh_node), &
-                                     foundation_stiffness(scene%model, scene%bump_foil), &
-                                     scene%gas%ambient_pressure, foundation)
-      end if
-      call move_alloc(foundation, foil)
-    case (foil_shell)
-      allocate (shells)
-      call create_shell_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, division, &
-                             scene%model%reduction == reduction_guyan, shells, error)
-      if (allocated(error)) return
-      call move_alloc(shells, foil)
-    case (foil_beam)
-      allocate (beams)
-      call create_beam_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, beams)
-      call move_alloc(beams, foil)
-    case default
-      error stop 'a foil model without equations'
-    end select
-  end subroutine create_foil
-
-  !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
-  pure function foundation_stiffness(model, bump_foil) result(stiffness)
-    type(model_case_type), intent(in) :: model
-    type(bump_foil_case_type), intent(in) :: bump_foil
-    real(wp) :: stiffness
-
-    stiffness = model%foundation_stiffness
-    if (stiffness > 0.0_wp) return
-    stiffness = walowit_anno_stiffness(bump_foil%youngs_modulus, bump_foil%poissons_ratio, &
-                                       bump_foil%thickness, bump_foil%half_length, bump_foil%pitch)
-  end function foundation_stiffness
 
   !> Where the scene puts the shaft, in SI.
   pure function operating_point(operation) result(point)

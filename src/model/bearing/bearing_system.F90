@@ -135,7 +135,7 @@ contains
     call create_exchange(layout%global, bearing%state, bearing%exchange)
     call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%whole%order, bearing%jacobian)
     call scale_unknowns(bearing)
-    if (bearing%foil%has_elastic) call fill_constant(bearing, layout)
+    if (bearing%foil%is_meshed()) call fill_constant(bearing, layout)
   end subroutine create_bearing_system
 
   !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
@@ -250,7 +250,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%film, ierr))
     valid = self%film%is_open(unknown(:nodes), gap, point)
     PetscCallA(PetscLogEventEnd(self%events%film, ierr))
-    if (self%foil%has_elastic) valid = .not. any_rank(.not. valid) ! its matrix is spread over the ranks
+    if (self%foil%is_meshed()) valid = .not. any_rank(.not. valid) ! its matrix is spread over the ranks
     if (valid) then
       PetscCallA(PetscLogEventBegin(self%events%film, ierr))
       call self%film%add_residual(unknown(:nodes), gap, point, value)
@@ -297,7 +297,7 @@ contains
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale
     gap = self%gap(unknown)
-    if (self%foil%has_elastic) then
+    if (self%foil%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
     else
       PetscCallA(MatZeroEntries(self%jacobian, ierr))
@@ -386,7 +386,7 @@ contains
     PetscErrorCode :: ierr
 
     work = 0.0_wp
-    if (.not. self%foil%has_elastic) return
+    if (.not. self%foil%is_meshed()) return
     PetscCallA(GFB_VecGetArrayRead(residual, force, ierr))
     PetscCallA(GFB_VecGetArrayRead(step, way, ierr))
     associate (first => self%mesh%owned_unknowns + 1, last => self%mesh%owned_unknowns + self%foil%owned)
@@ -518,7 +518,7 @@ contains
 
     if (.not. allocated(self%foil)) return
     PetscCallA(MatDestroy(self%jacobian, ierr))
-    if (self%foil%has_elastic) then
+    if (self%foil%is_meshed()) then
       PetscCallA(MatDestroy(self%constant, ierr))
     end if
     call self%foil%destroy()

@@ -51,7 +51,7 @@ contains
     do node = 1, size(taken)
       station = (mesh%mesh_node(node) - 1)/whole%rows() + 1
       row = mesh%mesh_node(node) - (station - 1)*whole%rows()
-      taken(node) = foil%has_elastic .and. mesh%owned(node) .and. foil%source(node) /= 0 .and. &
+      taken(node) = foil%is_meshed() .and. mesh%owned(node) .and. foil%source(node) /= 0 .and. &
         (station == 1 .or. station == whole%stations())
       share(node) = row_share(whole%row_axial, row)
     end do
@@ -78,7 +78,7 @@ contains
         allocate (edge%neighbours(2, pairs), edge%pair_rate(2, pairs), edge%distance(pairs))
       end if
       pairs = 0
-      do element = 1, merge(size(mesh%element_nodes, 2), 0, foil%has_elastic)
+      do element = 1, merge(size(mesh%element_nodes, 2), 0, foil%is_meshed())
         do corner = 1, size(mesh%element_nodes, 1)
           next = modulo(corner, size(mesh%element_nodes, 1)) + 1
           node = mesh%element_nodes([corner, next], element)

@@ -11,7 +11,7 @@ module gfb_bump_contacts
   use gfb_quad_mesh, only: quad_mesh_type
   implicit none (type, external)
   private
-  public :: set_contact_laws, bump_contact, crest_name, line_shares, line_length
+  public :: set_contact_laws, bump_contact, crest_name, line_shares, line_length, normal_line_force
 
   integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! laws of a set of bumps
   !> of a corner line among the node sets, before its number
@@ -106,4 +106,15 @@ contains
     real(wp) :: length
     length = mesh%position(axial, line(size(line))) - mesh%position(axial, line(1))
   end function line_length
+
+  !> Normal force of a contact per length of its line [N/m].
+  pure function normal_line_force(contacts, i) result(force)
+    type(contact_set_type), intent(in) :: contacts
+    integer, intent(in) :: i !! contact
+    real(wp) :: force !! [N/m]
+
+    associate (point => contacts%point(i))
+      force = merge(point%pressing, point%force(3), point%pressed)/point%length
+    end associate
+  end function normal_line_force
 end module gfb_bump_contacts

@@ -40,10 +40,12 @@ module gfb_contact_set
   type, public :: contact_set_type
     type(contact_law_type), allocatable :: law(:)
     type(contact_point_type), allocatable :: point(:)
+    integer :: rows = 1                        !! nodes of a contact line, in the slaves' mesh
     integer, allocatable :: global(:)          !! numbers, from 0, of the unknowns they touch
     real(wp) :: secant_penetration = 0.0_wp    !! glued contacts are as stiff as at this one [m]
     real(wp) :: floor_tangential = 0.0_wp      !! stiffness lent to a slave in the matrix, per length
     real(wp) :: floor_normal = 0.0_wp          !! [N/m2], so that a floating foil leaves it regular
+    logical :: lends = .true.                  !! `floor_normal` is lent; without, the matrix is exact
     real(wp) :: softening = 1.0_wp             !! factor of the stick length, of a homotopy
     real(wp) :: hardness = 1.0_wp              !! factor of the normal stiffness, of a homotopy
     real(wp) :: adhesion = 0.0_wp              !! stiffness against opening over that, of a homotopy
@@ -257,7 +259,7 @@ contains
       own = -point%derivative
       own(:, 3) = -own(:, 3) ! penetration grows against the normal
       if (.not. point%pressed .and. .not. self%glued .and. .not. own(3, 3) > 0.0_wp) then
-        own(3, 3) = self%floor_normal*point%length
+        own(3, 3) = merge(self%floor_normal, 0.0_wp, self%lends)*point%length
       end if
       own(1, 1) = own(1, 1) + self%floor_tangential*point%length
       own(2, 2) = own(2, 2) + self%floor_tangential*point%length

@@ -9,32 +9,71 @@
 !> width. What differs from shells is the stiffness, and how the foil is built and shown.
 module gfb_beam_foil
   use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
   use gfb_bump_contacts, only: line_shares
   use gfb_contact_set, only: contact_set_type, contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_foil_structure, only: foil_structure_type
-  use gfb_shell_foil, only: shell_foil_type
+  use gfb_planar_beam, only: beam_unknowns
+  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_stress, only: beam_stresses
+  use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   implicit none (type, external)
   private
 
-  !> Both foils, all of them on the first rank; the meshes are those that shells would have, the
+  !> Both foils, all of them on the first rank; the surfaces are those that shells would have, the
   !> numbers of unknowns those that a station's nodes share.
-  type, extends(shell_foil_type), public :: beam_foil_type
-    integer, allocatable :: top_number(:, :)  !! (5, stations) foil's own number of an unknown, 0: held
+  type, extends(meshed_foil_type), public :: beam_foil_type
+    type(foil_surface_type) :: top, bumps
+    integer, allocatable :: top_number(:, :)  !! (5, stations) foil's own number of an unknown, 0: fixed
     integer, allocatable :: bump_number(:, :) !! the same of the bump strip's
   contains
-    procedure :: split_displacements => beam_displacements
-    procedure :: nodal_contacts => beam_contacts
+    procedure :: natural_numbers => beam_natural_numbers
+    procedure :: surfaces => beam_surfaces
     procedure :: own_unknown => beam_own_unknown
+    procedure :: split_displacements => beam_displacements
+    procedure :: stresses => stresses_of_beams
+    procedure :: nodal_contacts => beam_contacts
+    procedure :: sizes => beam_sizes
+    procedure :: destroy => beam_destroy
   end type beam_foil_type
 
 contains
 
+  !> The foil's own numbers: the first rank has all of them.
+  function beam_natural_numbers(self) result(number)
+    class(beam_foil_type), intent(in) :: self
+    integer, allocatable :: number(:)
+    number = self%global_unknown(self%own_place)
+  end function beam_natural_numbers
+
+  !> Top foil and bump foil.
+  function beam_surfaces(self) result(list)
+    class(beam_foil_type), intent(in) :: self
+    type(foil_surface_type), allocatable :: list(:)
+    list = both_surfaces(self%top, self%bumps)
+  end function beam_surfaces
+
+  !> The unknown of a node's station.
+  pure function beam_own_unknown(self, surface, component, node) result(number)
+    class(beam_foil_type), intent(in) :: self
+    integer, intent(in) :: surface
+    integer, intent(in) :: component
+    integer, intent(in) :: node
+    integer :: number
+
+    if (surface == bump_surface) then
+      number = self%bump_number(component, (node - 1)/self%bumps%mesh%rows + 1)
+    else
+      number = self%top_number(component, (node - 1)/self%top%mesh%rows + 1)
+    end if
+    if (number > 0) number = self%own_place(number)
+  end function beam_own_unknown
+
   !> Displacements of all this rank's nodes of both foils: every node as its station.
   subroutine beam_displacements(self, unknown, top, bumps)
     class(beam_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) [m], [1]
+    real(wp), intent(in) :: unknown(:)
+    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :)
 
     associate (owned => unknown(self%first + self%own_place))
       top = moved(owned, self%top_number(:, stations_of(self%top)))
@@ -43,32 +82,16 @@ contains
   end subroutine beam_displacements
 
   !> Stations of this rank's nodes.
-  pure function stations_of(structure) result(station)
-    type(foil_structure_type), intent(in) :: structure
-    integer :: station(size(structure%part%mesh_node))
-    station = (structure%part%mesh_node - 1)/structure%mesh%rows + 1
+  pure function stations_of(surface) result(station)
+    type(foil_surface_type), intent(in) :: surface
+    integer :: station(size(surface%part%mesh_node))
+    station = (surface%part%mesh_node - 1)/surface%mesh%rows + 1
   end function stations_of
 
-  !> Local foil unknown of a component at one of this rank's own nodes; 0: held, or none of beams.
-  pure function beam_own_unknown(self, of_bumps, component, node) result(place)
-    class(beam_foil_type), intent(in) :: self
-    logical, intent(in) :: of_bumps  !! instead of the top foil
-    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
-    integer, intent(in) :: node      !! of the whole mesh
-    integer :: place
-
-    if (of_bumps) then
-      place = self%bump_number(component, (node - 1)/self%bumps%mesh%rows + 1)
-    else
-      place = self%top_number(component, (node - 1)/self%top%mesh%rows + 1)
-    end if
-    if (place > 0) place = self%own_place(place)
-  end function beam_own_unknown
-
-  !> Unknowns by their numbers, 0 where they are held.
+  !> Unknowns by their numbers, 0 where they are fixed.
   pure function moved(owned, number) result(value)
     real(wp), intent(in) :: owned(:)    !! the foil's unknowns, all of them on one rank
-    integer, intent(in) :: number(:, :) !! (5, nodes) from 1; 0: held
+    integer, intent(in) :: number(:, :) !! (5, nodes) from 1; 0: fixed
     real(wp) :: value(size(number, 1), size(number, 2))
     integer :: node, k
 
@@ -79,6 +102,15 @@ contains
       end do
     end do
   end function moved
+
+  !> Stresses of beams.
+  function stresses_of_beams(self, surface, moved) result(value)
+    class(beam_foil_type), intent(in) :: self
+    type(foil_surface_type), intent(in) :: surface
+    real(wp), intent(in) :: moved(:, :)
+    real(wp), allocatable :: value(:, :)
+    value = beam_stresses(surface, moved)
+  end function stresses_of_beams
 
   !> This rank's contacts, those of a line spread over its nodes.
   function beam_contacts(self) result(contacts)
@@ -110,4 +142,20 @@ contains
       point(k)%force = share(k)*point(k)%force
     end do
   end subroutine spread_line
+
+  !> Unknowns of the bump foil.
+  function beam_sizes(self) result(list)
+    class(beam_foil_type), intent(in) :: self
+    type(quantity_type), allocatable :: list(:)
+
+    allocate (list(0))
+    call add_quantity(list, count_quantity('foil_unknowns_full', beam_unknowns*self%bumps%mesh%stations, &
+                                           'of the bump foil, whole width, before constraints'))
+  end function beam_sizes
+
+  !> Frees what PETSc holds.
+  subroutine beam_destroy(self)
+    class(beam_foil_type), intent(inout) :: self
+    call self%free_matrix()
+  end subroutine beam_destroy
 end module gfb_beam_foil

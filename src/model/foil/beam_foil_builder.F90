@@ -21,7 +21,7 @@ module gfb_beam_foil_builder
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of
-  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type
   implicit none (type)
@@ -55,16 +55,15 @@ contains
     foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, window)
     unknowns = 0
     call number_stations(foil%top%mesh%stations, scene%top_foil%fixed_edge == top_foil_leading, unknowns, foil%top_number)
-    foil%top%unknowns = unknowns
     call number_stations(foil%bumps%mesh%stations, scene%bump_foil%fixed_edge /= fixed_edge_trailing, unknowns, &
                          foil%bump_number)
-    foil%bumps%unknowns = unknowns - foil%top%unknowns
     foil%owned = merge(unknowns, 0, mine)
     foil%top%section = plate_section(scene)
     foil%bumps%section = section_of(scene%bump_foil)
     call own_nodes(mine, foil%top)
     call own_nodes(mine, foil%bumps)
     call set_laws(scene, foil)
+    foil%contacts%rows = foil%bumps%mesh%rows
     call add_contacts(scene, foil)
     call create_stiffness(scene, foil)
     call place_unknowns(foil, merge(0, unknowns, mine), &
@@ -106,16 +105,16 @@ contains
   end function turning
 
   !> All nodes and elements of a foil, or none, are this rank's.
-  pure subroutine own_nodes(mine, structure)
+  pure subroutine own_nodes(mine, surface)
     logical, intent(in) :: mine
-    type(foil_structure_type), intent(inout) :: structure
+    type(foil_surface_type), intent(inout) :: surface
     integer :: i
 
-    associate (mesh => structure%mesh)
-      structure%local_node = [(i, i=1, merge(mesh%nodes(), 0, mine))]
-      structure%part%mesh_node = structure%local_node
-      allocate (structure%part%owned(size(structure%part%mesh_node)), source=.true.)
-      structure%my_elements = [(i, i=1, merge(mesh%elements(), 0, mine))]
+    associate (mesh => surface%mesh)
+      surface%local_node = [(i, i=1, merge(mesh%nodes(), 0, mine))]
+      surface%part%mesh_node = surface%local_node
+      allocate (surface%part%owned(size(surface%part%mesh_node)), source=.true.)
+      surface%my_elements = [(i, i=1, merge(mesh%elements(), 0, mine))]
     end associate
   end subroutine own_nodes
 
@@ -146,7 +145,7 @@ contains
     PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
-    foil%has_elastic = .true.
+    foil%has_matrix = .true.
     allocate (foil%row_entries(foil%owned), source=around)
   end subroutine create_stiffness
 

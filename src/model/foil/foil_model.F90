@@ -3,10 +3,18 @@
 !>
 !> A foil has unknowns of its own, or none. Its deflection at each film node follows from one
 !> unknown of the bearing: \( h_f = r (x - x_0) \). It adds its equations to those of the film.
+!>
+!> What depends on the model is deferred, so that the compiler names what a new model lacks; one
+!> without unknowns, surfaces or contacts answers with nothing. Contacts are the same in every model.
 module gfb_foil_model
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type
   use gfb_cost_events, only: cost_events_type
+  use gfb_bump_contacts, only: contact_top
+  use gfb_contact_law, only: state_open
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   implicit none (type)
   private
 
@@ -16,8 +24,7 @@ module gfb_foil_model
     integer :: first = 0      !! local unknowns of the bearing before the foil's first
     integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
     integer, allocatable :: row_entries(:) !! entries that the row of each owned unknown needs, at most
-    logical :: has_elastic = .false. !! linear equations of its own, in `elastic`
-    Mat :: elastic            !! their matrix, the foil's own numbers [SI]
+    Mat :: elastic            !! matrix of its linear equations, where it is meshed; the foil's own numbers [SI]
     type(cost_events_type) :: events !! of PETSc's log
     integer, allocatable :: global_unknown(:)  !! foil's own number of each local unknown, by owners
     real(wp), allocatable :: unknown_scale(:)  !! size of each local unknown, in its unit
@@ -27,25 +34,37 @@ module gfb_foil_model
     integer, allocatable :: source(:)
     real(wp), allocatable :: rate(:)           !! r, deflection over that unknown
     real(wp), allocatable :: origin(:)         !! x_0, the unknown's value without deflection
+    type(contact_set_type) :: contacts         !! this rank's; their unknowns are the local foil unknowns
+    real(wp) :: first_hardness = 1.0_wp        !! factor of their stiffness that a first answer begins with
   contains
     procedure(add_residual), deferred :: add_residual
     procedure(add_jacobian), deferred :: add_jacobian
+    procedure(add_constant), deferred :: add_constant
+    procedure(add_load_rates), deferred :: add_load_rates
     procedure(estimate), deferred :: estimate
-    procedure :: add_constant
-    procedure :: add_load_rates
+    procedure(is_meshed), deferred :: is_meshed
+    procedure(natural_numbers), deferred :: natural_numbers
+    procedure(surfaces), deferred :: surfaces
+    procedure(own_unknown), deferred :: own_unknown
+    procedure(motions), deferred :: motions
+    procedure(nodal_contacts), deferred :: nodal_contacts
+    procedure(sizes), deferred :: sizes
+    procedure(destroy), deferred :: destroy
+    procedure :: place
+    procedure :: local_unknowns
+    procedure :: own_part
+    procedure :: deflection
+    procedure :: has_contacts
     procedure :: settle
     procedure :: begin_step
+    procedure :: commit
     procedure :: set_hardness
     procedure :: set_adhesion
+    procedure :: set_lending
     procedure :: softest
     procedure :: crest_lengths
     procedure :: next_contact_change
     procedure :: add_penetration_rates
-    procedure :: commit
-    procedure :: destroy
-    procedure :: place
-    procedure :: local_unknowns
-    procedure :: deflection
   end type foil_model_type
 
   abstract interface
@@ -65,105 +84,95 @@ module gfb_foil_model
       Mat, intent(in) :: jacobian
     end subroutine add_jacobian
 
+    !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
+    !> what does.
+    subroutine add_constant(self, jacobian)
+      import :: foil_model_type, tMat
+      class(foil_model_type), intent(in) :: self
+      Mat, intent(in) :: jacobian
+    end subroutine add_constant
+
+    !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
+    !> node that depends on up to three unknowns of the bearing.
+    subroutine add_load_rates(self, column, slope, jacobian)
+      import :: foil_model_type, wp, tMat
+      class(foil_model_type), intent(in) :: self
+      integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
+      real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by them
+      Mat, intent(in) :: jacobian
+    end subroutine add_load_rates
+
     !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
     subroutine estimate(self, unknown)
       import :: foil_model_type, wp
       class(foil_model_type), intent(in) :: self
       real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
     end subroutine estimate
+
+    !> Whether top foil and bumps have meshes of their own: the matrix `elastic`, spread over all
+    !> ranks, equations that are forces, and edges that can lift.
+    pure function is_meshed(self) result(meshed)
+      import :: foil_model_type
+      class(foil_model_type), intent(in) :: self
+      logical :: meshed
+    end function is_meshed
+
+    !> Natural numbers, from 1, of the foil's unknowns this rank owns, in the order of the vectors:
+    !> they do not depend on how many ranks there are. All ranks ask.
+    function natural_numbers(self) result(number)
+      import :: foil_model_type
+      class(foil_model_type), intent(in) :: self
+      integer, allocatable :: number(:)
+    end function natural_numbers
+
+    !> The surfaces that are meshed, this rank's part of each; none where nothing is.
+    function surfaces(self) result(list)
+      import :: foil_model_type, foil_surface_type
+      class(foil_model_type), intent(in) :: self
+      type(foil_surface_type), allocatable :: list(:)
+    end function surfaces
+
+    !> Local foil unknown of a degree of freedom at one of this rank's own nodes; 0: fixed, or
+    !> condensed.
+    pure function own_unknown(self, surface, component, node) result(number)
+      import :: foil_model_type
+      class(foil_model_type), intent(in) :: self
+      integer, intent(in) :: surface   !! which of `surfaces`
+      integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+      integer, intent(in) :: node      !! of the surface's whole mesh
+      integer :: number
+    end function own_unknown
+
+    !> Displacements and stresses of each of `surfaces`. All ranks ask.
+    function motions(self, unknown) result(list)
+      import :: foil_model_type, surface_motion_type, wp
+      class(foil_model_type), intent(in) :: self
+      real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+      type(surface_motion_type), allocatable :: list(:)
+    end function motions
+
+    !> This rank's contacts, each of one node of the surface that has them.
+    function nodal_contacts(self) result(contacts)
+      import :: foil_model_type, contact_set_type
+      class(foil_model_type), intent(in) :: self
+      type(contact_set_type) :: contacts
+    end function nodal_contacts
+
+    !> Sizes that the summary shows.
+    function sizes(self) result(list)
+      import :: foil_model_type, quantity_type
+      class(foil_model_type), intent(in) :: self
+      type(quantity_type), allocatable :: list(:)
+    end function sizes
+
+    !> Frees what PETSc holds; may be called twice.
+    subroutine destroy(self)
+      import :: foil_model_type
+      class(foil_model_type), intent(inout) :: self
+    end subroutine destroy
   end interface
 
 contains
-
-  !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
-  !> what does; here nothing.
-  subroutine add_constant(self, jacobian)
-    class(foil_model_type), intent(in) :: self
-    Mat, intent(in) :: jacobian
-  end subroutine add_constant
-
-  !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
-  !> node that depends on up to three unknowns of the bearing. Here there are no such equations.
-  subroutine add_load_rates(self, column, slope, jacobian)
-    class(foil_model_type), intent(in) :: self
-    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
-    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by them
-    Mat, intent(in) :: jacobian
-  end subroutine add_load_rates
-
-  !> Moves the contacts' places on their laws to where the foils have gone. `moved` where it has
-  !> any; `settled` where each is linearised where it is. Here none.
-  subroutine settle(self, unknown, moved, settled)
-    class(foil_model_type), intent(inout) :: self
-    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-    logical, intent(out) :: moved, settled
-    moved = .false.
-    settled = .true.
-  end subroutine settle
-
-  !> Makes the contacts softer than the scene has them, for a first answer; here there are none.
-  subroutine set_hardness(self, hardness)
-    class(foil_model_type), intent(inout) :: self
-    real(wp), intent(in) :: hardness !! factor of their normal stiffness
-  end subroutine set_hardness
-
-  !> Lets the contacts hold what they touch, for a first answer; here there are none.
-  subroutine set_adhesion(self, adhesion)
-    class(foil_model_type), intent(inout) :: self
-    real(wp), intent(in) :: adhesion !! stiffness against opening over that against closing
-  end subroutine set_adhesion
-
-  !> The hardness to begin with, 1 where there is nothing to soften.
-  pure function softest(self) result(hardness)
-    class(foil_model_type), intent(in) :: self
-    real(wp) :: hardness
-    hardness = 1.0_wp
-  end function softest
-
-  !> Length of this rank's crest lines that touches nothing, and of all of them [m]; here there are
-  !> none.
-  pure function crest_lengths(self) result(length)
-    class(foil_model_type), intent(in) :: self
-    real(wp) :: length(2)
-    length = 0.0_wp
-  end function crest_lengths
-
-  !> The part of the way between two states, or on beyond, after which the first of this rank's
-  !> contacts opens or closes; huge where none does, as here.
-  pure function next_contact_change(self, here, ahead) result(way)
-    class(foil_model_type), intent(in) :: self
-    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
-    real(wp) :: way
-    way = huge(way)
-  end function next_contact_change
-
-  !> Adds up, for those contacts that change after that part of the way, the derivatives of their
-  !> penetrations after the bearing's local unknowns, in the sense in which they go; and how far they
-  !> go before they change. Here there are none.
-  pure subroutine add_penetration_rates(self, here, ahead, way, rate, distance, closes)
-    class(foil_model_type), intent(in) :: self
-    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
-    real(wp), intent(in) :: way               !! part of the way to the first change [1]
-    real(wp), intent(inout) :: rate(:)
-    real(wp), intent(inout) :: distance       !! sum of the penetrations' sizes [m]
-    logical, intent(inout) :: closes          !! one of them closes
-  end subroutine add_penetration_rates
-
-  !> A new Newton step begins where the contacts are; here none.
-  subroutine begin_step(self)
-    class(foil_model_type), intent(inout) :: self
-  end subroutine begin_step
-
-  !> Ends a load step of the scene: friction carries its slip along; here none.
-  subroutine commit(self, unknown)
-    class(foil_model_type), intent(inout) :: self
-    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-  end subroutine commit
-
-  !> Frees what PETSc holds; here nothing.
-  subroutine destroy(self)
-    class(foil_model_type), intent(inout) :: self
-  end subroutine destroy
 
   !> Tells the foil where its unknowns stand among those of the bearing.
   pure subroutine place(self, first)
@@ -171,6 +180,7 @@ contains
     integer, intent(in) :: first !! local unknowns before the foil's first
 
     self%first = first
+    if (.not. allocated(self%contacts%point)) allocate (self%contacts%point(0)) ! none
     where (self%source < 0) self%source = first - self%source
   end subroutine place
 
@@ -180,6 +190,14 @@ contains
     integer :: unknowns
     unknowns = size(self%global_unknown)
   end function local_unknowns
+
+  !> The foil's part of the bearing's local unknowns.
+  pure function own_part(self, unknown) result(part)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp) :: part(self%local_unknowns())
+    part = unknown(self%first + 1:self%first + size(part))
+  end function own_part
 
   !> Deflection at the local film nodes, positive away from the shaft [m].
   pure function deflection(self, unknown) result(moved)
@@ -194,4 +212,127 @@ contains
       moved(node) = self%rate(node)*(unknown(self%source(node)) - self%origin(node))
     end do
   end function deflection
+
+  !> Whether the foil has contacts, on whatever rank: they open, close and rub.
+  pure function has_contacts(self) result(has)
+    class(foil_model_type), intent(in) :: self
+    logical :: has
+    has = allocated(self%contacts%law)
+  end function has_contacts
+
+  !> Linearises every contact where the foils have gone.
+  subroutine settle(self, unknown, moved, settled)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    logical, intent(out) :: moved      !! there are contacts
+    logical, intent(out) :: settled    !! each of this rank is linearised where it is
+    PetscErrorCode :: ierr
+
+    moved = self%has_contacts()
+    settled = .true.
+    if (.not. moved) return
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
+    call self%contacts%settle(self%own_part(unknown))
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
+    settled = self%contacts%settled
+  end subroutine settle
+
+  !> A new Newton step begins where the contacts are.
+  subroutine begin_step(self)
+    class(foil_model_type), intent(inout) :: self
+    call self%contacts%drop_anchor()
+  end subroutine begin_step
+
+  !> Ends a load step of the scene: friction carries its slip along.
+  subroutine commit(self, unknown)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    call self%contacts%commit(self%own_part(unknown))
+  end subroutine commit
+
+  !> Makes the contacts softer than the scene has them, for a first answer.
+  subroutine set_hardness(self, hardness)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: hardness !! factor of their normal stiffness [1]
+    self%contacts%hardness = hardness
+  end subroutine set_hardness
+
+  !> Makes the contacts two-way (adhesive), for a first answer.
+  subroutine set_adhesion(self, adhesion)
+    class(foil_model_type), intent(inout) :: self
+    real(wp), intent(in) :: adhesion !! stiffness against opening over that against closing [1]
+    self%contacts%adhesion = adhesion
+  end subroutine set_adhesion
+
+  !> Whether the matrix has a stiffness at contacts that are open: it keeps Newton's steps short, but
+  !> is no derivative.
+  subroutine set_lending(self, lends)
+    class(foil_model_type), intent(inout) :: self
+    logical, intent(in) :: lends !! it has
+    self%contacts%lends = lends
+  end subroutine set_lending
+
+  !> The hardness to begin with: bumps that float between open and closed find their state at once; 1
+  !> where there is nothing to soften.
+  pure function softest(self) result(hardness)
+    class(foil_model_type), intent(in) :: self
+    real(wp) :: hardness !! [1]
+    hardness = self%first_hardness
+  end function softest
+
+  !> Length of this rank's crest lines that touches nothing, and of all of them [m].
+  pure function crest_lengths(self) result(length)
+    class(foil_model_type), intent(in) :: self
+    real(wp) :: length(2)
+    integer :: i
+
+    length = 0.0_wp
+    do i = 1, size(self%contacts%point)
+      associate (point => self%contacts%point(i))
+        if (point%law /= contact_top) cycle
+        length(2) = length(2) + point%length
+        if (self%contacts%state_of(i) == state_open) length(1) = length(1) + point%length
+      end associate
+    end do
+  end function crest_lengths
+
+  !> The part of the way between two states, or on beyond, after which the first of this rank's
+  !> contacts opens or closes; huge where none does.
+  pure function next_contact_change(self, here, ahead) result(way)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
+    real(wp) :: way                           !! [1]
+    integer :: i
+
+    way = huge(way)
+    do i = 1, size(self%contacts%point)
+      way = min(way, self%contacts%next_change(i, self%own_part(here), self%own_part(ahead)))
+    end do
+  end function next_contact_change
+
+  !> Adds up, for those contacts that change after that part of the way, all those of a symmetric foil
+  !> at once, the derivatives of their penetrations after the bearing's local unknowns, in the sense in
+  !> which they go; and how far they go before they change.
+  pure subroutine add_penetration_rates(self, here, ahead, way, rate, distance, closes)
+    class(foil_model_type), intent(in) :: self
+    real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
+    real(wp), intent(in) :: way               !! part of the way to the first change [1]
+    real(wp), intent(inout) :: rate(:)        !! one a local unknown
+    real(wp), intent(inout) :: distance       !! sum of the penetrations' sizes [m]
+    logical, intent(inout) :: closes          !! one of them closes
+    real(wp), parameter :: together = 1.0e-6_wp !! relative
+    real(wp) :: first(3)
+    integer :: i
+
+    associate (mine => rate(self%first + 1:self%first + self%local_unknowns()), now => self%own_part(here), &
+               next => self%own_part(ahead))
+      do i = 1, size(self%contacts%point)
+        if (self%contacts%next_change(i, now, next) > (1.0_wp + together)*way) cycle
+        first = self%contacts%approach(i, now)
+        call self%contacts%add_penetration_rate(i, -sign(1.0_wp, first(3)), mine)
+        distance = distance + abs(first(3))
+        closes = closes .or. first(3) < 0.0_wp
+      end do
+    end associate
+  end subroutine add_penetration_rates
 end module gfb_foil_model

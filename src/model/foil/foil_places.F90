@@ -13,7 +13,7 @@ module gfb_foil_places
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_foil_mesh, only: top_foil_mesh
   use gfb_bump_contacts, only: set_contact_laws
-  use gfb_shell_foil, only: shell_foil_type
+  use gfb_meshed_foil, only: meshed_foil_type
   implicit none (type)
   private
   public :: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
@@ -38,7 +38,7 @@ contains
   !> Laws of the contacts, and how soft they begin.
   subroutine set_laws(scene, foil)
     type(scene_type), intent(in) :: scene
-    class(shell_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil
     real(wp) :: stiffness !! of a bump, per length of line [N/m2]
 
     stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
@@ -49,7 +49,7 @@ contains
 
   !> Gives the unknowns that this rank needs their places, and the contacts and film nodes theirs.
   subroutine place_unknowns(foil, first, sunk)
-    class(shell_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil
     integer, intent(in) :: first   !! foil's unknowns of the ranks before this one
     integer, intent(in) :: sunk(:) !! (film nodes of this rank) foil's number of v there, from 1; 0: held
 
@@ -132,7 +132,7 @@ contains
     type(local_mesh_type), intent(in) :: mesh
     integer, intent(in) :: element_nodes(:, :) !! (4 or 9, elements), local nodes
     logical, intent(in) :: yields !! pressures follow the foil: film and foil in turns, or asperities
-    class(shell_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil
 
     ! Integrals over a line of length one: linear function, of halves where the pressure is quadratic,
     ! times the pressure's.
@@ -170,7 +170,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
     integer, intent(in) :: turning(:) !! foil's numbers of this rank's rotations; it needs no others
-    class(shell_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil
     real(wp) :: force, scale(size(foil%global_unknown))
 
     scale = 1.0_wp

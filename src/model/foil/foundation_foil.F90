@@ -8,12 +8,20 @@ module gfb_foundation_foil
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: this_rank, rank_count
+  use gfb_scene, only: scene_type
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_model_case, only: model_case_type, foundation_pressure_axial_mean
+  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_quantity, only: quantity_type
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_foil_model, only: foil_model_type
   use gfb_film_mesh, only: film_mesh_type, row_weights
   use gfb_mesh_dm, only: local_mesh_type
   implicit none (type)
   private
-  public :: create_local_foundation, create_mean_foundation
+  public :: build_foundation, create_local_foundation, create_mean_foundation, foundation_stiffness
 
   !> Springs under the film.
   type, extends(foil_model_type), public :: foundation_foil_type
@@ -28,9 +36,47 @@ module gfb_foundation_foil
     procedure :: add_jacobian => foundation_jacobian
     procedure :: add_load_rates => foundation_load_rates
     procedure :: estimate => foundation_estimate
+    procedure :: add_constant => foundation_constant
+    procedure :: is_meshed => foundation_is_meshed
+    procedure :: natural_numbers => foundation_natural_numbers
+    procedure :: surfaces => foundation_surfaces
+    procedure :: own_unknown => foundation_own_unknown
+    procedure :: motions => foundation_motions
+    procedure :: nodal_contacts => foundation_contacts
+    procedure :: sizes => foundation_sizes
+    procedure :: destroy => foundation_destroy
   end type foundation_foil_type
 
 contains
+
+  !> The foundation that a scene asks for.
+  subroutine build_foundation(scene, film, mesh, foil)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(local_mesh_type), intent(in) :: mesh !! this rank's part of it
+    type(foundation_foil_type), intent(out) :: foil
+    real(wp) :: stiffness
+
+    stiffness = foundation_stiffness(scene%model, scene%bump_foil)
+    if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
+      call create_mean_foundation(film, mesh, this_rank(), rank_count(), stiffness, scene%gas%ambient_pressure, &
+                                  scene%bearing%clearance, foil)
+    else
+      call create_local_foundation(size(mesh%mesh_node), stiffness, scene%gas%ambient_pressure, foil)
+    end if
+  end subroutine build_foundation
+
+  !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
+  pure function foundation_stiffness(model, bump_foil) result(stiffness)
+    type(model_case_type), intent(in) :: model
+    type(bump_foil_case_type), intent(in) :: bump_foil
+    real(wp) :: stiffness
+
+    stiffness = model%foundation_stiffness
+    if (stiffness > 0.0_wp) return
+    stiffness = walowit_anno_stiffness(bump_foil%youngs_modulus, bump_foil%poissons_ratio, &
+                                       bump_foil%thickness, bump_foil%half_length, bump_foil%pitch)
+  end function foundation_stiffness
 
   !> Springs that feel the pressure above them.
   subroutine create_local_foundation(nodes, stiffness, ambient_pressure, foil)
@@ -175,4 +221,68 @@ contains
       unknown(self%first + i) = total(self%global_unknown(i))/self%stiffness
     end do
   end subroutine foundation_estimate
+
+  !> Nothing of the matrix is constant and elastic.
+  subroutine foundation_constant(self, jacobian)
+    class(foundation_foil_type), intent(in) :: self
+    Mat, intent(in) :: jacobian
+  end subroutine foundation_constant
+
+  !> No mesh of its own.
+  pure function foundation_is_meshed(self) result(meshed)
+    class(foundation_foil_type), intent(in) :: self
+    logical :: meshed
+    meshed = .false.
+  end function foundation_is_meshed
+
+  !> The numbers of the stations whose equations this rank begins; none under local pressure.
+  function foundation_natural_numbers(self) result(number)
+    class(foundation_foil_type), intent(in) :: self
+    integer, allocatable :: number(:)
+    number = self%global_unknown(self%owned_station)
+  end function foundation_natural_numbers
+
+  !> No surfaces.
+  function foundation_surfaces(self) result(list)
+    class(foundation_foil_type), intent(in) :: self
+    type(foil_surface_type), allocatable :: list(:)
+    allocate (list(0))
+  end function foundation_surfaces
+
+  !> No surface has an unknown.
+  pure function foundation_own_unknown(self, surface, component, node) result(number)
+    class(foundation_foil_type), intent(in) :: self
+    integer, intent(in) :: surface
+    integer, intent(in) :: component
+    integer, intent(in) :: node
+    integer :: number
+    number = 0
+  end function foundation_own_unknown
+
+  !> No surfaces, no motions.
+  function foundation_motions(self, unknown) result(list)
+    class(foundation_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    type(surface_motion_type), allocatable :: list(:)
+    allocate (list(0))
+  end function foundation_motions
+
+  !> No contacts.
+  function foundation_contacts(self) result(contacts)
+    class(foundation_foil_type), intent(in) :: self
+    type(contact_set_type) :: contacts
+    contacts = self%contacts
+  end function foundation_contacts
+
+  !> No sizes to show.
+  function foundation_sizes(self) result(list)
+    class(foundation_foil_type), intent(in) :: self
+    type(quantity_type), allocatable :: list(:)
+    allocate (list(0))
+  end function foundation_sizes
+
+  !> Nothing to free.
+  subroutine foundation_destroy(self)
+    class(foundation_foil_type), intent(inout) :: self
+  end subroutine foundation_destroy
 end module gfb_foundation_foil

@@ -3,6 +3,9 @@
 module gfb_rigid_foil
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_foil_model, only: foil_model_type
   implicit none (type)
   private
@@ -14,6 +17,16 @@ module gfb_rigid_foil
     procedure :: add_residual => rigid_residual
     procedure :: add_jacobian => rigid_jacobian
     procedure :: estimate => rigid_estimate
+    procedure :: add_load_rates => rigid_load_rates
+    procedure :: add_constant => rigid_constant
+    procedure :: is_meshed => rigid_is_meshed
+    procedure :: natural_numbers => rigid_natural_numbers
+    procedure :: surfaces => rigid_surfaces
+    procedure :: own_unknown => rigid_own_unknown
+    procedure :: motions => rigid_motions
+    procedure :: nodal_contacts => rigid_contacts
+    procedure :: sizes => rigid_sizes
+    procedure :: destroy => rigid_destroy
   end type rigid_foil_type
 
 contains
@@ -48,4 +61,76 @@ contains
     class(rigid_foil_type), intent(in) :: self
     real(wp), intent(inout) :: unknown(:)
   end subroutine rigid_estimate
+
+  !> Nothing to add: the surface has no equations.
+  subroutine rigid_load_rates(self, column, slope, jacobian)
+    class(rigid_foil_type), intent(in) :: self
+    integer, intent(in) :: column(:, :)
+    real(wp), intent(in) :: slope(:, :)
+    Mat, intent(in) :: jacobian
+  end subroutine rigid_load_rates
+
+  !> Nothing of the matrix is constant and elastic.
+  subroutine rigid_constant(self, jacobian)
+    class(rigid_foil_type), intent(in) :: self
+    Mat, intent(in) :: jacobian
+  end subroutine rigid_constant
+
+  !> No mesh of its own.
+  pure function rigid_is_meshed(self) result(meshed)
+    class(rigid_foil_type), intent(in) :: self
+    logical :: meshed
+    meshed = .false.
+  end function rigid_is_meshed
+
+  !> No unknowns, no numbers.
+  function rigid_natural_numbers(self) result(number)
+    class(rigid_foil_type), intent(in) :: self
+    integer, allocatable :: number(:)
+    allocate (number(0))
+  end function rigid_natural_numbers
+
+  !> No surfaces.
+  function rigid_surfaces(self) result(list)
+    class(rigid_foil_type), intent(in) :: self
+    type(foil_surface_type), allocatable :: list(:)
+    allocate (list(0))
+  end function rigid_surfaces
+
+  !> No surface has an unknown.
+  pure function rigid_own_unknown(self, surface, component, node) result(number)
+    class(rigid_foil_type), intent(in) :: self
+    integer, intent(in) :: surface
+    integer, intent(in) :: component
+    integer, intent(in) :: node
+    integer :: number
+    number = 0
+  end function rigid_own_unknown
+
+  !> No surfaces, no motions.
+  function rigid_motions(self, unknown) result(list)
+    class(rigid_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    type(surface_motion_type), allocatable :: list(:)
+    allocate (list(0))
+  end function rigid_motions
+
+  !> No contacts.
+  function rigid_contacts(self) result(contacts)
+    class(rigid_foil_type), intent(in) :: self
+    type(contact_set_type) :: contacts
+    contacts = self%contacts
+  end function rigid_contacts
+
+  !> No sizes to show.
+  function rigid_sizes(self) result(list)
+    class(rigid_foil_type), intent(in) :: self
+    type(quantity_type), allocatable :: list(:)
+    allocate (list(0))
+  end function rigid_sizes
+
+  !> Nothing to free.
+  subroutine rigid_destroy(self)
+    class(rigid_foil_type), intent(inout) :: self
+  end subroutine rigid_destroy
 end module gfb_rigid_foil

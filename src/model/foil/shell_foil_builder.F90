@@ -8,7 +8,7 @@ module gfb_shell_foil_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: coupling_partitioned
+  use gfb_model_case, only: coupling_partitioned, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type
   use gfb_partition, only: division_type
   use gfb_part_chains, only: strip_columns, strip_kinds
@@ -49,13 +49,12 @@ contains
   !> Both foils under a film.
   !>
   !> Fails where an element is degenerate.
-  subroutine create_shell_foil(scene, film, mesh, element_nodes, division, reduced, foil, error)
+  subroutine create_shell_foil(scene, film, mesh, element_nodes, division, foil, error)
     type(scene_type), intent(in) :: scene
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :)       !! (nodes, elements) its elements, local nodes
     type(division_type), intent(in) :: division      !! of film and bumps
-    logical, intent(in) :: reduced                   !! bumps are condensed
     type(shell_foil_type), intent(out) :: foil
     type(error_type), allocatable, intent(out) :: error
 
@@ -65,12 +64,13 @@ contains
     foil%ambient_pressure = scene%gas%ambient_pressure
     call build_top(scene, film, division, foil%top, error)
     if (allocated(error)) return
-    call build_bumps(scene, film, division, reduced, foil%bumps, error)
+    call build_bumps(scene, film, division, scene%model%reduction == reduction_guyan, foil%bumps, error)
     if (allocated(error)) return
     ranges = ranges_of(foil)
     foil%owned = foil%top%part%owned_unknowns + foil%bumps%part%owned_unknowns
     call join_stiffnesses(foil, ranges)
     call set_laws(scene, foil)
+    foil%contacts%rows = foil%bumps%mesh%rows
     call add_contacts(scene, film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
@@ -208,7 +208,7 @@ contains
     PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
     PetscCallA(MatDestroy(foil%top%stiffness, ierr))
     PetscCallA(MatDestroy(foil%bumps%stiffness, ierr))
-    foil%has_elastic = .true.
+    foil%has_matrix = .true.
   end subroutine join_stiffnesses
 
   !> Entries of a structure's own rows, in this rank's columns and in others.

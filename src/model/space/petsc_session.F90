@@ -10,7 +10,7 @@ module gfb_petsc_session
   implicit none (type)
   private
   public :: start_petsc, stop_petsc, this_rank, rank_count, ranks_on_node, petsc_version_text, wall_time, &
-            sum_over_ranks, largest_over_ranks, any_rank, share_failure, fetch_entries
+            sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries
 
 contains
 
@@ -99,6 +99,13 @@ contains
     PetscErrorCode :: ierr
     call MPI_Allreduce(numbers, largest, size(numbers), MPI_DOUBLE_PRECISION, MPI_MAX, PETSC_COMM_WORLD, ierr)
   end function largest_over_ranks
+
+  !> The largest of numbers from 1 on all ranks, 0 where there are none.
+  function largest_number(number) result(largest)
+    integer, intent(in) :: number(:) !! of this rank
+    integer :: largest
+    largest = nint(maxval(largest_over_ranks([real(maxval([0, number]), wp)])))
+  end function largest_number
 
   !> Whether something is true on any rank.
   function any_rank(truth) result(any_true)

@@ -116,6 +116,7 @@ contains
     integer :: i
     logical :: pressed
 
+    strip%contacts%rows = strip%foil%mesh%rows
     allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0))
     associate (mesh => strip%foil%mesh)
       if (scene%strip_load%support /= support_held) then

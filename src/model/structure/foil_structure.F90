@@ -17,7 +17,8 @@ module gfb_foil_structure
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_substructures, only: substructure_type, kind_count
   use gfb_foil_sharing, only: cut_columns, share_kinds, pass_on, lines_at_seams
-  use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
+  use gfb_mesh_dm, only: distribute_mesh
+  use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_pieces, only: number_slots, condense_piece, piece_unknowns, element_geometry, &
                              add_symmetric_block, create_foil_matrix, element_row
   use gfb_super_element, only: super_element_type, destroy_super_element
@@ -26,18 +27,13 @@ module gfb_foil_structure
   private
   public :: create_foil_structure, destroy_foil_structure
 
-  !> One foil and this rank's part of it.
-  type, public :: foil_structure_type
-    type(quad_mesh_type) :: mesh             !! the stretch that holds this rank's columns, or more
-    type(shell_section_type) :: section
+  !> One foil and this rank's part of its equations.
+  type, extends(foil_surface_type), public :: foil_structure_type
     logical :: reduced = .false.             !! only retained nodes have unknowns
-    type(local_mesh_type) :: part            !! this rank's elements and nodes
     type(substructure_type), allocatable :: substructure(:) !! of the whole foil; nodes of this rank's
     integer, allocatable :: mine(:)          !! substructures of this rank
-    integer, allocatable :: my_elements(:)   !! elements of this rank, numbers in the whole mesh
     integer, allocatable :: slot(:, :)       !! (5, nodes) unknown's place at its node, 0: none
     logical, allocatable :: free(:, :)       !! (5, nodes) not held by a support
-    integer, allocatable :: local_node(:)    !! this rank's number of a node, 0 where it is elsewhere
     integer :: unknowns = 0                  !! on all ranks
     integer :: first = 0                     !! unknowns of the ranks before this one
     integer :: condensations = 0             !! super-elements this rank condensed, each for all ranks
@@ -48,7 +44,7 @@ module gfb_foil_structure
   contains
     procedure :: unknown
     procedure :: numbers_at
-    procedure :: owns
+    procedure :: natural_numbers
     procedure :: assemble_stiffness
     procedure :: assemble_mass
     procedure :: displacements
@@ -291,16 +287,30 @@ contains
     number = self%part%first_unknown(self%local_node(node)) + self%slot(component, node) - 2
   end function unknown
 
-  !> Whether this rank owns a node.
-  pure function owns(self, node) result(mine)
+  !> Natural numbers, from 1, of the unknowns this rank owns, in the order of the vectors: node by node
+  !> over the whole mesh, with gaps where nothing has a number.
+  function natural_numbers(self) result(number)
     class(foil_structure_type), intent(in) :: self
-    integer, intent(in) :: node !! of the whole mesh
-    logical :: mine
+    integer, allocatable :: number(:), unknown(:), natural(:)
+    integer :: node, component, found, here
 
-    mine = .false.
-    if (node < lbound(self%local_node, 1) .or. node > ubound(self%local_node, 1)) return
-    if (self%local_node(node) > 0) mine = self%part%owned(self%local_node(node))
-  end function owns
+    associate (part => self%part)
+      allocate (number(part%owned_unknowns), unknown(part%owned_unknowns), natural(part%owned_unknowns))
+      found = 0
+      do node = 1, size(part%mesh_node)
+        if (.not. part%owned(node)) cycle
+        do component = 1, node_unknowns
+          here = self%unknown(component, part%mesh_node(node))
+          if (here < 0) cycle
+          found = found + 1
+          unknown(found) = here
+          natural(found) = node_unknowns*(part%mesh_node(node) - 1) + component
+        end do
+      end do
+    end associate
+    if (found /= size(number)) error stop 'a node''s unknowns are not where its mesh says'
+    if (found > 0) number(unknown - minval(unknown) + 1) = natural
+  end function natural_numbers
 
   !> Global numbers of an element's unknowns.
   pure function element_unknowns(structure, element) result(number)

@@ -2,12 +2,14 @@
 module gfb_foil_grid
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
-  use gfb_foil_structure, only: foil_structure_type
+  use gfb_bump_contacts, only: normal_line_force
+  use gfb_contact_set, only: contact_set_type
+  use gfb_foil_surface, only: foil_surface_type
   use gfb_grid_file, only: grid_field_type, block_bounds
   use gfb_result_set, only: result_grid_type, add_grid_field
   implicit none (type, external)
   private
-  public :: create_foil_grid, add_displacement, add_node_field, add_stress
+  public :: create_foil_grid, add_displacement, add_contacts, add_stress
 
   !> sign of (u, v, w) in the other half
   real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp]
@@ -16,7 +18,7 @@ contains
 
   !> Points and cells of a foil; station by station, rows of the whole width, whatever was solved.
   subroutine create_foil_grid(foil, name, grid)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     character(len=*), intent(in) :: name
     type(result_grid_type), intent(out) :: grid
     integer :: rows, stations, first, last, i, corner
@@ -49,7 +51,7 @@ contains
 
   !> Adds the rank that has the elements.
   subroutine add_rank(foil, grid)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     type(result_grid_type), intent(inout) :: grid
     real(wp) :: mine(1, size(foil%my_elements))
     integer :: first, last, i
@@ -63,7 +65,7 @@ contains
 
   !> Adds the displacement vectors of this rank's nodes.
   subroutine add_displacement(foil, name, meaning, moved, grid)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     character(len=*), intent(in) :: name, meaning
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
     type(result_grid_type), intent(inout) :: grid
@@ -73,7 +75,7 @@ contains
 
   !> Adds a number, or a vector along (x, v, z), at each of this rank's nodes.
   subroutine add_node_field(foil, name, unit, meaning, value, grid)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     character(len=*), intent(in) :: name, unit, meaning
     real(wp), intent(in) :: value(:, :) !! (1 or 3, local nodes)
     type(result_grid_type), intent(inout) :: grid
@@ -96,9 +98,43 @@ contains
     call add_grid_field(grid%point_field, name, unit, meaning, block)
   end subroutine add_node_field
 
+  !> Adds forces and states of the contacts whose slaves are nodes of a foil.
+  subroutine add_contacts(contacts, foil, grid)
+    type(contact_set_type), intent(in) :: contacts !! each of one node
+    class(foil_surface_type), intent(in) :: foil   !! the slaves'
+    type(result_grid_type), intent(inout) :: grid
+    real(wp), allocatable :: force(:, :), state(:, :)
+
+    call contact_field(contacts, foil, force, state)
+    call add_node_field(foil, 'contact_force', 'N/m', &
+                        'on the foil, per length of contact line', force, grid)
+    call add_node_field(foil, 'contact_state', '1', '0 open, 1 sticks, 2 slips', state, grid)
+  end subroutine add_contacts
+
+  !> Force vectors and states at this rank's nodes of the mesh.
+  subroutine contact_field(contacts, foil, force, state)
+    type(contact_set_type), intent(in) :: contacts
+    class(foil_surface_type), intent(in) :: foil
+    real(wp), allocatable, intent(out) :: force(:, :) !! (3, local nodes) along (x, v, z) [N/m]
+    real(wp), allocatable, intent(out) :: state(:, :) !! (1, local nodes)
+    real(wp) :: local(3)
+    integer :: i, node
+
+    allocate (force(3, size(foil%part%mesh_node)), source=0.0_wp)
+    allocate (state(1, size(foil%part%mesh_node)), source=0.0_wp)
+    do i = 1, size(contacts%point)
+      associate (point => contacts%point(i))
+        node = foil%local_node(point%node)
+        local = [point%force(:2)/point%length, normal_line_force(contacts, i)]
+        force(:, node) = matmul(point%frame, local)
+        state(1, node) = real(contacts%state_of(i), wp)
+      end associate
+    end do
+  end subroutine contact_field
+
   !> Adds the stresses at the elements' centres.
   subroutine add_stress(foil, stress, grid)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     real(wp), intent(in) :: stress(:, :) !! (8, elements of this rank), see `gfb_foil_stress` [Pa]
     type(result_grid_type), intent(inout) :: grid
     real(wp), allocatable :: block(:, :)
@@ -136,7 +172,7 @@ contains
 
   !> Rows of the whole width.
   pure function full_rows(foil) result(rows)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     integer :: rows
     rows = foil%mesh%rows
     if (foil%mesh%half) rows = 2*rows - 1
@@ -144,7 +180,7 @@ contains
 
   !> The solved node that a point of the whole width is, or mirrors.
   pure subroutine solved_node(foil, point, node, mirrored)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     integer, intent(in) :: point !! from 1
     integer, intent(out) :: node
     logical, intent(out) :: mirrored
@@ -159,7 +195,7 @@ contains
 
   !> The solved element that a cell of the whole width is, or mirrors.
   pure function solved_cell(foil, cell) result(element)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     integer, intent(in) :: cell !! from 1
     integer :: element
     integer :: columns, half, column

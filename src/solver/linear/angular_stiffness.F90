@@ -13,7 +13,6 @@ module gfb_angular_stiffness
   use gfb_film_load, only: film_forces
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
-  use gfb_shell_foil, only: shell_foil_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_direct_solver, only: use_factors
@@ -65,17 +64,10 @@ contains
   !> Newton's steps short, but is no derivative. The foils are held at an edge: it is regular.
   subroutine linearise_exactly(bearing)
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp) :: lent
 
-    select type (foil => bearing%foil)
-    class is (shell_foil_type)
-      lent = foil%contacts%floor_normal
-      foil%contacts%floor_normal = 0.0_wp
-      call bearing%linearise(bearing%state)
-      foil%contacts%floor_normal = lent
-    class default
-      call bearing%linearise(bearing%state)
-    end select
+    call bearing%foil%set_lending(.false.)
+    call bearing%linearise(bearing%state)
+    call bearing%foil%set_lending(.true.)
   end subroutine linearise_exactly
 
   !> A direct solver of the bearing's matrix, with the orderings of Newton's method.

@@ -89,7 +89,7 @@ contains
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'
-          if (.not. (settings%look_for_folds .and. bearing%foil%has_elastic)) exit
+          if (.not. (settings%look_for_folds .and. bearing%foil%has_contacts())) exit
           call find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
           if (.not. goes_on) exit
           step = 4.0_wp*smallest

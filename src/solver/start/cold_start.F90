@@ -114,7 +114,7 @@ contains
         if (report%converged) return
       end if
     end if
-    if (bearing%foil%has_elastic) then
+    if (bearing%foil%has_contacts()) then
       call find_with_contacts(scene, target, settings, 0, bearing, newton, report)
     else
       call guess_position(bearing, scene, target, 0.5_wp)

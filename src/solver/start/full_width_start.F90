@@ -3,8 +3,8 @@ module gfb_full_width_start
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: fetch_entries
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_foil_structure, only: foil_structure_type
-  use gfb_shell_foil, only: shell_foil_type
+  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_model, only: foil_model_type
   use gfb_foil_builder, only: axial, about_tangent
   use gfb_bearing_system, only: bearing_system_type, film_values
   implicit none (type, external)
@@ -18,6 +18,7 @@ contains
     type(bearing_system_type), intent(in) :: half
     type(bearing_system_type), intent(inout) :: whole
     real(wp) :: narrow(half%local_size()), unknown(whole%local_size())
+    type(foil_surface_type), allocatable :: narrow_surface(:), wide_surface(:)
     integer :: i
 
     call half%get_unknowns(narrow)
@@ -28,47 +29,44 @@ contains
       where (.not. mesh%owned) unknown(:nodes) = 0.0_wp
     end associate
     if (whole%floats) unknown(whole%first_shaft + 1:) = merge(half%eccentricity(), 0.0_wp, whole%last_rank)
-    select type (wide => whole%foil)
-    class is (shell_foil_type)
-      select type (foil => half%foil)
-      class is (shell_foil_type)
-        call widen_structure(foil, foil%top, narrow, wide, wide%top, .false., unknown)
-        call widen_structure(foil, foil%bumps, narrow, wide, wide%bumps, .true., unknown)
-      end select
-    end select
+    narrow_surface = half%foil%surfaces()
+    wide_surface = whole%foil%surfaces()
+    do i = 1, size(wide_surface)
+      call widen_surface(half%foil, narrow_surface(i), narrow, whole%foil, wide_surface(i), i, unknown)
+    end do
     call whole%add_up(unknown, whole%state)
   end subroutine widen
 
-  !> The owned unknowns of one foil; what turns its sense in the mirror is negative where z is.
-  subroutine widen_structure(half, narrow_mesh, narrow, whole, wide_mesh, of_bumps, unknown)
-    class(shell_foil_type), intent(in) :: half, whole
-    type(foil_structure_type), intent(in) :: narrow_mesh, wide_mesh
+  !> The owned unknowns of one surface; what turns its sense in the mirror is negative where z is.
+  subroutine widen_surface(half, narrow_surface, narrow, whole, wide_surface, surface, unknown)
+    class(foil_model_type), intent(in) :: half, whole
+    type(foil_surface_type), intent(in) :: narrow_surface, wide_surface
     real(wp), intent(in) :: narrow(:)      !! half's local unknowns of the bearing, in SI
-    logical, intent(in) :: of_bumps        !! instead of the top foil
+    integer, intent(in) :: surface         !! which of the foils' surfaces it is
     real(wp), intent(inout) :: unknown(:)  !! whole's
     integer, allocatable :: own(:), wanted(:)
     real(wp), allocatable :: value(:, :)
-    integer :: i, k, place, rows
+    integer :: i, k, number, rows
 
-    own = pack(narrow_mesh%part%mesh_node, narrow_mesh%part%owned)
+    own = pack(narrow_surface%part%mesh_node, narrow_surface%part%owned)
     allocate (value(node_unknowns, size(own)), source=0.0_wp)
     do i = 1, size(own)
       do k = 1, node_unknowns
-        place = half%own_unknown(of_bumps, k, own(i))
-        if (place > 0) value(k, i) = narrow(half%first + place)
+        number = half%own_unknown(surface, k, own(i))
+        if (number > 0) value(k, i) = narrow(half%first + number)
       end do
     end do
-    wanted = pack(wide_mesh%part%mesh_node, wide_mesh%part%owned)
-    rows = wide_mesh%mesh%rows
-    value = fetch_entries(narrow_mesh%mesh%nodes(), own, value, [(mirrored(wanted(i), rows), i=1, size(wanted))])
+    wanted = pack(wide_surface%part%mesh_node, wide_surface%part%owned)
+    rows = wide_surface%mesh%rows
+    value = fetch_entries(narrow_surface%mesh%nodes(), own, value, [(mirrored(wanted(i), rows), i=1, size(wanted))])
     do i = 1, size(wanted)
       if (modulo(wanted(i) - 1, rows) < rows/2) value([axial, about_tangent], i) = -value([axial, about_tangent], i)
       do k = 1, node_unknowns
-        place = whole%own_unknown(of_bumps, k, wanted(i))
-        if (place > 0) unknown(whole%first + place) = value(k, i)
+        number = whole%own_unknown(surface, k, wanted(i))
+        if (number > 0) unknown(whole%first + number) = value(k, i)
       end do
     end do
-  end subroutine widen_structure
+  end subroutine widen_surface
 
   !> The half's node that is a node of the whole, or its mirror; numbers run along stations of rows.
   pure function mirrored(node, rows) result(number)

@@ -27,7 +27,7 @@ module gfb_divided_sweep
   use gfb_bearing_analysis, only: solve_scene, write_bearing
   use gfb_restart, only: restart_type, find_restart, drop_restart
   use gfb_memory_check, only: check_memory
-  use gfb_foil_output, only: foil_contact_arrays
+  use gfb_contact_record, only: foil_contact_arrays
   use gfb_command_line, only: command_line_type
   use gfb_group_log, only: open_group_log, close_group_log
   use gfb_provenance, only: provenance, version_text
@@ -168,7 +168,7 @@ contains
     mine%factorizations = newton%factorizations
     mine%row = record%history(:found)
     mine%next = record%history(found + 1:)
-    mine%contacts = foil_contact_arrays(bearing, record%contacts, found)
+    mine%contacts = foil_contact_arrays(bearing%foil, record%contacts, found)
     mine%reason = ''
     if (found < points) then
       mine%status = status_unconverged

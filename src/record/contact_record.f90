@@ -1,14 +1,15 @@
 !> The contacts of a foil, step by step, for `/contact` of the result file.
-module gfb_contact_output
+module gfb_contact_record
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: fetch_entries
+  use gfb_petsc_session, only: fetch_entries, largest_number
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
   use gfb_contact_set, only: contact_set_type
-  use gfb_foil_structure, only: foil_structure_type
-  use gfb_bump_contacts, only: contact_sleeve, contact_top
+  use gfb_foil_surface, only: foil_surface_type
+  use gfb_bump_contacts, only: contact_sleeve, contact_top, normal_line_force
+  use gfb_foil_model, only: foil_model_type
   implicit none (type, external)
   private
-  public :: record_contacts, contact_arrays, contact_field
+  public :: record_contacts, contact_arrays, record_foil_contacts, foil_contact_arrays
 
   !> of a contact: force and friction along x and z, slip, state
   integer, parameter, public :: record_fields = 6
@@ -21,10 +22,36 @@ module gfb_contact_output
 
 contains
 
+  !> Keeps the contacts of a foil at a point; nothing where it has none.
+  subroutine record_foil_contacts(foil, point, points, record)
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: point  !! number of this one
+    integer, intent(in) :: points !! that there will be, as far as is known
+    type(contact_record_type), intent(inout) :: record
+    if (foil%has_contacts()) call record_contacts(foil%nodal_contacts(), point, points, record)
+  end subroutine record_foil_contacts
+
+  !> The contacts of a foil at all points; none where it has none.
+  function foil_contact_arrays(foil, record, points) result(arrays)
+    class(foil_model_type), intent(in) :: foil
+    type(contact_record_type), intent(in) :: record
+    integer, intent(in) :: points !! recorded
+    type(case_array_type), allocatable :: arrays(:)
+    type(foil_surface_type), allocatable :: surface(:)
+    integer :: i
+
+    allocate (arrays(0))
+    surface = foil%surfaces()
+    do i = 1, size(surface)
+      if (.not. surface(i)%has_contacts) cycle
+      call add_arrays(arrays, contact_arrays(foil%nodal_contacts(), surface(i), record, points))
+    end do
+  end function foil_contact_arrays
+
   !> Adds the present step.
   subroutine record_contacts(contacts, step, steps, record)
     type(contact_set_type), intent(in) :: contacts
-    integer, intent(in) :: step
+    integer, intent(in) :: step  !! number of this one
     integer, intent(in) :: steps !! that there will be, as far as is known
     type(contact_record_type), intent(inout) :: record
     integer :: i
@@ -52,42 +79,10 @@ contains
     call move_alloc(longer, value)
   end subroutine make_room
 
-  !> Normal force of a contact per length of its line [N/m].
-  pure function normal_line_force(contacts, i) result(force)
-    type(contact_set_type), intent(in) :: contacts
-    integer, intent(in) :: i
-    real(wp) :: force
-
-    associate (point => contacts%point(i))
-      force = merge(point%pressing, point%force(3), point%pressed)/point%length
-    end associate
-  end function normal_line_force
-
-  !> Force vectors and states at this rank's nodes of the mesh.
-  subroutine contact_field(contacts, structure, force, state)
-    type(contact_set_type), intent(in) :: contacts
-    type(foil_structure_type), intent(in) :: structure !! the slaves'
-    real(wp), allocatable, intent(out) :: force(:, :) !! (3, local nodes) along (x, v, z) [N/m]
-    real(wp), allocatable, intent(out) :: state(:, :) !! (1, local nodes)
-    real(wp) :: local(3)
-    integer :: i, node
-
-    allocate (force(3, size(structure%part%mesh_node)), source=0.0_wp)
-    allocate (state(1, size(structure%part%mesh_node)), source=0.0_wp)
-    do i = 1, size(contacts%point)
-      associate (point => contacts%point(i))
-        node = structure%local_node(point%node)
-        local = [point%force(:2)/point%length, normal_line_force(contacts, i)]
-        force(:, node) = matmul(point%frame, local)
-        state(1, node) = real(contacts%state_of(i), wp)
-      end associate
-    end do
-  end subroutine contact_field
-
   !> Everything about the contacts, on the first rank's behalf.
-  function contact_arrays(contacts, structure, record, steps) result(arrays)
+  function contact_arrays(contacts, slaves, record, steps) result(arrays)
     type(contact_set_type), intent(in) :: contacts
-    type(foil_structure_type), intent(in) :: structure !! the slaves'
+    class(foil_surface_type), intent(in) :: slaves !! the surface they are nodes of
     type(contact_record_type), intent(in) :: record
     integer, intent(in) :: steps !! recorded
     type(case_array_type), allocatable :: arrays(:)
@@ -95,28 +90,26 @@ contains
 
     allocate (arrays(0))
     if (.not. allocated(record%value)) return
-    call surface_arrays(contacts, structure, record, steps, contact_sleeve, '/contact/sleeve', &
-                        sleeve)
-    call surface_arrays(contacts, structure, record, steps, contact_top, '/contact/top', top)
+    call surface_arrays(contacts, slaves, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
+    call surface_arrays(contacts, slaves, record, steps, contact_top, '/contact/top', top)
     if (size(sleeve(1)%values) > 0) call add_arrays(arrays, sleeve)
     if (size(top(1)%values) > 0) call add_arrays(arrays, top)
   end function contact_arrays
 
   !> The arrays of one surface; a column a node, a row a step.
-  subroutine surface_arrays(contacts, structure, record, steps, surface, group, arrays)
+  subroutine surface_arrays(contacts, slaves, record, steps, surface, group, arrays)
     type(contact_set_type), intent(in) :: contacts
-    type(foil_structure_type), intent(in) :: structure
+    class(foil_surface_type), intent(in) :: slaves
     type(contact_record_type), intent(in) :: record
     integer, intent(in) :: steps
     integer, intent(in) :: surface !! `contact_sleeve` or `contact_top`
     character(len=*), intent(in) :: group
     type(case_array_type), intent(out) :: arrays(fields + 3)
 
-    character(len=*), parameter :: name(fields) = [character(len=12) :: 'normal_force', &
-      'friction_x', &
-                                                   'friction_z', 'slip_x', 'slip_z', 'state']
-    character(len=*), parameter :: unit(fields) = [character(len=3) :: 'N/m', 'N/m', 'N/m', 'm', &
-      'm', '1']
+    character(len=*), parameter :: name(fields) = [character(len=12) :: &
+      'normal_force', 'friction_x', 'friction_z', 'slip_x', 'slip_z', 'state']
+    character(len=*), parameter :: unit(fields) = [character(len=3) :: &
+      'N/m', 'N/m', 'N/m', 'm', 'm', '1']
     character(len=*), parameter :: meaning(fields) = [character(len=64) :: &
       'pressing the foil, per length of contact line; step by node', &
       'on the foil, along the motion, per length of contact line', &
@@ -127,10 +120,10 @@ contains
     integer, allocatable :: number(:), own(:), all_nodes(:)
     integer :: i, total, field
 
-    associate (point => contacts%point, mesh => structure%mesh)
+    associate (point => contacts%point, mesh => slaves%mesh)
       own = pack([(i, i=1, size(point))], point%law == surface)
       number = (point(own)%line - 1)*mesh%rows + modulo(point(own)%node - 1, mesh%rows) + 1
-      total = largest_line(contacts, surface)*mesh%rows
+      total = largest_number(pack(point%line, point%law == surface))*mesh%rows
       all_nodes = [(i, i=1, total)]
       allocate (place(3, size(own)))
       place(1, :) = real(point(own)%line, wp)
@@ -150,18 +143,4 @@ contains
                       values, arrays(3 + field), by_step=.true.)
     end do
   end subroutine surface_arrays
-
-  !> Number of a surface's contact lines.
-  function largest_line(contacts, surface) result(lines)
-    use gfb_petsc_session, only: largest_over_ranks
-    type(contact_set_type), intent(in) :: contacts
-    integer, intent(in) :: surface
-    integer :: lines
-    real(wp) :: found(1)
-
-    found = real(maxval([0, pack(contacts%point%line, &
-      contacts%point%law == surface)]), wp)
-    found = largest_over_ranks(found)
-    lines = nint(found(1))
-  end function largest_line
-end module gfb_contact_output
+end module gfb_contact_record

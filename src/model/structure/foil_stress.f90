@@ -8,7 +8,7 @@ module gfb_foil_stress
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, beam_resultants, beam_unknowns
   use gfb_shell_geometry, only: shell_unknowns
   use gfb_shell_stress, only: shell_stress_type, shell_stress, von_mises, lower_face, upper_face
-  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_pieces, only: element_geometry
   implicit none (type, external)
   private
@@ -20,7 +20,7 @@ contains
 
   !> Stresses of this rank's shells.
   function shell_stresses(foil, moved) result(value)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
     real(wp) :: value(components, size(foil%my_elements)) !! [Pa]
 
@@ -42,7 +42,7 @@ contains
 
   !> Stresses of this rank's beams. They keep their width, so there is stress along the axis too.
   pure function beam_stresses(foil, moved) result(value)
-    type(foil_structure_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes), every node as its station [m], [rad]
     real(wp) :: value(components, size(foil%my_elements)) !! [Pa]
 

@@ -1,0 +1,232 @@
+#include "gfb_petsc.h"
+!> What foils with meshes of their own have in common: shells and beams under the film.
+!>
+!> Equations: elastic forces of both foils, the film's pressure on the top foil ([Gu2020] eq. 2),
+!> and the contacts of crests with the top foil and of corners with the sleeve. The top foil has the
+!> film's nodes; its deflection is \( h_f = -v \).
+module gfb_meshed_foil
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_foil_model, only: foil_model_type
+  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
+  implicit none (type)
+  private
+  public :: both_surfaces
+
+  integer, parameter, public :: top_surface = 1, bump_surface = 2 !! of a foil's surfaces
+
+  !> Both foils' equations, this rank's part of them; what they are made of is the models' own.
+  type, abstract, extends(foil_model_type), public :: meshed_foil_type
+    real(wp) :: ambient_pressure = 0.0_wp     !! p_a [Pa]
+    integer, allocatable :: pressed(:, :)     !! (nodes, elements) film nodes of an element, local
+    integer, allocatable :: pushed(:, :)      !! (nodes, elements) local foil unknown v there, 0: fixed
+    real(wp), allocatable :: weight(:, :, :)  !! (nodes, nodes, elements) of p - p_a in the force on v [m2]
+    logical :: has_room = .false.             !! in the matrix, between all unknowns that an element pushes
+    integer, allocatable :: own_place(:)      !! local foil unknown of each owned one
+    logical :: has_matrix = .false.           !! `elastic` and the vectors are there
+    Vec :: state, force                       !! of the owned unknowns, in SI
+  contains
+    procedure :: add_residual => meshed_residual
+    procedure :: add_jacobian => meshed_jacobian
+    procedure :: add_constant => meshed_constant
+    procedure :: add_load_rates => meshed_load_rates
+    procedure :: estimate => meshed_estimate
+    procedure :: is_meshed => meshed_is_meshed
+    procedure :: motions => meshed_motions
+    procedure :: free_matrix
+    procedure(split_displacements), deferred :: split_displacements
+    procedure(stresses), deferred :: stresses
+  end type meshed_foil_type
+
+  abstract interface
+    !> Displacements of all this rank's nodes of both foils, condensed ones recovered. All ranks ask.
+    subroutine split_displacements(self, unknown, top, bumps)
+      import :: meshed_foil_type, wp
+      class(meshed_foil_type), intent(in) :: self
+      real(wp), intent(in) :: unknown(:)            !! local unknowns of the bearing, in SI
+      real(wp), allocatable, intent(out) :: top(:, :)   !! (5, local nodes) [m], [rad]
+      real(wp), allocatable, intent(out) :: bumps(:, :) !! the same of the bump foil
+    end subroutine split_displacements
+
+    !> Stresses of a surface's elements on this rank.
+    function stresses(self, surface, moved) result(value)
+      import :: meshed_foil_type, foil_surface_type, wp
+      class(meshed_foil_type), intent(in) :: self
+      type(foil_surface_type), intent(in) :: surface !! one of the foil's two
+      real(wp), intent(in) :: moved(:, :)            !! (5, local nodes) [m], [rad]
+      real(wp), allocatable :: value(:, :)           !! (8, elements of this rank) [Pa]
+    end function stresses
+  end interface
+
+contains
+
+  !> The list of both surfaces, named.
+  function both_surfaces(top, bumps) result(list)
+    type(foil_surface_type), intent(in) :: top   !! the top foil
+    type(foil_surface_type), intent(in) :: bumps !! the bump foil, whose nodes are the contacts' slaves
+    type(foil_surface_type), allocatable :: list(:)
+
+    allocate (list(bump_surface))
+    list(top_surface) = top
+    list(bump_surface) = bumps
+    list(top_surface)%name = 'top_foil'
+    list(bump_surface)%name = 'bump_foil'
+    list(bump_surface)%has_contacts = .true.
+  end function both_surfaces
+
+  !> Elastic forces, pressure and contacts.
+  subroutine meshed_residual(self, unknown, residual)
+    class(meshed_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    real(wp), intent(inout) :: residual(:)
+
+    real(wp) :: contact(self%local_unknowns()), load(size(self%pressed, 1))
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: element, i
+
+    PetscCallA(GFB_VecGetArray(self%state, values, ierr))
+    values = unknown(self%first + self%own_place)
+    PetscCallA(GFB_VecRestoreArray(self%state, values, ierr))
+    PetscCallA(MatMult(self%elastic, self%state, self%force, ierr))
+    PetscCallA(GFB_VecGetArrayRead(self%force, values, ierr))
+    residual(self%first + self%own_place) = residual(self%first + self%own_place) + values
+    PetscCallA(GFB_VecRestoreArrayRead(self%force, values, ierr))
+
+    do element = 1, size(self%pressed, 2)
+      load = matmul(self%weight(:, :, element), unknown(self%pressed(:, element)) - self%ambient_pressure)
+      do i = 1, size(load)
+        if (self%pushed(i, element) == 0) cycle
+        associate (row => self%first + self%pushed(i, element))
+          residual(row) = residual(row) + load(i) ! pressure pushes against v
+        end associate
+      end do
+    end do
+
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
+    contact = 0.0_wp
+    call self%contacts%add_forces(self%own_part(unknown), contact)
+    associate (mine => residual(self%first + 1:self%first + size(contact)))
+      mine = mine - contact
+    end associate
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
+  end subroutine meshed_residual
+
+  !> Stiffness of the contacts as they are linearised.
+  subroutine meshed_jacobian(self, unknown, jacobian)
+    class(meshed_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    Mat, intent(in) :: jacobian
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
+    do i = 1, size(self%contacts%point)
+      call add_contact(self, i, 1.0_wp, jacobian)
+    end do
+    PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
+  end subroutine meshed_jacobian
+
+  !> Adds a contact's stiffness times a factor by local numbers.
+  subroutine add_contact(foil, i, factor, matrix)
+    class(meshed_foil_type), intent(in) :: foil
+    integer, intent(in) :: i
+    real(wp), intent(in) :: factor !! 0: makes room
+    Mat, intent(in) :: matrix
+    integer, allocatable :: unknown(:)
+    PetscInt, allocatable :: number(:)
+    PetscErrorCode :: ierr
+
+    unknown = foil%contacts%point_unknowns(i)
+    number = int(merge(foil%first + unknown - 1, -1, unknown > 0), pint)
+    PetscCallA(MatSetValuesLocal(matrix, int(size(number), pint), number, int(size(number), pint), number, [factor*transpose(foil%contacts%point_block(i))], ADD_VALUES, ierr))
+  end subroutine add_contact
+
+  !> Pressure on the top foil, and room for the contacts.
+  subroutine meshed_constant(self, jacobian)
+    class(meshed_foil_type), intent(in) :: self
+    Mat, intent(in) :: jacobian
+    PetscInt :: row(size(self%pressed, 1)), column(size(self%pressed, 1))
+    PetscErrorCode :: ierr
+    integer :: i
+
+    do i = 1, size(self%pressed, 2)
+      row = int(merge(self%first + self%pushed(:, i) - 1, -1, self%pushed(:, i) > 0), pint)
+      column = int(self%pressed(:, i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(column), pint), column, [transpose(self%weight(:, :, i))], ADD_VALUES, ierr))
+      if (.not. self%has_room) cycle
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(row), pint), row, [0.0_wp*self%weight(:, :, i)], ADD_VALUES, ierr))
+    end do
+    do i = 1, size(self%contacts%point)
+      call add_contact(self, i, 0.0_wp, jacobian)
+    end do
+  end subroutine meshed_constant
+
+  !> Load of a pressure that depends on other unknowns.
+  subroutine meshed_load_rates(self, column, slope, jacobian)
+    class(meshed_foil_type), intent(in) :: self
+    integer, intent(in) :: column(:, :)
+    real(wp), intent(in) :: slope(:, :)
+    Mat, intent(in) :: jacobian
+    ! a row of the matrix in each column, as PETSc reads it
+    real(wp) :: block(size(column, 1), size(self%pressed, 1), size(self%pressed, 1))
+    PetscInt :: row(size(self%pressed, 1)), place(size(column, 1), size(self%pressed, 1))
+    PetscErrorCode :: ierr
+    integer :: element, i, j
+
+    do element = 1, size(self%pressed, 2)
+      associate (nodes => self%pressed(:, element), number => self%pushed(:, element))
+        row = int(merge(self%first + number - 1, -1, number > 0), pint)
+        place = int(column(:, nodes), pint)
+        do i = 1, size(row)
+          do j = 1, size(nodes)
+            block(:, j, i) = self%weight(i, j, element)*slope(:, nodes(j))
+          end do
+        end do
+      end associate
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(place), pint), [place], [block], ADD_VALUES, ierr))
+    end do
+  end subroutine meshed_load_rates
+
+  !> The foils stay where they are: contacts find their way from there.
+  subroutine meshed_estimate(self, unknown)
+    class(meshed_foil_type), intent(in) :: self
+    real(wp), intent(inout) :: unknown(:)
+  end subroutine meshed_estimate
+
+  !> Both foils have meshes.
+  pure function meshed_is_meshed(self) result(meshed)
+    class(meshed_foil_type), intent(in) :: self
+    logical :: meshed
+    meshed = .true.
+  end function meshed_is_meshed
+
+  !> Displacements and stresses of both foils.
+  function meshed_motions(self, unknown) result(list)
+    class(meshed_foil_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:)
+    type(surface_motion_type), allocatable :: list(:)
+    type(foil_surface_type), allocatable :: surface(:)
+    integer :: i
+
+    allocate (list(bump_surface))
+    call self%split_displacements(unknown, list(top_surface)%displacement, list(bump_surface)%displacement)
+    surface = self%surfaces()
+    do i = 1, size(list)
+      list(i)%stress = self%stresses(surface(i), list(i)%displacement)
+    end do
+  end function meshed_motions
+
+  !> Frees the matrix and its vectors; may be called twice.
+  subroutine free_matrix(self)
+    class(meshed_foil_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+
+    if (.not. self%has_matrix) return
+    PetscCallA(MatDestroy(self%elastic, ierr))
+    PetscCallA(VecDestroy(self%state, ierr))
+    PetscCallA(VecDestroy(self%force, ierr))
+    self%has_matrix = .false.
+  end subroutine free_matrix
+end module gfb_meshed_foil

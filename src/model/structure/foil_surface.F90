@@ -1,0 +1,41 @@
+!> A foil as a meshed surface: what of it this rank has, and how it moved. Equations stand elsewhere.
+module gfb_foil_surface
+  use gfb_kinds, only: wp
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_shell_geometry, only: shell_section_type
+  implicit none (type, external)
+  private
+
+  !> A mid-surface and this rank's part of it; nodes and elements keep their numbers in the whole mesh.
+  type, public :: foil_surface_type
+    character(len=:), allocatable :: name    !! of its file: top_foil, bump_foil
+    logical :: has_contacts = .false.        !! slaves of the contacts are nodes of this surface
+    type(quad_mesh_type) :: mesh             !! the stretch that holds this rank's columns, or more
+    type(shell_section_type) :: section
+    type(local_mesh_type) :: part            !! this rank's elements and nodes
+    integer, allocatable :: my_elements(:)   !! elements of this rank, numbers in the whole mesh
+    integer, allocatable :: local_node(:)    !! this rank's number of a node, 0 where it is elsewhere
+  contains
+    procedure :: owns
+  end type foil_surface_type
+
+  !> How a surface moved, and what that does to it.
+  type, public :: surface_motion_type
+    real(wp), allocatable :: displacement(:, :) !! (5, local nodes) [m], [rad]
+    real(wp), allocatable :: stress(:, :)       !! (8, elements of this rank), see `gfb_foil_stress` [Pa]
+  end type surface_motion_type
+
+contains
+
+  !> Whether this rank owns a node.
+  pure function owns(self, node) result(mine)
+    class(foil_surface_type), intent(in) :: self
+    integer, intent(in) :: node !! of the whole mesh
+    logical :: mine
+
+    mine = .false.
+    if (node < lbound(self%local_node, 1) .or. node > ubound(self%local_node, 1)) return
+    if (self%local_node(node) > 0) mine = self%part%owned(self%local_node(node))
+  end function owns
+end module gfb_foil_surface
