@@ -3,11 +3,14 @@ module gfb_film_load
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_reynolds_element, only: film_flow_type
+  use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private
   public :: film_force_weights, film_force, film_friction
 
-  integer, parameter, public :: film_forces = 4 !! F_x, F_y, M_x, M_y
+  integer, parameter, public :: film_forces = shaft_coordinates !! F_x, F_y, M_x, M_y
+  !> The force acts on the sleeve, as the shaft's coordinates are the sleeve's; the torque does not.
+  real(wp), parameter :: acts_on(film_forces) = [1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp]
 
 contains
 
@@ -16,41 +19,39 @@ contains
   !> $$ F = \int (p - p_a) \begin{bmatrix} \cos\theta \\ \sin\theta \end{bmatrix} d\Omega, \quad
   !>    M = \int (p - p_a) z \begin{bmatrix} \sin\theta \\ -\cos\theta \end{bmatrix} d\Omega $$
   !>
-  !> Source: [Gu2020] eqs. 14 and 16. The force acts on the sleeve, the torque on the shaft.
-  pure subroutine film_force_weights(geometry, angle, axial, weight)
-    type(film_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: angle(:)      !! theta of the nodes [rad]
-    real(wp), intent(in) :: axial(:)      !! z of the nodes [m]
+  !> Source: [Gu2020] eqs. 14 and 16. The force acts on the sleeve, the torque on the shaft. They
+  !> are the work conjugates of the shaft's coordinates: \( \int (p - p_a) b \, d\Omega \).
+  pure subroutine film_force_weights(geometry, motion, weight)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    real(wp), intent(in) :: motion(:, :)  !! (4, points) the shaft's, see `point_motions` [1], [m]
     real(wp), intent(out) :: weight(:, :) !! (4, nodes) of p - p_a [m2], [m3]
-    real(wp) :: shapes(size(angle), size(angle))
+    real(wp) :: shapes(size(motion, 2), size(motion, 2))
     integer :: point
 
-    shapes = film_shapes(size(angle))
+    shapes = film_shapes(size(motion, 2))
     weight = 0.0_wp
     do point = 1, size(geometry%area)
       associate (shape => shapes(:, point))
-        weight = weight + geometry%area(point)* &
-          outer(force_direction(dot_product(shape, angle), dot_product(shape, axial)), shape)
+        weight = weight + geometry%area(point)*outer(acts_on*motion(:, point), shape)
       end associate
     end do
   end subroutine film_force_weights
 
   !> The element's share of force and torque where the pressure is above ambient only.
-  pure function film_force(geometry, angle, axial, overpressure) result(force)
-    type(film_geometry_type), intent(in) :: geometry
-    real(wp), intent(in) :: angle(:)        !! theta of the nodes [rad]
-    real(wp), intent(in) :: axial(:)        !! z of the nodes [m]
+  pure function film_force(geometry, motion, overpressure) result(force)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    real(wp), intent(in) :: motion(:, :)    !! (4, points) the shaft's, see `point_motions` [1], [m]
     real(wp), intent(in) :: overpressure(:) !! p - p_a at the nodes [Pa]
     real(wp) :: force(film_forces)          !! F_x, F_y [N], M_x, M_y [N m]
-    real(wp) :: shapes(size(angle), size(angle))
+    real(wp) :: shapes(size(overpressure), size(overpressure))
     integer :: point
 
-    shapes = film_shapes(size(angle))
+    shapes = film_shapes(size(overpressure))
     force = 0.0_wp
     do point = 1, size(geometry%area)
       associate (shape => shapes(:, point))
         force = force + geometry%area(point)*max(dot_product(shape, overpressure), 0.0_wp)* &
-          force_direction(dot_product(shape, angle), dot_product(shape, axial))
+          (acts_on*motion(:, point))
       end associate
     end do
   end function film_force
@@ -63,8 +64,8 @@ contains
   !> It is the shear at \( y = h \) of the velocity between a resting surface and one that moves
   !> with \( 2 U \); positive against the motion.
   pure function film_friction(geometry, flow, pressure, gap, excess) result(drag)
-    type(film_geometry_type), intent(in) :: geometry
-    type(film_flow_type), intent(in) :: flow
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow         !! of the gas
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
@@ -82,15 +83,6 @@ contains
                                           pressure - pressure(1)))
     end do
   end function film_friction
-
-  !> Integrands of force and torque for unit pressure.
-  pure function force_direction(angle, axial) result(direction)
-    real(wp), intent(in) :: angle !! theta [rad]
-    real(wp), intent(in) :: axial !! z [m]
-    real(wp) :: direction(film_forces)
-
-    direction = [cos(angle), sin(angle), axial*sin(angle), -axial*cos(angle)]
-  end function force_direction
 
   !> Outer product of two vectors.
   pure function outer(first, second) result(product)

@@ -17,6 +17,7 @@ module gfb_bearing_system
   use gfb_solid_rows, only: add_solid_rows
   use gfb_film_matrix, only: no_shaft, make_film_room, add_film_rows, add_shaft_rows
   use gfb_film_load, only: film_forces
+  use gfb_shaft_motion, only: entraining_speed
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank, rank_count, fetch_entries
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns
@@ -209,7 +210,7 @@ contains
     integer :: nodes
 
     nodes = size(self%mesh%mesh_node)
-    self%film%flow%entraining_speed = 0.5_wp*self%point%speed*self%whole%radius
+    self%film%flow%entraining_speed = entraining_speed(self%point%speed, self%whole%radius)
     associate (film => self%film, whole => self%whole)
       along = whole%radius*abs(whole%station_angle(2) - whole%station_angle(1))
       across = whole%row_axial(2) - whole%row_axial(1)

@@ -28,7 +28,7 @@ contains
     Mat, intent(in) :: matrix
 
     real(wp), dimension(size(film%shape, 1), size(film%shape, 1)) :: by_pressure, by_gap
-    real(wp) :: by_eccentricity(size(film%shape, 1), shaft_unknowns)
+    real(wp) :: by_shaft(size(film%shape, 1), shaft_unknowns)
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(2*size(film%shape, 1) + shaft_unknowns, size(film%shape, 1))
     PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
@@ -39,14 +39,14 @@ contains
       call element_columns(film, foil, shaft, element, row, column)
       associate (nodes => film%element_nodes(:, element))
         call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
-                                        by_eccentricity)
+                                        by_shaft)
         block = 0.0_wp
         block(:film_nodes, :) = transpose(by_pressure)
         do b = 1, film_nodes
           node = merge(b, film_nodes + b, foil%source(nodes(b)) == nodes(b))
           block(node, :) = block(node, :) + foil%rate(nodes(b))*by_gap(:, b)
         end do
-        block(2*film_nodes + 1:, :) = transpose(by_eccentricity)
+        block(2*film_nodes + 1:, :) = transpose(by_shaft)
       end associate
       call add_block(matrix, row, column, block)
     end do

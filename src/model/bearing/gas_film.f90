@@ -3,7 +3,8 @@ module gfb_gas_film
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
-  use gfb_film_gap, only: rigid_gap, rigid_gap_excess
+  use gfb_film_gap, only: rigid_gap
+  use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess
   use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
   use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
   use gfb_film_mesh, only: film_mesh_type, gather_elements
@@ -27,10 +28,12 @@ module gfb_gas_film
     real(wp), allocatable :: angle(:)             !! theta of the nodes [rad]
     real(wp), allocatable :: axial(:)             !! z of the nodes [m]
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
-    real(wp), allocatable :: corner_angle(:, :)   !! theta of the elements' nodes, unwound [rad]
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
-    real(wp), allocatable :: gap_excess(:, :, :)  !! (4, points, elements) see `rigid_gap_excess`
+    real(wp), allocatable :: motion(:, :)         !! (4, nodes) the gap's derivatives by the shaft's
+    !! coordinates, see `shaft_motion` [1], [m]
+    real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
+    real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
   contains
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
@@ -73,13 +76,14 @@ contains
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
     allocate (film%angle(size(mesh_node)), film%axial(size(mesh_node)))
-    allocate (film%fixed(size(mesh_node)))
+    allocate (film%fixed(size(mesh_node)), film%motion(shaft_coordinates, size(mesh_node)))
     do i = 1, size(mesh_node)
       station = (mesh_node(i) - 1)/whole%rows() + 1
       row = mesh_node(i) - (station - 1)*whole%rows()
       film%angle(i) = whole%station_angle(station)
       film%axial(i) = whole%row_axial(row)
       film%fixed(i) = whole%is_edge(station, row)
+      film%motion(:, i) = shaft_motion(film%angle(i), film%axial(i))
     end do
     call measure_elements(film, error)
   end subroutine create_gas_film
@@ -91,14 +95,17 @@ contains
 
     real(wp), parameter :: pi = acos(-1.0_wp)
     real(wp) :: position(2, size(film%shape, 1)), weight(film_forces, size(film%shape, 1))
+    real(wp) :: angle(size(film%shape, 1))
     integer :: element
 
-    allocate (film%corner_angle(size(film%shape, 1), size(film%element_nodes, 2)))
     allocate (film%geometry(size(film%element_nodes, 2)))
     allocate (film%force_weight(film_forces, size(film%angle)), source=0.0_wp)
-    allocate (film%gap_excess(4, size(film%shape, 2), size(film%element_nodes, 2)))
+    allocate (film%point_motion(shaft_coordinates, size(film%shape, 2), &
+                                size(film%element_nodes, 2)))
+    allocate (film%motion_excess, mold=film%point_motion)
     do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), angle => film%corner_angle(:, element))
+      associate (nodes => film%element_nodes(:, element), &
+                 motion => film%point_motion(:, :, element))
         angle = film%angle(nodes)
         ! The element that closes a ring reaches beyond the last station.
         where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
@@ -106,8 +113,9 @@ contains
         position(2, :) = film%axial(nodes)
         call film_geometry(position, film%geometry(element), error)
         if (allocated(error)) return
-        call film_force_weights(film%geometry(element), angle, film%axial(nodes), weight)
-        film%gap_excess(:, :, element) = rigid_gap_excess(angle, film%axial(nodes))
+        motion = point_motions(angle, film%axial(nodes))
+        film%motion_excess(:, :, element) = motion_excess(angle, film%axial(nodes))
+        call film_force_weights(film%geometry(element), motion, weight)
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
@@ -131,13 +139,14 @@ contains
     integer, intent(in) :: element
     type(operating_point_type), intent(in) :: point
     real(wp) :: excess(most_film_nodes) !! the first ones are its points'
-    real(wp) :: way(4)
     integer :: i
 
-    way = [point%eccentricity, point%tilt(2), -point%tilt(1)]
     excess = 0.0_wp
     do i = 1, size(self%shape, 2)
-      excess(i) = dot_product(way, self%gap_excess(:, i, element))
+      associate (motion => self%motion_excess(:, i, element))
+        excess(i) = dot_product(point%eccentricity, motion(1:2)) + point%tilt(2)*motion(4) &
+          + point%tilt(1)*motion(3)
+      end associate
     end do
   end function film_excess
 
@@ -193,9 +202,10 @@ contains
     where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
   end subroutine film_residual
 
-  !> Derivatives of one element's equations by nodal pressures and deflections, and by (e_x, e_y).
+  !> Derivatives of one element's equations by nodal pressures and deflections, and by the first of
+  !> the shaft's coordinates, as many as there is room for.
   pure subroutine film_element_jacobian(self, element, pressure, gap, point, by_pressure, by_gap, &
-                                        by_eccentricity)
+                                        by_shaft)
     class(gas_film_type), intent(in) :: self
     integer, intent(in) :: element
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
@@ -203,11 +213,11 @@ contains
     type(operating_point_type), intent(in) :: point
     real(wp), contiguous, intent(out) :: by_pressure(:, :) !! (nodes, nodes) [m3/s]
     real(wp), contiguous, intent(out) :: by_gap(:, :)      !! (nodes, nodes) [Pa m2/s]
-    real(wp), intent(out) :: by_eccentricity(:, :)         !! (nodes, 2) [Pa m2/s]
+    real(wp), intent(out) :: by_shaft(:, :)                !! (nodes, 2 or 4) [Pa m2/s], [Pa m3/s]
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess
     real(wp) :: by_excess(size(self%shape, 1), size(self%shape, 2))
-    integer :: n, i
+    integer :: n, i, k
 
     n = size(self%shape, 1)
     associate (nodes => self%element_nodes(:, element))
@@ -216,12 +226,12 @@ contains
       excess = self%excess(element, point)
       call reynolds_jacobian(self%geometry(element), self%flow, p(:n), h(:n), excess(:n), &
                              no_source(:n), by_pressure, by_gap, by_excess)
-      by_eccentricity = 0.0_wp
+      by_shaft = 0.0_wp
       do i = 1, n
-        by_eccentricity(:, 1) = by_eccentricity(:, 1) + by_gap(:, i)*cos(self%angle(nodes(i))) &
-          + by_excess(:, i)*self%gap_excess(1, i, element)
-        by_eccentricity(:, 2) = by_eccentricity(:, 2) + by_gap(:, i)*sin(self%angle(nodes(i))) &
-          + by_excess(:, i)*self%gap_excess(2, i, element)
+        do k = 1, size(by_shaft, 2)
+          by_shaft(:, k) = by_shaft(:, k) + by_gap(:, i)*self%motion(k, nodes(i)) &
+            + by_excess(:, i)*self%motion_excess(k, i, element)
+        end do
       end do
     end associate
   end subroutine film_element_jacobian
@@ -245,10 +255,9 @@ contains
     force = 0.0_wp
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
-        force = force + self%copies*film_force(self%geometry(element), self%corner_angle(:, &
-          element), &
-                                               self%axial(nodes), pressure(nodes) &
-                                               - self%ambient_pressure)
+        force = force + self%copies*film_force(self%geometry(element), &
+                                               self%point_motion(:, :, element), &
+                                               pressure(nodes) - self%ambient_pressure)
       end associate
     end do
     if (self%copies > 1.0_wp) force(3:4) = 0.0_wp

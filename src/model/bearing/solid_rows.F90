@@ -41,8 +41,8 @@ contains
       column(2, :) = shaft
       column(3, :) = shaft + 1
     end if
-    slope(2, :) = rate*cos(film%angle)
-    slope(3, :) = rate*sin(film%angle)
+    slope(2, :) = rate*film%motion(1, :)
+    slope(3, :) = rate*film%motion(2, :)
     if (shaft /= no_shaft) call add_to_shaft(film, shaft, held, column, slope, matrix)
     call foil%add_load_rates(column, slope, matrix)
   end subroutine add_solid_rows

@@ -150,9 +150,9 @@ contains
     pressure = 0.0_wp
     if (.not. bearing%contact%present) return
     associate (film => bearing%film, foil => bearing%foil)
-      gap = film%axial*merge(sin(film%angle), -cos(film%angle), axis == 1)
+      gap = -film%motion(2 + axis, :)
       if (bearing%floats) then
-        gap = gap + change(bearing%first_shaft + 1)*cos(film%angle) + change(bearing%first_shaft + 2)*sin(film%angle)
+        gap = gap + change(bearing%first_shaft + 1)*film%motion(1, :) + change(bearing%first_shaft + 2)*film%motion(2, :)
       end if
       do node = 1, size(gap)
         if (foil%source(node) > 0) gap(node) = gap(node) + foil%rate(node)*change(foil%source(node))

@@ -14,6 +14,7 @@ module gfb_bearing_plan
   use gfb_operation_case, only: angular_speed
   use gfb_sweep_case, only: sweep_speed
   use gfb_reynolds_element, only: film_flow_type, cell_peclet
+  use gfb_shaft_motion, only: entraining_speed
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_builder, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
@@ -193,7 +194,7 @@ contains
       speed_rpm = maxval(scene%sweep%values)
     end if
     flow%viscosity = scene%gas%viscosity
-    flow%entraining_speed = 0.5_wp*angular_speed(speed_rpm)*scene%bearing%radius
+    flow%entraining_speed = entraining_speed(angular_speed(speed_rpm), scene%bearing%radius)
     peclet = cell_peclet(flow, pad_length(scene%bearing)/real(plan%circumferential, wp), &
                          scene%gas%ambient_pressure, scene%bearing%clearance)
   end function concentric_peclet
