@@ -54,7 +54,7 @@ contains
       call add_quantity(row%quantity, count_quantity('branch', branch, 'number of the equilibrium'))
     end if
     call add_quantity(row%quantity, answer_quantities(analysis_name(scene), converged, &
-      bearing_answer(bearing), bearing%film%clearance, bearing%force_scale))
+      bearing_answer(bearing), bearing%film%clearance, bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
     call add_quantity(row%quantity, count_quantities(newton%iterations, newton%factorizations))

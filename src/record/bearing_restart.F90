@@ -211,7 +211,6 @@ contains
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error)) return
-    call bearing%apply_point()
     if (scene%sweep%turn_folds .and. point > 1) then
       call log%line('restart: goes on from answer '//text(point)//' of the branch')
     else if (point == 0) then

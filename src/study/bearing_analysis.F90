@@ -112,7 +112,7 @@ contains
 
     answer = bearing_answer(bearing)
     call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
-      bearing%force_scale))
+      bearing%force_scale()))
     call add_quantity(summary, summary_quantities(record%tilted))
     call add_quantity(summary, bearing%foil%sizes())
     if (allocated(record%judged)) call add_quantity(summary, record%judged)
@@ -281,7 +281,6 @@ contains
 
     bearing%point%eccentricity = bearing%eccentricity()
     bearing%held = .true.
-    call bearing%apply_point()
     call log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
                   text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
   end subroutine hold_shaft

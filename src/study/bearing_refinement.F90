@@ -73,7 +73,7 @@ contains
     self%iterations = self%newton%iterations
     self%factorizations = self%newton%factorizations
     self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(self%bearing), &
-                                   self%bearing%film%clearance, self%bearing%force_scale)
+                                   self%bearing%film%clearance, self%bearing%force_scale())
   end subroutine solve_bearing
 
   !> Writes the result files.

@@ -158,7 +158,7 @@ contains
     call show_table(log, search, order, record, bearing%film%clearance)
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
     call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
-      bearing%film%clearance, bearing%force_scale))
+      bearing%film%clearance, bearing%force_scale()))
     call add_quantity(summary, count_quantity('branches', size(order), &
       'equilibria found; those above are the first''s'))
     call add_quantity(summary, bearing%foil%sizes())

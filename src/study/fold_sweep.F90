@@ -113,7 +113,6 @@ contains
         if (k == way%kept .and. way%arc%heading*way%kept_heading > 0.0_wp) cycle ! before a retreat
         call way%arc%between((way%place(k) - from)/(to - from))
         bearing%point = point_between(way%first, way%last, way%place(k))
-        call bearing%apply_point()
         call solve_newton(newton, solved)
         if (.not. solved%converged) then
           report%reason = 'no answer at '//value_text(scene, way%place(k))//', which the branch passes ('//solved%reason//')'

@@ -58,8 +58,8 @@ contains
       largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
       largest(4) = maxval(pressure)
       largest(5) = -minval(pressure)
-      largest(6) = film%peclet(pressure, gap, 0.0_wp)
-      largest(7) = film%peclet(pressure, gap, rough_step)
+      largest(6) = film%peclet(bearing%point, pressure, gap, 0.0_wp)
+      largest(7) = film%peclet(bearing%point, pressure, gap, rough_step)
       largest = largest_over_ranks(largest)
     end associate
     if (bearing%foil%is_meshed()) call read_lifts(bearing, unknown, answer)

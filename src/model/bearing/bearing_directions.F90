@@ -80,7 +80,7 @@ contains
 
     value = 0.0_wp
     associate (first => bearing%foil%first + 1, last => bearing%foil%first + bearing%foil%local_unknowns())
-      value(first:last) = bearing%unknown_scale(first:last)/bearing%equation_scale(first:last)
+      value(first:last) = bearing%foil%unknown_scale/bearing%foil%equation_scale
     end associate
     call bearing%exchange%put(value, diagonal)
   end subroutine foil_unit

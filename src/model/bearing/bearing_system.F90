@@ -17,7 +17,6 @@ module gfb_bearing_system
   use gfb_solid_rows, only: add_solid_rows
   use gfb_film_matrix, only: no_shaft, make_film_room, add_film_rows, add_shaft_rows
   use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: entraining_speed
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank, rank_count, fetch_entries
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns
@@ -48,16 +47,16 @@ module gfb_bearing_system
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before e_x
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
-    real(wp) :: force_scale = 1.0_wp       !! size of a force [N]
     real(wp), allocatable :: unknown_scale(:)  !! of the local unknowns, in SI
-    real(wp), allocatable :: equation_scale(:) !! of the local equations, in SI
     Mat, private :: constant    !! what of the matrix never changes, in SI
-    Vec, private :: left, right !! sizes of equations, inverted, and of unknowns
+    Vec, private :: left, right !! work space: sizes of equations, inverted; sizes of unknowns
     type(local_exchange_type) :: exchange
     type(cost_events_type), private :: events !! of PETSc's log
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
+    procedure :: evaluate_at
+    procedure :: linearise_at
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foil
@@ -72,7 +71,8 @@ module gfb_bearing_system
     procedure :: eccentricity => bearing_eccentricity
     procedure :: smallest_gap
     procedure :: reaction
-    procedure :: apply_point
+    procedure :: force_scale
+    procedure, private :: equation_scale
     procedure :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -159,8 +159,8 @@ contains
     call bearing%foil%add_constant(bearing%jacobian)
     call make_film_room(bearing%film, bearing%foil, shaft_place(bearing), bearing%mesh%owned, bearing%jacobian)
     if (bearing%floats) then
-      call add_shaft_rows(bearing%film, bearing%first_shaft, bearing%last_rank, hold_stiffness(bearing), 0.0_wp, &
-                          bearing%jacobian)
+      call add_shaft_rows(bearing%film, bearing%first_shaft, bearing%last_rank, &
+                          hold_stiffness(bearing, bearing%point, bearing%held), 0.0_wp, bearing%jacobian)
     end if
     call add_solid_rows(bearing%contact, bearing%film, bearing%foil, shaft_place(bearing), .true., &
                         spread(bearing%film%clearance, 1, size(bearing%film%angle)), 0.0_wp, bearing%jacobian)
@@ -176,62 +176,71 @@ contains
     place = merge(bearing%first_shaft, no_shaft, bearing%floats)
   end function shaft_place
 
-  !> Force over way that keeps a held shaft at its place, 0 where it floats [N/m].
-  pure function hold_stiffness(bearing) result(stiffness)
+  !> Force over displacement that keeps a fixed shaft at its position, 0 where it floats [N/m].
+  pure function hold_stiffness(bearing, point, held) result(stiffness)
     class(bearing_system_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: point !! whose load counts
+    logical, intent(in) :: held                     !! the shaft is fixed
     real(wp) :: stiffness
-    stiffness = merge(bearing%force_scale/bearing%film%clearance, 0.0_wp, bearing%held)
+    stiffness = merge(bearing%force_scale(point)/bearing%film%clearance, 0.0_wp, held)
   end function hold_stiffness
 
-  !> Sizes of unknowns and equations.
+  !> Sizes of the unknowns.
   subroutine scale_unknowns(bearing)
     type(bearing_system_type), intent(inout) :: bearing
-    integer :: nodes
 
-    nodes = size(bearing%mesh%mesh_node)
-    allocate (bearing%unknown_scale(bearing%local_size()), bearing%equation_scale(bearing%local_size()))
+    allocate (bearing%unknown_scale(bearing%local_size()))
     associate (foil => bearing%foil)
-      bearing%unknown_scale(:nodes) = bearing%film%ambient_pressure
+      bearing%unknown_scale(:foil%first) = bearing%film%ambient_pressure
       bearing%unknown_scale(foil%first + 1:foil%first + foil%local_unknowns()) = foil%unknown_scale
-      bearing%equation_scale(foil%first + 1:foil%first + foil%local_unknowns()) = foil%equation_scale
     end associate
     bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%film%clearance
-    call bearing%apply_point()
+    call bearing%exchange%put(bearing%unknown_scale, bearing%right)
   end subroutine scale_unknowns
 
-  !> Takes over the present operating point: speed of the film, sizes of its and the shaft's
-  !> equations.
-  !>
-  !> A film equation is measured by the flow through a cell, that of the pressure and that of the
-  !> motion; a force by the load and by ambient pressure on the bearing's shadow.
-  subroutine apply_point(self)
-    class(bearing_system_type), intent(inout) :: self
-    real(wp) :: along, across, cell_flow
-    integer :: nodes
+  !> Sizes of the local equations at an operating point, in SI: a film equation is measured by the
+  !> flow through a cell.
+  pure function equation_scale(self, point) result(scale)
+    class(bearing_system_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! whose speed and load count
+    real(wp) :: scale(self%local_size())
 
-    nodes = size(self%mesh%mesh_node)
-    self%film%flow%entraining_speed = entraining_speed(self%point%speed, self%whole%radius)
-    associate (film => self%film, whole => self%whole)
-      along = whole%radius*abs(whole%station_angle(2) - whole%station_angle(1))
-      across = whole%row_axial(2) - whole%row_axial(1)
-      cell_flow = film%ambient_pressure**2*film%clearance**3/(12.0_wp*film%flow%viscosity)* &
-        (along/across + across/along) &
-        + abs(film%flow%entraining_speed)*film%ambient_pressure*film%clearance*across
-      self%equation_scale(:nodes) = merge(film%ambient_pressure, cell_flow, film%fixed)
-      self%force_scale = norm2(self%point%load) + film%ambient_pressure*whole%radius* &
-        film%copies*(whole%row_axial(whole%rows()) - whole%row_axial(1))
+    associate (foil => self%foil, film => self%film)
+      scale(:foil%first) = merge(film%ambient_pressure, film%cell_flow(point), film%fixed)
+      scale(foil%first + 1:foil%first + foil%local_unknowns()) = foil%equation_scale
     end associate
-    self%equation_scale(self%first_shaft + 1:) = self%force_scale
-    call self%exchange%put(1.0_wp/self%equation_scale, self%left)
-    call self%exchange%put(self%unknown_scale, self%right)
-  end subroutine apply_point
+    scale(self%first_shaft + 1:) = self%force_scale(point)
+  end function equation_scale
 
-  !> Residual of all equations.
+  !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
+  pure function force_scale(self, point) result(force)
+    class(bearing_system_type), intent(in) :: self
+    type(operating_point_type), intent(in), optional :: point !! default: the present one
+    real(wp) :: force
+
+    if (present(point)) then
+      force = norm2(point%load) + self%film%shadow()
+    else
+      force = norm2(self%point%load) + self%film%shadow()
+    end if
+  end function force_scale
+
+  !> Residual of all equations at the present operating point.
   subroutine evaluate_bearing(self, state, residual, valid)
     class(bearing_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    Vec, intent(in) :: residual
-    logical, intent(out) :: valid
+    Vec, intent(in) :: state    !! scaled
+    Vec, intent(in) :: residual !! scaled
+    logical, intent(out) :: valid !! gap and pressure are positive
+    call self%evaluate_at(self%point, state, residual, valid)
+  end subroutine evaluate_bearing
+
+  !> Residual of all equations at an operating point.
+  subroutine evaluate_at(self, asked, state, residual, valid)
+    class(bearing_system_type), intent(inout) :: self
+    type(operating_point_type), intent(in) :: asked !! operating point
+    Vec, intent(in) :: state    !! scaled
+    Vec, intent(in) :: residual !! scaled
+    logical, intent(out) :: valid !! gap and pressure are positive
 
     real(wp) :: unknown(self%local_size()), value(self%local_size())
     real(wp) :: loading(self%local_size()) ! the unknowns, with all pressure that loads foil and shaft
@@ -245,9 +254,9 @@ contains
     shaft = self%first_shaft
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale
-    gap = self%gap(unknown)
+    gap = self%gap(unknown, asked)
     value = 0.0_wp
-    point = self%position(unknown)
+    point = self%position(unknown, asked)
     PetscCallA(PetscLogEventBegin(self%events%film, ierr))
     valid = self%film%is_open(unknown(:nodes), gap, point)
     PetscCallA(PetscLogEventEnd(self%events%film, ierr))
@@ -273,22 +282,31 @@ contains
       end if
       if (self%floats .and. self%last_rank) then
         if (self%held) then
-          value(shaft + 1:) = (unknown(shaft + 1:) - self%point%eccentricity)*hold_stiffness(self)
+          value(shaft + 1:) = (unknown(shaft + 1:) - asked%eccentricity)*hold_stiffness(self, asked, .true.)
         else
-          value(shaft + 1:) = value(shaft + 1:) - self%point%load
+          value(shaft + 1:) = value(shaft + 1:) - asked%load
         end if
       end if
-      value = value/self%equation_scale
+      value = value/self%equation_scale(asked)
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call self%exchange%add(value, residual)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
-  end subroutine evaluate_bearing
+  end subroutine evaluate_at
 
-  !> Derivative of all equations.
+  !> Derivative of all equations at the present operating point.
   subroutine linearise_bearing(self, state)
     class(bearing_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
+    Vec, intent(in) :: state !! scaled
+    call self%linearise_at(self%point, self%held, state)
+  end subroutine linearise_bearing
+
+  !> Derivative of all equations at an operating point.
+  subroutine linearise_at(self, point, held, state)
+    class(bearing_system_type), intent(inout) :: self
+    type(operating_point_type), intent(in) :: point
+    logical, intent(in) :: held !! the shaft is fixed
+    Vec, intent(in) :: state    !! scaled
 
     real(wp) :: unknown(self%local_size()), gap(size(self%mesh%mesh_node))
     PetscErrorCode :: ierr
@@ -297,7 +315,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%exchange%get(state, unknown)
     unknown = unknown*self%unknown_scale
-    gap = self%gap(unknown)
+    gap = self%gap(unknown, point)
     if (self%foil%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
     else
@@ -305,22 +323,23 @@ contains
     end if
     PetscCallA(PetscLogEventBegin(self%events%film, ierr))
     call add_film_rows(self%film, self%foil, shaft_place(self), self%mesh%owned, unknown(:size(gap)), gap, &
-                       self%position(unknown), self%jacobian)
+                       self%position(unknown, point), self%jacobian)
     if (self%floats) then
-      call add_shaft_rows(self%film, self%first_shaft, self%last_rank, hold_stiffness(self), 1.0_wp, self%jacobian)
+      call add_shaft_rows(self%film, self%first_shaft, self%last_rank, hold_stiffness(self, point, held), 1.0_wp, self%jacobian)
     end if
-    call add_solid_rows(self%contact, self%film, self%foil, shaft_place(self), self%held, gap, 1.0_wp, self%jacobian)
+    call add_solid_rows(self%contact, self%film, self%foil, shaft_place(self), held, gap, 1.0_wp, self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%film, ierr))
     PetscCallA(PetscLogEventBegin(self%events%foil, ierr))
     call self%foil%add_jacobian(unknown, self%jacobian)
-    if (abs(self%point%edge_tension) > 0.0_wp) call add_tension(self%edge, self%point%edge_tension, self%jacobian)
-    if (self%point%edge_hold > 0.0_wp) call add_hold(self%edge, self%point%edge_hold, self%jacobian)
+    if (abs(point%edge_tension) > 0.0_wp) call add_tension(self%edge, point%edge_tension, self%jacobian)
+    if (point%edge_hold > 0.0_wp) call add_hold(self%edge, point%edge_hold, self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%foil, ierr))
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
+    call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
-  end subroutine linearise_bearing
+  end subroutine linearise_at
 
   !> Adds the stiffness of the string along the free edge.
   subroutine add_tension(edge, tension, jacobian)
@@ -408,12 +427,13 @@ contains
   end subroutine commit_bearing
 
   !> Gap at this rank's nodes for local unknowns [m].
-  function bearing_gap(self, unknown) result(gap)
+  function bearing_gap(self, unknown, point) result(gap)
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(operating_point_type), intent(in), optional :: point !! default: the present one
     real(wp) :: gap(size(self%mesh%mesh_node))
 
-    gap = self%film%gap(self%position(unknown), self%foil%deflection(unknown))
+    gap = self%film%gap(self%position(unknown, point), self%foil%deflection(unknown))
   end function bearing_gap
 
   !> Pressure of the shaft's asperities at this rank's nodes [Pa].
@@ -425,12 +445,14 @@ contains
   end function solid_pressure
 
   !> The operating point with the eccentricity that is found or held.
-  pure function bearing_position(self, unknown) result(point)
+  pure function bearing_position(self, unknown, asked) result(point)
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(operating_point_type), intent(in), optional :: asked !! default: the present one
     type(operating_point_type) :: point
 
     point = self%point
+    if (present(asked)) point = asked
     if (self%floats) point%eccentricity = unknown(self%first_shaft + 1:self%first_shaft + 2)
   end function bearing_position
 

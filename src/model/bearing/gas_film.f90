@@ -4,7 +4,8 @@ module gfb_gas_film
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
   use gfb_film_gap, only: rigid_gap
-  use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess
+  use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess, &
+                              entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
   use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
   use gfb_film_mesh, only: film_mesh_type, gather_elements
@@ -17,11 +18,13 @@ module gfb_gas_film
 
   !> Film elements and nodes of this rank.
   type, public :: gas_film_type
-    type(film_flow_type) :: flow
+    type(film_flow_type) :: flow          !! of a shaft at rest, see `flow_at`
     real(wp) :: radius = 0.0_wp           !! of the bearing [m]
     real(wp) :: clearance = 0.0_wp        !! C [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
+    real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
+    real(wp) :: width = 0.0_wp            !! that is meshed [m]
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
     integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
     real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
@@ -35,6 +38,9 @@ module gfb_gas_film
     real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
   contains
+    procedure :: flow_at
+    procedure :: cell_flow
+    procedure :: shadow
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
     procedure :: is_open
@@ -72,6 +78,9 @@ contains
     film%flow%viscosity = viscosity
     film%flow%upwind = upwind
     film%copies = merge(2.0_wp, 1.0_wp, whole%half)
+    film%cell(1) = whole%radius*abs(whole%station_angle(2) - whole%station_angle(1))
+    film%cell(2) = whole%row_axial(2) - whole%row_axial(1)
+    film%width = whole%row_axial(whole%rows()) - whole%row_axial(1)
     film%cell_nodes = cell_nodes
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
@@ -121,6 +130,38 @@ contains
     end do
     if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
   end subroutine measure_elements
+
+  !> The gas as the shaft drags it at an operating point.
+  pure function flow_at(self, point) result(flow)
+    class(gas_film_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! whose speed counts
+    type(film_flow_type) :: flow
+
+    flow = self%flow
+    flow%entraining_speed = entraining_speed(point%speed, self%radius)
+  end function flow_at
+
+  !> Flow through a cell, that of the pressure and that of the motion: the size of an equation.
+  pure function cell_flow(self, point) result(size_of_flow)
+    class(gas_film_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! whose speed counts
+    real(wp) :: size_of_flow                        !! p h times a volume a time [Pa m3/s]
+    type(film_flow_type) :: flow
+
+    flow = self%flow_at(point)
+    associate (along => self%cell(1), across => self%cell(2))
+      size_of_flow = self%ambient_pressure**2*self%clearance**3/(12.0_wp*flow%viscosity)* &
+        (along/across + across/along) &
+        + abs(flow%entraining_speed)*self%ambient_pressure*self%clearance*across
+    end associate
+  end function cell_flow
+
+  !> Ambient pressure on the bearing's shadow: the size of a force [N].
+  pure function shadow(self) result(force)
+    class(gas_film_type), intent(in) :: self
+    real(wp) :: force
+    force = self%ambient_pressure*self%radius*self%copies*self%width
+  end function shadow
 
   !> Gap at the nodes: tilted shaft and deflected foil [m].
   pure function film_node_gap(self, point, deflection) result(gap)
@@ -186,15 +227,17 @@ contains
     real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess, share
+    type(film_flow_type) :: flow
     integer :: element, n
 
     n = size(self%shape, 1)
+    flow = self%flow_at(point)
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
         p(:n) = pressure(nodes)
         h(:n) = gap(nodes)
         excess = self%excess(element, point)
-        call reynolds_residual(self%geometry(element), self%flow, p(:n), h(:n), excess(:n), &
+        call reynolds_residual(self%geometry(element), flow, p(:n), h(:n), excess(:n), &
                                no_source(:n), share(:n))
         residual(nodes) = residual(nodes) + share(:n)
       end associate
@@ -224,8 +267,8 @@ contains
       p(:n) = pressure(nodes)
       h(:n) = gap(nodes)
       excess = self%excess(element, point)
-      call reynolds_jacobian(self%geometry(element), self%flow, p(:n), h(:n), excess(:n), &
-                             no_source(:n), by_pressure, by_gap, by_excess)
+      call reynolds_jacobian(self%geometry(element), self%flow_at(point), p(:n), h(:n), &
+                             excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
       by_shaft = 0.0_wp
       do i = 1, n
         do k = 1, size(by_shaft, 2)
@@ -271,14 +314,16 @@ contains
     type(operating_point_type), intent(in) :: point
     real(wp) :: drag
     real(wp) :: excess(most_film_nodes)
+    type(film_flow_type) :: flow
     integer :: element
 
     drag = 0.0_wp
+    flow = self%flow_at(point)
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
         excess = self%excess(element, point)
         drag = drag + self%copies* &
-          film_friction(self%geometry(element), self%flow, pressure(nodes), gap(nodes), &
+          film_friction(self%geometry(element), flow, pressure(nodes), gap(nodes), &
                         excess(:size(nodes)))
       end associate
     end do
@@ -301,22 +346,25 @@ contains
   end function film_integral
 
   !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
-  pure function film_peclet(self, pressure, gap, change) result(peclet)
+  pure function film_peclet(self, point, pressure, gap, change) result(peclet)
     class(gas_film_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
     real(wp) :: peclet
-    integer :: element, point
+    type(film_flow_type) :: flow
+    integer :: element, i
 
     peclet = 0.0_wp
+    flow = self%flow_at(point)
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
-        do point = 1, size(self%shape, 2)
-          peclet = max(peclet, abs(cell_peclet(self%flow, geometry%stream_length(point), &
-                                               dot_product(self%shape(:, point), pressure(nodes)), &
-                                               dot_product(self%shape(:, point), gap(nodes)))))
+        do i = 1, size(self%shape, 2)
+          peclet = max(peclet, abs(cell_peclet(flow, geometry%stream_length(i), &
+                                               dot_product(self%shape(:, i), pressure(nodes)), &
+                                               dot_product(self%shape(:, i), gap(nodes)))))
         end do
       end associate
     end do

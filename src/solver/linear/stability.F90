@@ -58,21 +58,16 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! of foils with unknowns of their own
     type(stability_type), intent(out) :: stability
 
-    type(operating_point_type) :: point
+    type(operating_point_type) :: fixed
     type(stability_type) :: plain
-    logical :: held
     Mat :: stiffness
     Vec :: damping
     PetscErrorCode :: ierr
 
-    point = bearing%point
-    held = bearing%held
-    bearing%point%eccentricity = bearing%eccentricity()
-    bearing%held = .true.
-    call bearing%linearise(bearing%state)
+    fixed = bearing%point
+    fixed%eccentricity = bearing%eccentricity()
+    call bearing%linearise_at(fixed, .true., bearing%state)
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, stiffness, ierr))
-    bearing%point = point
-    bearing%held = held
     call bearing%linearise(bearing%state)
     PetscCallA(VecDuplicate(bearing%state, damping, ierr))
     call measure_damping(bearing, damping)

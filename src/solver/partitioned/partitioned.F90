@@ -89,7 +89,6 @@ contains
     call bearing%get_unknowns(unknown)
     unknown(bearing%foil%first + 1:bearing%foil%first + bearing%foil%local_unknowns()) = 0.0_wp ! at rest
     call bearing%set_unknowns(unknown)
-    call bearing%apply_point()
     call create_partitioned(bearing, newton_settings, log, sides)
     if (report%converged) then
       call log%line('partitioned: starts from the film of a rigid foil, found by '// &
@@ -142,7 +141,6 @@ contains
 
     spent = counts(sides)
     bearing%point = target
-    call bearing%apply_point()
     call repeat_loops(bearing, sides, report%converged, report%reason)
     if (report%converged) then
       report%touched = bearing%smallest_gap() < settings%touch_down_gap

@@ -44,7 +44,7 @@ module gfb_bordered_system
     procedure :: set_place
     procedure :: join
     procedure :: give
-    procedure, private :: aim
+    procedure, private :: point_at
   end type path_system_type
 
 contains
@@ -147,13 +147,13 @@ contains
     PetscCallA(GFB_VecRestoreArray(state, whole, ierr))
   end subroutine set_place
 
-  !> Moves the bearing to a place on the path.
-  subroutine aim(self, lambda)
+  !> The operating point at a place on the path.
+  pure function point_at(self, lambda) result(point)
     class(path_system_type), intent(in) :: self
     real(wp), intent(in) :: lambda
-    self%bearing%point = point_between(self%first, self%last, lambda)
-    call self%bearing%apply_point()
-  end subroutine aim
+    type(operating_point_type) :: point
+    point = point_between(self%first, self%last, lambda)
+  end function point_at
 
   !> Puts a vector of the bearing and a value for lambda together.
   subroutine join(self, inner, lambda, whole)
@@ -180,7 +180,7 @@ contains
 
     lambda = self%place(self%state)
     PetscCallA(VecCopy(self%inner, self%bearing%state, ierr))
-    call self%aim(lambda)
+    self%bearing%point = self%point_at(lambda)
   end function give
 
   !> Residual of the bearing and of the step's length.
@@ -193,8 +193,7 @@ contains
     PetscErrorCode :: ierr
 
     lambda = self%place(state)
-    call self%aim(lambda)
-    call self%bearing%evaluate(self%inner, self%low, valid)
+    call self%bearing%evaluate_at(self%point_at(lambda), self%inner, self%low, valid)
     PetscCallA(VecDot(self%direction, state, along, ierr))
     PetscCallA(VecDot(self%direction, self%base, along_base, ierr))
     call self%join(self%low, along - along_base - self%step, residual)
@@ -213,13 +212,9 @@ contains
     PetscErrorCode :: ierr
 
     lambda = self%place(state)
-    call self%aim(lambda)
-    call self%bearing%linearise(self%inner)
-    call self%aim(lambda + shift)
-    call self%bearing%evaluate(self%inner, self%high, valid)
-    call self%aim(lambda - shift)
-    call self%bearing%evaluate(self%inner, self%low, valid)
-    call self%aim(lambda)
+    call self%bearing%linearise_at(self%point_at(lambda), self%bearing%held, self%inner)
+    call self%bearing%evaluate_at(self%point_at(lambda + shift), self%inner, self%high, valid)
+    call self%bearing%evaluate_at(self%point_at(lambda - shift), self%inner, self%low, valid)
     PetscCallA(VecAXPBY(self%high, -0.5_wp/shift, 0.5_wp/shift, self%low, ierr))
     border = self%bearing%unknowns
     allocate (number(self%bearing%unknowns + 1), value(self%bearing%unknowns + 1))

@@ -78,7 +78,6 @@ contains
       end if
       trial = min(1.0_wp, report%fraction + step)
       bearing%point = point_between(start, target, trial)
-      call bearing%apply_point()
       call predict(bearing, here, before, report%fraction, at_before, trial)
       call try_step(newton, step >= 2.0_wp*smallest, solved)
       if (.not. solved%converged) then
@@ -114,7 +113,6 @@ contains
     report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
     if (report%converged) report%reason = 'converged'
     bearing%point = report%reached
-    call bearing%apply_point()
     if (.not. report%converged .and. .not. report%touched) call name_end(bearing, report)
     PetscCallA(VecDestroy(here, ierr))
     PetscCallA(VecDestroy(before, ierr))
@@ -135,7 +133,6 @@ contains
     PetscErrorCode :: ierr
 
     bearing%point = report%reached ! not the one that was tried last
-    call bearing%apply_point()
     left = 1.0_wp - report%fraction
     call look_beyond(bearing, newton, target, before, at_before >= 0.0_wp, min(1.0_wp, 2.0_wp*smallest/left), &
                      outcome, ahead)

@@ -98,7 +98,7 @@ contains
     if (any_rank(bearing%edge%pairs() > 0)) then
       call newton%log%line('from equilibrium '//text(first)//', its free edge kept straight and pulled:')
       straight = free
-      straight%edge_tension = tension_share*bearing%force_scale* &
+      straight%edge_tension = tension_share*bearing%force_scale()* &
         (maxval(bearing%whole%row_axial) - minval(bearing%whole%row_axial))/bearing%film%clearance
       settings%look_for_folds = .false.
       call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
@@ -128,7 +128,6 @@ contains
     if (.not. any(search%given)) then
       PetscCallA(VecCopy(start, bearing%state, ierr))
       bearing%point = point
-      call bearing%apply_point()
       call pull_edge(bearing, newton, point, free, -sense, search)
     end if
     PetscCallA(VecDestroy(start, ierr))
@@ -148,7 +147,7 @@ contains
     real(wp) :: lift
 
     pulled = point
-    pulled%edge_pull = pull_share*bearing%force_scale
+    pulled%edge_pull = pull_share*bearing%force_scale()
     call begin_arc(bearing, newton, pulled, sense, arc)
     moved = .true.
     do while (moved .and. arc%steps < most_steps .and. .not. search%is_found())
@@ -245,7 +244,6 @@ contains
     type(newton_report_type) :: solved
 
     bearing%point = point
-    call bearing%apply_point()
     call solve_newton(newton, solved)
     here = solved%converged
   end subroutine solve_there
@@ -330,7 +328,6 @@ contains
     PetscErrorCode :: ierr
 
     bearing%point = point
-    call bearing%apply_point()
     PetscCallA(VecCopy(branch%state, bearing%state, ierr))
     do pass = 1, settlings
       call bearing%begin_step()

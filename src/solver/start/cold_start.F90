@@ -168,7 +168,6 @@ contains
           text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
         PetscCallA(VecCopy(kept, bearing%state, ierr))
         bearing%point = report%reached
-        call bearing%apply_point()
       else
         call start_over()
         call find_position(bearing, newton, target, settings, report)

@@ -81,7 +81,6 @@ contains
       PetscCallA(VecCopy(kept, bearing%state, ierr))
       bearing%point = report%reached
       bearing%held = report%held .and. bearing%floats
-      call bearing%apply_point()
     end if
     PetscCallA(VecDestroy(kept, ierr))
   end subroutine find_with_contacts

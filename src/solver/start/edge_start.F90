@@ -114,7 +114,7 @@ contains
     quick%smallest_step = shortest_trial
     quick%maximum_steps = min(settings%maximum_steps, most_steps)
     held = target
-    held%edge_hold = hold_share*bearing%force_scale/bearing%film%clearance
+    held%edge_hold = hold_share*bearing%force_scale()/bearing%film%clearance
     held%edge_height = height
     allowed = newton%settings%maximum_iterations
     newton%settings%maximum_iterations = patience*allowed

@@ -31,7 +31,6 @@ contains
 
     bearing%point = target
     bearing%held = held
-    call bearing%apply_point()
     call solve_newton(newton, solved)
     report%converged = solved%converged
     if (solved%converged .and. bearing%floats .and. .not. held) then
@@ -83,7 +82,6 @@ contains
     force = bearing%reaction()
     bearing%held = .false.
     bearing%point%load = force(1:2)
-    call bearing%apply_point()
     call newton%log%detail('shaft let go, load from the reaction to its target')
     way = norm2(target%load - force(1:2))
     call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
@@ -120,7 +118,6 @@ contains
     unknown(:size(bearing%mesh%mesh_node)) = bearing%film%ambient_pressure
     if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity
     call bearing%set_unknowns(unknown)
-    call bearing%apply_point()
   end subroutine put_at_rest
 
   !> A position to begin with: the scene's, or halfway to where a film would carry the load.
