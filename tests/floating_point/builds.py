@@ -1,19 +1,16 @@
 """The same scenes by several builds of gfb, on one rank and on several: what differs between their answers."""
 
 import dataclasses
-import os
 import pathlib
 import subprocess
 import tempfile
 import time
 
 from scenes import TOLERANCE  # first: it says where the following are
-from gfb_run import Answer, read_summary
-from hard_trial import case_file
+from gfb.run import case_text, run_file
 from same_answer import difference
 
 SECONDS = 900
-MPIEXEC = os.environ.get("GFB_MPIEXEC", "mpiexec")
 BASE = ("release", 1, 0)  # build, ranks, groups of ranks: what all others are compared with
 # The C library fills what it allocates with bytes of 7F: reals of 1.4e306, whose squares overflow, and integers
 # that are no index. What lies on the stack is filled by the compiler, with signalling NaN.
@@ -41,36 +38,29 @@ def ways_of(scene, builds):
     return ways + ([("debug", 4, scene.groups), ("release", 4, scene.groups)] if scene.groups else [])
 
 
-def command_of(gfb, path, folder, scene, ranks, groups):
-    """The command line of a run."""
-    options = ["--quiet", "--output", str(folder), *scene.options]
-    options += ["--groups", str(groups)] if groups else []
-    return [*([MPIEXEC, "-n", str(ranks)] if ranks > 1 else []), gfb, *options, str(path)]
+def options_of(scene, groups=0):
+    """The program's options."""
+    return ["--quiet", *scene.options, *(["--groups", str(groups)] if groups else [])]
 
 
-def run_once(command, scene, path, folder, build):
+def run_once(gfb, path, folder, scene, way, more=()):
     """A run and what it left; words where it did not end as it must."""
-    environment = {**os.environ, **(FILLED if build == "debug" else {})}
+    build, ranks, groups = way
     try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False,
-                              env=environment)
+        answer = run_file(gfb, path, folder, ranks, [*options_of(scene, groups), *more], seconds=SECONDS,
+                          environment=FILLED if build == "debug" else None)
     except subprocess.TimeoutExpired:
         return None, f"takes more than {SECONDS} s"
-    log, complaint = done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
-    if done.returncode != scene.status:
-        return None, f"status {done.returncode}, not {scene.status}:\n{(log + complaint)[-2500:]}"
-    stem = folder/(path.stem + (".branches" if "--branches" in scene.options else "")
-                   + (".unconverged" if scene.status == 2 else ""))
-    return Answer(done.returncode, log, complaint, stem, *read_summary(f"{stem}.summary")), ""
+    if answer.status != scene.status:
+        return None, f"status {answer.status}, not {scene.status}:\n{(answer.log + answer.complaint)[-2500:]}"
+    return answer, ""
 
 
 def run_way(gfb, path, folder, scene, way):
     """An answer, the second one where a run is to go on."""
-    build, ranks, groups = way
-    command = command_of(gfb, path, folder, scene, ranks, groups)
-    answer, wrong = run_once(command, scene, path, folder, build)
+    answer, wrong = run_once(gfb, path, folder, scene, way)
     if scene.restart and not wrong:
-        answer, wrong = run_once([*command[:-1], "--restart", command[-1]], scene, path, folder, build)
+        answer, wrong = run_once(gfb, path, folder, scene, way, ("--restart",))
         if not wrong and "restart: goes on from" not in answer.log:
             wrong = "did not go on from its restart file"
     return answer, wrong
@@ -78,7 +68,7 @@ def run_way(gfb, path, folder, scene, way):
 
 def compare_scene(scene, builds):
     """Runs a scene all ways; builds: {name: program}."""
-    row, text = Row(scene), case_file(scene.case)
+    row, text = Row(scene), case_text(scene.case)
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
         base = None

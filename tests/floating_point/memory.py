@@ -2,13 +2,12 @@
 
 import dataclasses
 import pathlib
-import subprocess
 import tempfile
 import time
 import xml.etree.ElementTree
 
-from builds import command_of
-from hard_trial import case_file
+from builds import options_of  # first: it says where the following are
+from gfb.run import call, command_of, write_case
 
 SECONDS = 1800
 HERE = pathlib.Path(__file__).resolve().parent
@@ -38,11 +37,9 @@ def look_at(scene, gfb):
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        path = folder/f"{scene.name}.nml"
-        path.write_text(case_file(scene.case), encoding="utf-8")
-        command = command_of(gfb, path, folder, scene, 1, 0)
-        for run in (command, [*command[:-1], "--restart", command[-1]]) if scene.restart else (command,):
-            look_once(look, run, folder/"seen.xml")
+        path = write_case(folder, scene.name, scene.case)
+        for more in ((), ("--restart",)) if scene.restart else ((),):
+            look_once(look, command_of(gfb, path, folder, options=[*options_of(scene), *more]), folder/"seen.xml")
     look.seconds = time.monotonic() - begun
     return look
 
@@ -50,13 +47,11 @@ def look_at(scene, gfb):
 def look_once(look, command, report):
     """One run."""
     suppressions = [f"--suppressions={path}" for path in SUPPRESSIONS if path.exists()]
-    done = subprocess.run(
-        ["valgrind", "--tool=memcheck", "--xml=yes", f"--xml-file={report}", "--num-callers=40", "--leak-check=full",
-         "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", *suppressions, *command],
-        stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False)
-    if done.returncode != look.scene.status:
-        look.errors.append(f"status {done.returncode}, not {look.scene.status}:\n"
-                           + (done.stdout + done.stderr).decode(errors="replace")[-2500:])
+    done = call(["valgrind", "--tool=memcheck", "--xml=yes", f"--xml-file={report}", "--num-callers=40",
+                 "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", *suppressions,
+                 *command], SECONDS)
+    if done.status != look.scene.status:
+        look.errors.append(f"status {done.status}, not {look.scene.status}:\n{(done.log + done.complaint)[-2500:]}")
     try:
         root = xml.etree.ElementTree.parse(report).getroot()
     except (OSError, xml.etree.ElementTree.ParseError) as wrong:

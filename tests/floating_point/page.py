@@ -14,7 +14,7 @@ WHY = {
 }
 HEAD = """# Floating-point discipline
 
-Written by `tools/check_floating_point --docs docs/floating_point.md`; not part of `tools/test`.
+Written by `tools/check_floating_point --docs docs/measured/floating_point.md`; not part of `tools/test`.
 
 ```
 tools/check_floating_point                     # all of this page: about ten minutes on two cores

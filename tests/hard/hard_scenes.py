@@ -18,7 +18,7 @@ from hard_trial import played
 SCENES = film_scenes.SCENES + foil_scenes.SCENES + strip_scenes.SCENES
 HEAD = """# Hard cases
 
-Written by `tests/hard/hard_scenes.py --page docs/hard_cases.md`; run by `tools/test --hard`.
+Written by `tests/hard/hard_scenes.py --page docs/measured/hard_cases.md`; run by `tools/test --hard`.
 
 Scenes at the ends of what gfb computes. Each has something that must come out and that does not come from gfb: a
 closed form, an invariant of the ring, the balance of forces, a limit, a monotone change, the same by two ways (full

@@ -6,14 +6,14 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import traceback
 
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/"verification"))
 
-from gfb_run import GFB, Answer, namelist_value, read_summary  # noqa: E402
+from gfb_run import GFB  # noqa: E402 (found only now; it says where the following is)
+from gfb.run import run_file, write_case  # noqa: E402
 
 SECONDS = 200
 NAMED = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
@@ -51,12 +51,6 @@ def merged(content, **changes):
             for name, keys in groups.items()}
 
 
-def case_file(content):
-    """The text of a case."""
-    return "".join(f"&{name}\n" + "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items())
-                   + "/\n" for name, keys in content.items())
-
-
 @dataclasses.dataclass
 class Scene:
     """A row of the table."""
@@ -87,32 +81,19 @@ class Trial:
     def solve(self, content, options=(), status=0, **changes):
         """Runs a case; it must end with that status (None: with an answer or without), and with numbers only."""
         self.runs += 1
-        name = f"case_{self.runs}"
-        path = self.folder/f"{name}.nml"
-        path.write_text(case_file(merged(content, **changes)), encoding="utf-8")
-        start = time.monotonic()
-        done = subprocess.run([GFB, "--output", str(self.folder), "--quiet", *options, str(path)],
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False)
-        self.seconds += time.monotonic() - start
-        answer = self.read(name, done)
+        path = write_case(self.folder, f"case_{self.runs}", merged(content, **changes))
+        answer = run_file(GFB, path, self.folder, options=("--quiet", *options), seconds=SECONDS)
+        self.seconds += answer.wall
         wanted = (0, 2) if status is None else (status,)
-        self.that(f"run {self.runs} ends with status {done.returncode}, not {status}: {self.reason(answer)}",
-                  done.returncode in wanted)
-        self.must(f"run {self.runs} broke off with status {done.returncode}", done.returncode in (0, 1, 2))
-        if done.returncode == 2:
+        self.that(f"run {self.runs} ends with status {answer.status}, not {status}: {self.reason(answer)}",
+                  answer.status in wanted)
+        self.must(f"run {self.runs} broke off with status {answer.status}", answer.status in (0, 1, 2))
+        if answer.status == 2:
             self.must(f"run {self.runs} does not name why there is no answer",
                       any(words in answer.log for words in NAMED))
-        if done.returncode in (0, 2):
+        if answer.status in (0, 2):
             self.count(answer)
         return answer
-
-    def read(self, name, done):
-        """What a run left behind."""
-        stem = self.folder/(name + (".unconverged" if done.returncode == 2 else ""))
-        values, units = {}, {}
-        if stem.with_name(stem.name + ".summary").exists():
-            values, units = read_summary(stem.with_name(stem.name + ".summary"))
-        return Answer(done.returncode, done.stdout.decode(), done.stderr.decode(), stem, values, units)
 
     def count(self, answer):
         """Its work, which is bounded, and that all is finite."""

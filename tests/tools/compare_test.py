@@ -13,8 +13,8 @@ import numpy
 TOOLS = pathlib.Path(os.environ["GFB_SOURCE"])/"tools"
 sys.path.insert(0, str(TOOLS))
 
-import compare_results  # noqa: E402 (found only now)
-import compare_runs  # noqa: E402
+from gfb.compare import results as compare_results  # noqa: E402 (found only now)
+from gfb.compare import runs as compare_runs  # noqa: E402
 
 GAP = numpy.array([1.0, 2.0, 4.0])
 SUMMARY = "converged = true\nforce_x = 3.0 [N]\nwall_time = 0.1 [s]\npeak_memory = 7.0 [B]\n"

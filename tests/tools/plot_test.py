@@ -3,8 +3,6 @@
 Files are made up here with known numbers; one is gfb's own, of a small strip.
 """
 
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import subprocess
@@ -19,8 +17,9 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 
-import plot_foil  # noqa: E402 (found only now)
-import plot_strip  # noqa: E402
+from gfb.plot import foil as plot_foil  # noqa: E402 (found only now)
+from gfb.plot import main as plot_main  # noqa: E402
+from gfb.plot import strip as plot_strip  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
 &bump_foil thickness = 0.127e-3 youngs_modulus = 207.0e9 poissons_ratio = 0.3 half_length = 3.3e-3
@@ -155,13 +154,10 @@ class BearingTest(unittest.TestCase):
         numpy.testing.assert_allclose(lines[0].get_xdata(), 1.0e3*x, atol=1e-12)
 
     def test_columns_of_one_unit_share_a_chart_where_asked(self):
-        loader = importlib.machinery.SourceFileLoader("plot", str(PROJECT/"tools/plot"))
-        plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot", loader))
-        loader.exec_module(plot)
         path = bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
         names = ["minimum_gap_midplane", "force_x", "minimum_gap_edge"]
         with h5py.File(path, "r") as file:
-            apart, together = (plot.draw_history(path, file, names, asked).axes for asked in (False, True))
+            apart, together = (plot_main.draw_history(path, file, names, asked).axes for asked in (False, True))
         self.assertEqual([len(chart.lines) for chart in apart], [1, 1, 1, 0])
         self.assertEqual([len(chart.lines) for chart in together], [2, 1])
         for line, height in zip(together[0].lines, (7.0, 6.0)):

@@ -8,8 +8,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["GFB_SOURCE"])/"tools"))
 
-import bench_profile  # noqa: E402 (found only now)
-from bench_runs import PARTS  # noqa: E402
+from gfb.bench import profile as bench_profile  # noqa: E402 (found only now)
+from gfb.bench.runs import PARTS  # noqa: E402
+from gfb.build import program_of  # noqa: E402
 
 
 def row(factorization, peak, **summary):
@@ -44,9 +45,9 @@ class Profile(unittest.TestCase):
         self.assertIn("Now most goes to factorization (96 %)", page)
 
     def test_before(self):
-        self.assertEqual(bench_profile.program_of(__file__), os.path.abspath(__file__))
+        self.assertEqual(program_of(__file__, "--before"), os.path.abspath(__file__))
         with self.assertRaises(SystemExit):
-            bench_profile.program_of("no/such/revision")
+            program_of("no/such/revision", "--before")
 
 
 if __name__ == "__main__":

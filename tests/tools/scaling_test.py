@@ -11,9 +11,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["GFB_SOURCE"])/"tools"))
 
-import bench_runs  # noqa: E402 (found only now)
-import bench_scaling  # noqa: E402
-import bench_scaling_page  # noqa: E402
+from gfb.bench import runs as bench_runs  # noqa: E402 (found only now)
+from gfb.bench import scaling as bench_scaling  # noqa: E402
+from gfb.bench import scaling_page as bench_scaling_page  # noqa: E402
 
 ROOMY = bench_runs.Limits(60.0, 2.0**32)
 SPIN = "while True: pass"

@@ -9,10 +9,8 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["GFB_SOURCE"])/"tools"))
 
-import bench_work_precision as bench  # noqa: E402 (found only now)
-import bench_work_precision_errors as errors  # noqa: E402
-import bench_work_precision_page as page  # noqa: E402
-import bench_work_precision_scenes as scenes  # noqa: E402
+from gfb.bench import work_precision as bench  # noqa: E402 (found only now)
+from gfb.bench.work_precision import errors, page, scenes  # noqa: E402
 import numpy  # noqa: E402
 
 FORCE = scenes.Quantity("force", ("force_x", "force_y"))
@@ -57,7 +55,7 @@ def made_scene():
 
 
 class References(unittest.TestCase):
-    """The rule of docs/accuracy.md."""
+    """The rule of docs/manual/accuracy.md."""
 
     def test_order_two(self):
         found = errors.know(FORCE, [numpy.array([3.0, 4.0])*(1.0 + 0.16*4.0**-i) for i in range(3)], 2.0)

@@ -11,8 +11,9 @@ import math
 import pathlib
 import tempfile
 
+import gfb_run
 import shell_bearing
-from gfb_run import Bearing, Checks, case_text, namelist_value, run, run_file, summary_difference
+from gfb_run import Bearing, Checks, case_text, run, run_file, summary_difference
 
 BEARING = Bearing()
 MESH = {1: (208, 64), 2: (104, 32)}  # by film order; runs begin with a quarter
@@ -113,11 +114,7 @@ def check_strip(checks, folder):
     """A strip, against a mesh twice as fine as its finest."""
     def solve(name, **groups):
         content = {group: {**SMALL_STRIP.get(group, {}), **groups.get(group, {})} for group in {**SMALL_STRIP, **groups}}
-        path = pathlib.Path(folder)/f"{name}.nml"
-        path.write_text("".join(f"&{group}\n" + "".join(f"  {key} = {namelist_value(value)}\n"
-                                                        for key, value in keys.items()) + "/\n"
-                                for group, keys in content.items()), encoding="utf-8")
-        return run_file(path, folder, options=["--quiet"])
+        return gfb_run.solve(folder, name, content)
     answer = solve("strip", accuracy={"quantity": "maximum_deflection", "target": 2.0e-2})
     times = 2**int(answer["meshes"])
     fine = solve("strip_fine", mesh={"arc_elements": 4*times, "flat_elements": times, "axial_elements": 4*times})

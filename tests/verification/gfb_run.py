@@ -1,21 +1,21 @@
-"""Runs gfb on cases made on the fly, reads what it wrote, and counts what agrees and what does not."""
+"""What the checks share: bearings made on the fly, runs of gfb (tools/gfb/run.py), differences, counted claims."""
 
 import dataclasses
 import math
 import os
 import pathlib
-import subprocess
 import sys
 
-import h5py
 import numpy
 
-GFB = os.environ.get("GFB", "gfb")
-MPIEXEC = os.environ.get("GFB_MPIEXEC", "mpiexec")
-SECONDS = 900  # no run here takes that long
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 
-# Names of the summary that say what the answer cost, not what it is.
-COST = {"unknowns", "newton_iterations", "factorizations", "wall_time", "peak_memory"}
+import gfb.run  # noqa: E402 (found only now)
+from gfb.results import COST, Answer, read_summary  # noqa: E402, F401 (the checks take them from here)
+from gfb.run import MPIEXEC, namelist_value, write_case  # noqa: E402, F401
+
+GFB = os.environ.get("GFB", "gfb")
+SECONDS = 900  # no run here takes that long
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,68 +40,14 @@ class Bearing:
         return self.ambient_pressure*self.length*2.0*self.radius
 
 
-@dataclasses.dataclass
-class Answer:
-    """What a run left behind."""
-
-    status: int
-    log: str
-    complaint: str
-    stem: pathlib.Path  # of the files, without ending
-    summary: dict       # name: number, or word
-    units: dict         # name: unit
-
-    def __getitem__(self, name):
-        return self.summary[name]
-
-    @property
-    def force(self):
-        return numpy.array([self["force_x"], self["force_y"]])
-
-    @property
-    def torque(self):
-        return numpy.array([self["torque_x"], self["torque_y"]])
-
-    @property
-    def eccentricity(self):
-        return numpy.array([self["eccentricity_x"], self["eccentricity_y"]])
-
-    def physical(self):
-        """Numbers of the summary without those of the cost."""
-        return {name: value for name, value in self.summary.items()
-                if name not in COST and isinstance(value, float)}
-
-    def film(self):
-        """The film file's fields as (station, row) arrays: x, z, theta, pressure, gap, ..."""
-        with h5py.File(f"{self.stem}.film.vtkhdf", "r") as file:
-            points = file["VTKHDF/Points"][...]
-            fields = {name: data[...] for name, data in file["VTKHDF/PointData"].items()}
-        rows = int(numpy.count_nonzero(points[:, 0] == points[0, 0]))
-        shape = (len(points)//rows, rows)
-        fields["x"] = points[:, 0]
-        fields["z"] = points[:, 2]
-        return {name: data.reshape(shape) for name, data in fields.items()}
-
-    def history(self):
-        """The columns of the history."""
-        with h5py.File(f"{self.stem}.h5", "r") as file:
-            return {name: data[...] for name, data in file["history"].items()}
+def case_text(bearing, **case):
+    """The case file of case_groups."""
+    return gfb.run.case_text(case_groups(bearing, **case))
 
 
-def namelist_value(value):
-    """A Python value as a namelist writes it; numbers read back exactly."""
-    if isinstance(value, str):
-        return "'" + value.replace("'", "''") + "'"
-    if isinstance(value, bool):
-        return ".true." if value else ".false."
-    if isinstance(value, (int, float)):
-        return repr(value)
-    return ", ".join(namelist_value(one if isinstance(one, str) else float(one)) for one in value)
-
-
-def case_text(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=None, number=None,
-              groups=None, **operation):
-    """A case file: the position is held where no load is given. `groups` holds further keys."""
+def case_groups(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=None, number=None,
+                groups=None, **operation):
+    """A case: the position is held where no load is given. `groups` holds further keys."""
     operation.setdefault("speed_rpm", bearing.speed_rpm(number) if number is not None else 0.0)
     if load is not None:
         operation["load"] = load
@@ -118,52 +64,26 @@ def case_text(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=Non
     }
     for group, keys in (groups or {}).items():
         content.setdefault(group, {}).update(keys)
-    text = ""
-    for group, keys in content.items():
-        lines = "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items())
-        text += f"&{group}\n{lines}/\n"
-    return text
-
-
-def read_summary(path):
-    """Numbers or words, and units, of a summary file."""
-    values, units = {}, {}
-    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
-        name, rest = line.split(" = ", 1)
-        word, _, unit = rest.partition(" [")
-        units[name] = unit.rstrip("]")
-        try:
-            values[name] = float(word)
-        except ValueError:
-            values[name] = word
-    return values, units
+    return content
 
 
 def run_file(path, folder, ranks=1, options=(), status=0):
     """Runs gfb on a case file; stops the whole check where it ends with another status."""
-    command = [GFB, "--output", str(folder), *options, str(path)]
-    if ranks > 1:
-        command = [MPIEXEC, "-n", str(ranks), *command]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False)
-    log, complaint = done.stdout.decode(), done.stderr.decode()
-    if done.returncode != status:
-        sys.exit(f"{' '.join(command)}: status {done.returncode}, not {status}\n{log[-3000:]}\n{complaint[-3000:]}")
-    stem = pathlib.Path(folder)/pathlib.Path(path).stem
-    if "--branches" in options:
-        stem = stem.with_name(stem.name + ".branches")
-    if status == 2:
-        stem = stem.with_name(stem.name + ".unconverged")
-    values, units = {}, {}
-    if status in (0, 2) and stem.with_name(stem.name + ".summary").exists():
-        values, units = read_summary(stem.with_name(stem.name + ".summary"))
-    return Answer(done.returncode, log, complaint, stem, values, units)
+    answer = gfb.run.run_file(GFB, path, folder, ranks, options, seconds=SECONDS)
+    if answer.status != status:
+        sys.exit(f"{path} {' '.join(options)}: status {answer.status}, not {status}\n{answer.log[-3000:]}\n"
+                 f"{answer.complaint[-3000:]}")
+    return answer
+
+
+def solve(folder, name, content, ranks=1, options=("--quiet",), status=0):
+    """Writes a case file from its groups and runs it."""
+    return run_file(write_case(folder, name, content), folder, ranks, options, status)
 
 
 def run(folder, name, bearing, ranks=1, status=0, **case):
     """Writes a case and runs it."""
-    path = pathlib.Path(folder)/f"{name}.nml"
-    path.write_text(case_text(bearing, **case), encoding="utf-8")
-    return run_file(path, folder, ranks=ranks, options=["--quiet"], status=status)
+    return solve(folder, name, case_groups(bearing, **case), ranks, status=status)
 
 
 def observed_order(coarse, fine, ratio=2.0):

@@ -16,8 +16,8 @@ import h5py
 import numpy
 
 from contact_strips import COARSE, FORCE, PAIR
-from gfb_run import COST, GFB, MPIEXEC, SECONDS, Answer, Checks, largest_difference, namelist_value, read_summary, \
-    run_file
+from gfb_run import COST, GFB, MPIEXEC, SECONDS, Answer, Checks, largest_difference, read_summary, \
+    run_file, write_case
 from shell_bearing import BEARING, BUMPS, SHEET, SIZES, SPEED
 
 SEED = 20201
@@ -28,16 +28,6 @@ MESH = {"circumferential_elements": 104, "axial_elements": 4}
 FOIL_MESH = {"arc_elements": 4, "flat_elements": 2}
 GOES_ON = "restart: goes on from"
 RANKS = 1.0e-8              # runs on other numbers of ranks agree so far
-
-
-def write_case(folder, name, content):
-    """A case file."""
-    text = ""
-    for group, keys in content.items():
-        text += f"&{group}\n" + "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items()) + "/\n"
-    path = pathlib.Path(folder)/f"{name}.nml"
-    path.write_text(text, encoding="utf-8")
-    return path
 
 
 def bearing(foil, sweep, every=1, **groups):

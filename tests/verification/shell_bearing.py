@@ -8,8 +8,8 @@ import tempfile
 import h5py
 import numpy
 
-from gfb_run import Bearing, Checks, largest_difference, natural_sizes, namelist_value, observed_order, run_file, \
-    summary_difference
+import gfb_run
+from gfb_run import Bearing, Checks, largest_difference, natural_sizes, observed_order, summary_difference
 from symmetry import POWERS
 
 # [Gu2020]: 100 N, 30,000 rpm.
@@ -52,15 +52,7 @@ def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), **groups
         content[group] = None if keys is None else {**content.get(group, {}), **keys}
     if content["scene"]["analysis"] == "equilibrium":
         content["operation"].setdefault("load", LOAD)
-    text = ""
-    for group, keys in content.items():
-        if keys is not None:
-            lines = "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items()
-                            if value is not None)
-            text += f"&{group}\n{lines}/\n"
-    path = pathlib.Path(folder)/f"{name}.nml"
-    path.write_text(text, encoding="utf-8")
-    return run_file(path, folder, ranks=ranks, options=["--quiet", *options], status=status)
+    return gfb_run.solve(folder, name, content, ranks, ["--quiet", *options], status)
 
 
 def held(eccentricity, **operation):

@@ -9,7 +9,8 @@ import tempfile
 import h5py
 import numpy
 
-from gfb_run import Checks, largest_difference, namelist_value, run_file
+import gfb_run
+from gfb_run import Checks, largest_difference
 
 REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"strip.json").read_text(encoding="utf-8"))
 FOIL = {"thickness": 0.102e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "half_length": 1.778e-3,
@@ -27,12 +28,7 @@ def solve(folder, name, ranks=1, status=0, **groups):
         content.setdefault(group, {}).update(keys)
     if content["scene"]["analysis"] == "strip" and "strip_load" not in content:
         content["strip_load"] = {"pressure": 0.2e6, **HELD}
-    text = ""
-    for group, keys in content.items():
-        text += f"&{group}\n" + "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items()) + "/\n"
-    path = pathlib.Path(folder)/f"{name}.nml"
-    path.write_text(text, encoding="utf-8")
-    return run_file(path, folder, ranks=ranks, options=["--quiet"], status=status)
+    return gfb_run.solve(folder, name, content, ranks, status=status)
 
 
 def crests(answer):

@@ -1,0 +1,1 @@
+"""Measurements of tools/bench, a module a command; and what they share."""

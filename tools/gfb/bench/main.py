@@ -1,0 +1,40 @@
+"""Measures gfb: time, work and error, in one run on one machine. `tools/bench COMMAND --help` says what.
+
+Times depend on the machine and on what else runs there; compare only numbers of one run.
+"""
+
+import argparse
+import pathlib
+
+from gfb.bench import (accuracy, bearing, bearing_mesh, condensation, film, linear_solvers, profile, scaling, strip,
+                       work_precision)
+from gfb.run import find_gfb
+from gfb.tool import stop
+
+COMMANDS = {"film": film, "accuracy": accuracy, "condensation": condensation, "strip": strip, "bearing": bearing,
+            "bearing-mesh": bearing_mesh, "linear-solvers": linear_solvers, "profile": profile, "scaling": scaling,
+            "work-precision": work_precision}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/bench", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, module in COMMANDS.items():
+        one = commands.add_parser(name, help=module.__doc__.splitlines()[0], description=module.__doc__,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+        one.add_argument("--gfb", metavar="PROGRAM", help="the program; default: build/release/gfb")
+        one.add_argument("--output", metavar="DIR", default="results/bench", type=pathlib.Path,
+                         help="folder of table and picture; default: %(default)s")
+        module.add_options(one)
+    options = parser.parse_args()
+    options.gfb = find_gfb(options.gfb)
+    try:
+        options.output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        stop(f"--output {options.output}: {error.strerror}", 3)
+    table = COMMANDS[options.command].run(options)
+    print(table, end="")
+    (options.output/f"{options.command}.txt").write_text(table, encoding="utf-8")
+    print(f"\nresults are in {options.output}")
+    return 0

@@ -1,0 +1,42 @@
+"""Programs of other revisions of gfb, for tools that compare two programs; each is built once."""
+
+import os
+import shutil
+import subprocess
+
+from gfb.run import call
+from gfb.tool import ROOT, stop
+
+BUILDS = ROOT/"build/compare"  # a folder a revision
+
+
+def program_of(given, name):
+    """A program, or the one of a git revision, which is built first; name: how messages call what was given."""
+    if os.path.isfile(given):
+        return os.path.abspath(given)
+    found = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", "--quiet", given + "^{commit}"],
+                           capture_output=True, text=True, check=False)
+    revision = found.stdout.strip()
+    if found.returncode != 0:
+        stop(f"{name} {given}: neither a program nor a revision")
+    source, built = (BUILDS/revision/part for part in ("source", "build"))
+    if not (built/"gfb").exists():
+        print(f"building {revision[:12]} ...", flush=True)
+        shutil.rmtree(source, ignore_errors=True)  # what an interrupted call left
+        built.mkdir(parents=True, exist_ok=True)
+        for command in (["git", "clone", "--quiet", "--shared", "--no-checkout", ROOT, source],  # it knows its commit
+                        ["git", "-C", source, "checkout", "--quiet", "--detach", revision],
+                        ["cmake", "-S", source, "-B", built, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                         "-DGFB_TESTS=OFF"],
+                        ["cmake", "--build", built, "--target", "gfb"]):
+            if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode != 0:
+                stop(f"{name} {given}: '{' '.join(map(str, command))}' failed", 3)
+    return str(built/"gfb")
+
+
+def version_of(program):
+    """What a program says of itself."""
+    said = call([program, "--version"])
+    if said.status != 0:
+        stop(f"{program} --version ended with status {said.status}:\n{said.log}{said.complaint}", 3)
+    return said.log.splitlines()[0]

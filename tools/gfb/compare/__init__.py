@@ -1,0 +1,1 @@
+"""Results of two programs compared bit by bit: tools/compare."""

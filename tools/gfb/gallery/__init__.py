@@ -1,0 +1,1 @@
+"""The pages of tools/gallery: results of [Gu2020] beside gfb's."""

@@ -1,0 +1,67 @@
+"""Puts the tables that gfb prints into the manual; with --check only compares.
+
+  gfb --keys       every key of a case file    docs/manual/keys.md
+  gfb --results    every name of a result      docs/manual/results.md
+
+A table stands between two lines such as `<!-- keys -->` and `<!-- end of keys -->`. Exit status: 0 the manual is as it
+should be, 1 it differs or has no such place.
+"""
+
+import argparse
+import difflib
+import pathlib
+import re
+import sys
+
+from gfb.run import call, find_gfb
+from gfb.tool import ROOT, stop
+
+TABLES = ("keys", "results")  # an option of gfb and a page each
+
+
+def table_of(gfb, name):
+    """What the program prints; None where it has no such option."""
+    if f"--{name}" not in call([gfb, "--help"]).log:
+        return None
+    done = call([gfb, f"--{name}"])
+    if done.status != 0:
+        stop(f"{gfb} --{name} ended with status {done.status}:\n{done.complaint}", 3)
+    return done.log.strip() + "\n"
+
+
+def place_of(text, name, path):
+    """Where the table stands in a page."""
+    found = re.search(rf"(?<=^<!-- {name} -->\n)(.*?)(?=^<!-- end of {name} -->$)", text, re.MULTILINE | re.DOTALL)
+    if found is None:
+        stop(f"{path}: no lines '<!-- {name} -->' and '<!-- end of {name} -->'")
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/manual", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="change nothing, show what differs")
+    parser.add_argument("--gfb", metavar="PROGRAM", help="the program; default: build/release/gfb")
+    parser.add_argument("--folder", type=pathlib.Path, default=ROOT/"docs/manual", metavar="DIR",
+                        help="folder of the pages; default: docs/manual of this checkout")
+    options = parser.parse_args()
+    gfb = find_gfb(options.gfb)
+    differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
+    if differ:
+        stop(f"these tables are not those of gfb: {', '.join(differ)}; call tools/manual")
+    return 0
+
+
+def renew(gfb, name, path, only_check):
+    """Brings a page up to date, or shows how it differs; whether it is as it should be."""
+    text, table = path.read_text(encoding="utf-8"), table_of(gfb, name)
+    found = place_of(text, name, path)
+    if table in (None, found[0]):
+        return True
+    if only_check:
+        sys.stdout.writelines(difflib.unified_diff(found[0].splitlines(True), table.splitlines(True), str(path),
+                                                   f"gfb --{name}"))
+        return False
+    path.write_text(text[:found.start()] + table + text[found.end():], encoding="utf-8")
+    print(f"{path}: table renewed")
+    return True

@@ -1,0 +1,1 @@
+"""The pictures of tools/plot: films, foils, strips, histories."""

@@ -1,0 +1,98 @@
+"""Films of bearings: their fields on stations and rows, maps of them and lines along midplane and edges."""
+
+import dataclasses
+
+import numpy
+from matplotlib import pyplot
+
+from gfb.results import attribute
+from gfb.tool import stop
+
+# SI unit: unit of the picture and what to multiply with.
+READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3)}
+FIELDS = ("pressure", "gap", "deflection")
+WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
+ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
+BANDS = 20  # colours of a map
+
+
+@dataclasses.dataclass
+class Film:
+    """The fields of a film file."""
+
+    theta: numpy.ndarray  # of the stations, growing [deg]
+    z: numpy.ndarray      # of the rows [m]
+    fields: dict          # name: values on (station, row), in SI units
+    units: dict           # name: unit
+
+    @property
+    def middle(self):
+        """Row nearest to the midplane."""
+        return int(numpy.argmin(numpy.abs(self.z)))
+
+    def readable(self, name):
+        """A field in the unit of a picture, and that unit."""
+        unit, scale = READABLE.get(self.units[name], (self.units[name], 1.0))
+        return self.fields[name]*scale, unit
+
+
+def readable(data):
+    """Values in the unit of a picture, and that unit."""
+    unit = attribute(data, "unit")
+    name, scale = READABLE.get(unit, (unit, 1.0))
+    return data[...]*scale, name
+
+
+def read_film(path, file):
+    """The film of an open file."""
+    points = file["VTKHDF/Points"][...]
+    fields = file["VTKHDF/PointData"]
+    rows = int(numpy.count_nonzero(points[:, 0] == points[0, 0]))
+    if "theta" not in fields or len(points) % rows:
+        stop(f"{path}: not the film of a bearing")
+    shape = (len(points)//rows, rows)
+    theta = numpy.degrees(fields["theta"][...].reshape(shape)[:, 0])
+    if theta[-1] <= theta[0]:  # a full ring ends where it begins
+        theta[-1] += 360.0
+    there = [name for name in FIELDS if name in fields]
+    return Film(theta, points[:rows, 2], {name: fields[name][...].reshape(shape) for name in there},
+                {name: attribute(fields[name], "unit") for name in there})
+
+
+def draw_film(path, file):
+    """Maps at the left, lines at the right, one row a field."""
+    film = read_film(path, file)
+    names = [name for name in film.fields if name != "deflection" or numpy.any(film.fields[name])]
+    if not names:
+        stop(f"{path}: no pressure, gap or deflection in it")
+    figure, axes = pyplot.subplots(len(names), 2, figsize=(10.0, 2.5*len(names) + 0.5), squeeze=False,
+                                   layout="constrained", sharex=True)
+    axial, middle = 1.0e3*film.z, film.middle
+    at_middle = abs(axial[middle]) <= ROUND_OFF*(axial[-1] - axial[0])
+    for (chart, lines), name in zip(axes, names):
+        values, unit = film.readable(name)
+        draw_map(figure, chart, film, values, BANDS)
+        chart.set_title(f"{WORDS[name]} [{unit}]", fontsize=10)
+        lines.plot(film.theta, values[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
+        for edge, style in ((-1, "--"), (0, ":")):
+            lines.plot(film.theta, values[:, edge], style, label=f"edge, z = {axial[edge]:.4g} mm")
+        lines.set_ylabel(f"{WORDS[name]} [{unit}]")
+        lines.grid(alpha=0.3)
+        lines.legend(fontsize=8)
+    for one in axes[-1]:
+        label_theta(one, film)
+    figure.suptitle(path.name.removesuffix(".film.vtkhdf"), fontsize=11)
+    return figure
+
+
+def draw_map(figure, chart, film, values, levels, **look):
+    """Colours over theta and z, with their scale."""
+    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart)
+    chart.set_ylabel("z [mm]")
+
+
+def label_theta(chart, film):
+    """The axis along the motion."""
+    chart.set_xlabel("theta [deg]")
+    chart.set_xticks(numpy.arange(0.0, 361.0, 60.0))
+    chart.set_xlim(film.theta[0], film.theta[-1])

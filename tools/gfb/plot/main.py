@@ -1,0 +1,183 @@
+"""Draws results of gfb.
+
+  tools/plot CASE.film.vtkhdf           maps of pressure, gap and deflection, and their lines along
+                                        the midplane and the bearing's edge
+  tools/plot CASE.bump_foil.vtkhdf      the bumps' deflected midline and their crests' deflections
+  tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges
+  tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
+  tools/plot CASE.h5 [COLUMN ...]       columns of the history against what the sweep changes, or load steps
+      --together                          columns of one unit in one chart
+  tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
+      --show bumps                        mean deflection of every crest line
+      --show loop                         force against travel of the plate or largest crest deflection
+      --show contact                      where contacts are open, stick or slip (one file; also a bearing's)
+                                        without --show: loops where the load goes back, otherwise bumps
+
+Where no columns are named, the ones most asked for are drawn; --list prints the names there are.
+Several strips are told apart by the keys in which they differ.
+"""
+
+import argparse
+import contextlib
+import pathlib
+import re
+
+import h5py
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+from gfb.plot import foil, strip  # noqa: E402
+from gfb.plot.film import draw_film, readable  # noqa: E402
+from gfb.results import attribute, text_of  # noqa: E402
+from gfb.tool import stop  # noqa: E402
+
+USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
+USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/plot", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", type=pathlib.Path, help="CASE.film.vtkhdf, CASE.bump_foil.vtkhdf or CASE.h5")
+    parser.add_argument("columns", nargs="*", metavar="COLUMN",
+                        help="names of the history, such as minimum_gap; or more files, NAME.h5")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="PNG",
+                        help="the picture; default: the file's name with .png, here")
+    parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
+    parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
+    parser.add_argument("--show", choices=strip.KINDS, help="what of a strip's or bearing's CASE.h5")
+    parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",
+                        help="load steps of --show bumps and contact, or sweep points of a bearing; default: the one "
+                             "of the largest force, or the last point")
+    options = parser.parse_args()
+    more = [pathlib.Path(name) for name in options.columns if name.endswith(".h5")]
+    options.columns = [name for name in options.columns if not name.endswith(".h5")]
+    picture = options.output or pathlib.Path(options.file.name + ".png")
+    with contextlib.ExitStack() as opened:
+        files = [open_file(path, opened) for path in [options.file, *more]]
+        if options.list:
+            print(list_names(options.file, files[0]), end="")
+            return 0
+        figure = draw(options, [options.file, *more], files)
+    try:
+        figure.savefig(picture, dpi=100)
+    except (OSError, ValueError) as error:
+        stop(f"{picture}: {error}", 3)
+    print(f"drawn: {picture}")
+    return 0
+
+
+def step_numbers(text):
+    """The numbers of --step."""
+    try:
+        return [int(word) for word in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}': whole numbers with commas between them") from None
+
+
+def open_file(path, opened):
+    """An HDF5 file that stays open as long as the stack."""
+    try:
+        return opened.enter_context(h5py.File(path, "r"))
+    except FileNotFoundError:
+        stop(f"{path}: there is no such file")
+    except OSError as error:
+        stop(f"{path}: cannot be read as HDF5: {error}")
+
+
+def draw(options, paths, files):
+    """The picture asked for."""
+    path, file = paths[0], files[0]
+    of_strips = options.show or options.step or len(files) > 1
+    if of_strips and options.columns:
+        stop("columns are drawn of one file, without --show and --step")
+    if of_strips or (not options.columns and strip.is_strip(file)):
+        return strip.draw(paths, files, options.show, options.step)
+    if foil.is_foil(file):
+        return foil.draw(path, file, options.columns)
+    if "VTKHDF" in file:
+        if options.columns:
+            stop(f"{path}: columns are of a history; name a CASE.h5")
+        return draw_film(path, file)
+    if "history" in file:
+        return draw_history(path, file, options.columns, options.together)
+    return stop(f"{path}: neither a film or foil file nor a case file of gfb")
+
+
+def list_names(path, file):
+    """What --list prints."""
+    if foil.is_foil(file):
+        return "".join(f"{name}\n" for name in foil.names(file))
+    if "history" in file:
+        return list_columns(file)
+    return stop(f"{path}: columns are of a history; name a CASE.h5")
+
+
+# --- history ---
+
+def list_columns(file):
+    """Name, unit and meaning of each column."""
+    return "".join(f"{name:26} [{attribute(data, 'unit')}]  {attribute(data, 'meaning')}\n"
+                   for name, data in file["history"].items())
+
+
+def swept(file):
+    """Name of what the sweep changes, as the echo of the case tells it; None without a sweep."""
+    echo = text_of(file["scene/used"][()])
+    group = re.search(r"^&sweep$(.*?)^/$", echo, re.MULTILINE | re.DOTALL)
+    found = group and re.search(r"^\s*parameter = '(\w+)'", group[1], re.MULTILINE)
+    return found[1] if found else None
+
+
+def charts_of(history, columns, together):
+    """Columns of every chart."""
+    if not together:
+        return [[name] for name in columns]
+    charted = {}
+    for name in columns:
+        charted.setdefault(attribute(history[name], "unit"), []).append(name)
+    return list(charted.values())
+
+
+def draw_history(path, file, columns, together=False):
+    """One chart a column, or a unit, against what the sweep changes or else the number of the row."""
+    history = file["history"]
+    parameter = swept(file)
+    if not columns:
+        usual = USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
+        columns = [name for name in usual if name in history]
+        if not columns:
+            stop(f"{path}: none of the usual columns is in it; name some, --list prints them")
+    unknown = [name for name in columns if name not in history]
+    if unknown:
+        stop(f"{path}: no column {', '.join(unknown)}; there are: {', '.join(history)}")
+    if parameter is None and "step" in history:
+        along, label = history["step"][...], "load step"
+    elif parameter is not None and parameter in history:
+        along, unit = readable(history[parameter])
+        label = f"{parameter} [{unit}]"
+    else:
+        along, label = numpy.arange(1, len(history[columns[0]]) + 1), "row"
+    charted = charts_of(history, columns, together)
+    across = 1 if len(charted) == 1 else 2
+    down = -(-len(charted)//across)
+    figure, axes = pyplot.subplots(down, across, figsize=(5.0*across, 3.0*down + 0.4), squeeze=False,
+                                   layout="constrained", sharex=True)
+    for chart, names in zip(axes.flat, charted):
+        for name in names:
+            values, unit = readable(history[name])
+            chart.plot(along, values, "o-", markersize=3.5, label=name)
+        chart.set_ylabel(f"[{unit}]" if len(names) > 1 else f"{names[0]} [{unit}]")
+        if len(names) > 1:
+            chart.legend(fontsize=8)
+        chart.grid(alpha=0.3)
+    for chart in axes.flat[len(charted):]:
+        chart.set_visible(False)
+    for chart in list(axes.flat)[max(0, len(charted) - across):len(charted)]:
+        chart.set_xlabel(label)
+        chart.tick_params(labelbottom=True)
+    figure.suptitle(path.name.removesuffix(".h5"), fontsize=11)
+    return figure

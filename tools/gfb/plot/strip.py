@@ -1,0 +1,288 @@
+"""Pictures of loaded bump strips: deflection per bump, force-displacement loops, contact states."""
+
+import os
+import re
+
+import numpy
+from matplotlib import colors, patches, pyplot
+
+from gfb.results import text_of
+from gfb.tool import stop
+
+MICRO = 1.0e6
+MILLI = 1.0e3
+KINDS = ("bumps", "loop", "contact")
+STATES = ("open", "sticks", "slips")
+STATE_COLOURS = ("0.85", "C0", "C1")
+SURFACES = {"top": "crest lines on the top foil or upper plate", "sleeve": "corner lines on the sleeve"}
+STYLES = ("-", "--", "-.", ":")
+MOST_MARKED = 30   # rows of a history whose points are marked
+MOST_LABELLED = 24 # bars that carry their value
+MOST_BESIDE = 40   # contact lines of both surfaces that stand beside each other
+MOST_NUMBERED = 30 # contact lines of a map that all bear their number
+SHORTEST = 5       # letters of a common name that says something
+LEAST = 1.0e-12    # of the largest force: a load below it is none
+
+
+def is_strip(file):
+    """Whether a case file is of a strip under loads."""
+    return "history/crest_deflection_1" in file
+
+
+def is_bearing(file):
+    """Whether a case file is of a bearing on foils with contacts."""
+    return "history/eccentricity_x" in file and any(f"contact/{name}/state" in file for name in SURFACES)
+
+
+def draw(paths, files, kind, steps):
+    """The picture of one or several strips, or of a bearing's contacts."""
+    if len(files) == 1 and kind in (None, "contact") and is_bearing(files[0]):
+        return draw_contact(paths[0], files[0], steps)
+    for path, file in zip(paths, files):
+        if not is_strip(file):
+            stop(f"{path}: not a strip under loads, or no load step was done")
+    if kind is None:
+        kind = "loop" if all(goes_back(file) for file in files) else "bumps"
+    if steps and kind == "loop":
+        stop("a loop is of all steps; --step is for --show bumps and contact")
+    if kind == "contact":
+        if len(files) > 1:
+            stop("contact states are drawn of one file at a time")
+        return draw_contact(paths[0], files[0], steps)
+    if kind == "bumps":
+        if len(steps) > 1:
+            stop("deflections are drawn of one step at a time")
+        return draw_bumps(paths, files, steps)
+    return draw_loops(paths, files)
+
+
+def goes_back(file):
+    """Whether the load falls again."""
+    force = numpy.abs(file["history/force"][...])
+    return bool(force[-1] < force.max()*(1.0 - LEAST))
+
+
+def row_of(path, file, step):
+    """The row of a step; without one, a strip's largest force, which is the full load, or a bearing's last point."""
+    numbers = steps_of(file)
+    if step is None:
+        return len(numbers) - 1 if is_bearing(file) else int(numpy.argmax(numpy.abs(file["history/force"][...])))
+    if step not in numbers:
+        stop(f"{path}: no step {step}; there are {numbers[0]} to {numbers[-1]}")
+    return int(numpy.flatnonzero(numbers == step)[0])
+
+
+def steps_of(file):
+    """Numbers of a strip's load steps or of a bearing's sweep points."""
+    if is_bearing(file):
+        return numpy.arange(1, len(file["history/force_x"]) + 1)
+    return numpy.rint(file["history/step"][...]).astype(int)
+
+
+def words_of(file, row):
+    """A row in words: which it is, and its load."""
+    if not is_bearing(file):
+        return f"step {int(file['history/step'][row])}, {file['history/force'][row]:.4g} N"
+    force = f"{numpy.hypot(file['history/force_x'][row], file['history/force_y'][row]):.4g} N"
+    return force if len(file["history/force_x"]) == 1 else f"point {row + 1}, {force}"
+
+
+def name_of(path):
+    """The case's name."""
+    return path.name.removesuffix(".h5")
+
+
+def common_name(paths):
+    """What the names of all cases begin with, or nothing."""
+    words = os.path.commonprefix([name_of(path) for path in paths])
+    return words.rstrip("_-. ") if len(words) >= SHORTEST else ""
+
+
+# --- what tells files apart ---
+
+def used_keys(file):
+    """{group key: (value, whether it is a default)} of the echo."""
+    echo = text_of(file["scene/used"][()])
+    keys, group = {}, ""
+    for line in re.sub(r",\s*\n\s+", ", ", echo).splitlines():  # long lists go on in the next line
+        found = re.match(r"&(\w+)", line)
+        if found:
+            group = found[1]
+        found = re.match(r"  (\w+) = ('(?:[^']|'')*'|[^!]*)", line)
+        if found:
+            keys[group, found[1]] = (found[2].strip(), line.endswith("(default)"))
+    return keys
+
+
+def labels(paths, files):
+    """What a legend calls each file: the keys that differ and that some file sets, or the case's name."""
+    names = [name_of(path) for path in paths]
+    if len(files) == 1:
+        return names
+    used = [used_keys(file) for file in files]
+    differing = []
+    for key in {key: None for keys in used for key in keys}:
+        found = [keys.get(key, ("none", True)) for keys in used]
+        if key != ("scene", "title") and len({value for value, _ in found}) > 1 and not all(d for _, d in found):
+            differing.append(key)
+    words = [", ".join(f"{key[1]} = {keys.get(key, ('none', True))[0]}" for key in differing) for keys in used]
+    if not differing or len(differing) > 3 or len(set(words)) < len(words):
+        return names
+    return words
+
+
+# --- deflection per bump ---
+
+def draw_bumps(paths, files, steps):
+    """Mean deflection of each crest line, a bar a file."""
+    step = steps[0] if steps else None
+    columns = []
+    for path, file in zip(paths, files):
+        row = row_of(path, file, step)
+        bumps = sum(name.startswith("crest_deflection_") for name in file["history"])
+        columns.append([MICRO*file[f"history/crest_deflection_{n}"][row] for n in range(1, bumps + 1)])
+    most = max(map(len, columns))
+    width = 0.84/len(columns)
+    labelled = most*len(columns) <= MOST_LABELLED
+    figure, chart = pyplot.subplots(figsize=(max(6.5, 0.42*most*len(columns) + 2.0), 4.2), layout="constrained")
+    for i, (column, label) in enumerate(zip(columns, labels(paths, files))):
+        place = numpy.arange(1, len(column) + 1) + (i - 0.5*(len(columns) - 1))*width
+        bars = chart.bar(place, column, 0.94*width, label=label)
+        if labelled:
+            chart.bar_label(bars, fmt="%.2f", fontsize=7, padding=1.5)
+    chart.axhline(0.0, color="0.4", linewidth=0.8)
+    chart.set(xlabel="bump, counted along x (the shaft's motion)", ylabel="deflection towards the sleeve [um]",
+              xticks=range(1, most + 1))
+    chart.grid(axis="y", alpha=0.3)
+    chart.margins(y=0.1)
+    where = "at the full load" if step is None else f"in step {step}"
+    chart.set_title(f"mean deflection of each crest line {where}", fontsize=10)
+    figure.suptitle(common_name(paths), fontsize=11)
+    if len(files) > 1:
+        chart.legend(fontsize=8)
+    return figure
+
+
+# --- loops ---
+
+def travel(file):
+    """Name of what the force moves, and its values from the unloaded start on [m]."""
+    history = file["history"]
+    if "plate_travel" in history:
+        return "travel of the upper plate", with_start(history["plate_travel"][...])
+    crests = [history[name][...] for name in history if name.startswith("crest_deflection_")]
+    return "largest crest deflection", with_start(numpy.max(crests, axis=0))
+
+
+def with_start(values):
+    """The history with its unloaded start, which stands in no row."""
+    return numpy.concatenate(([0.0], values))
+
+
+def draw_loops(paths, files):
+    """Force against travel; and the same less the straight line to the full load, where loops open."""
+    figure, (chart, opened) = pyplot.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained")
+    words = set()
+    for i, (file, label) in enumerate(zip(files, labels(paths, files))):
+        word, way = travel(file)
+        words.add(word)
+        force = with_start(file["history/force"][...])
+        top = int(numpy.argmax(numpy.abs(force)))
+        if not (abs(force[top]) > 0.0 and abs(way[top]) > 0.0):
+            stop(f"{paths[i]}: nothing is loaded, there is no loop")
+        if "dissipated_energy" in file["summary"]:
+            label += f"\n{MILLI*file['summary/dissipated_energy'][()]:.4g} mJ"
+        look = {"linestyle": STYLES[i % len(STYLES)], "marker": "o" if len(force) <= MOST_MARKED else "",
+                "markersize": 3.0, "linewidth": 1.3, "label": label}
+        chart.plot(MICRO*way, force, **look)
+        opened.plot(MICRO*way, force - force[top]/way[top]*way, **look)
+    across = " / ".join(sorted(words)) + " [um]"
+    chart.set(xlabel=across, ylabel="force on all crests [N]")
+    chart.set_title("loading and unloading", fontsize=10)
+    opened.set(xlabel=across, ylabel="force less the line [N]")
+    opened.set_title("the same, less the straight line to the full load", fontsize=10)
+    for one in (chart, opened):
+        one.grid(alpha=0.3)
+    chart.legend(fontsize=8, title="with the work lost in the cycle", title_fontsize=8)
+    figure.suptitle(common_name(paths), fontsize=11)
+    return figure
+
+
+# --- contact states ---
+
+def draw_contact(path, file, steps):
+    """Open, stick and slip along the contact lines; a row of maps a step."""
+    surfaces = [name for name in SURFACES if f"contact/{name}/state" in file]
+    if not surfaces:
+        stop(f"{path}: no contacts in it")
+    rows = [row_of(path, file, step) for step in steps or [None]]
+    lines = {name: line_table(file[f"contact/{name}"]) for name in surfaces}
+    wide = [max(4, len(lines[name][0])) for name in surfaces]
+    figure, axes = contact_charts(len(rows), wide)
+    for row, charts in zip(rows, axes):
+        for chart, name in zip(charts, surfaces):
+            numbers, z, node = lines[name]
+            draw_states(chart, numbers, z, file[f"contact/{name}/state"][row][node])
+            chart.set_title(f"{words_of(file, row)}: {name}", fontsize=9)
+    stacked = sum(wide) > MOST_BESIDE
+    for charts in axes:
+        for chart in charts if stacked else charts[:1]:
+            chart.set_ylabel("z [mm]")
+    for chart, name in zip(axes[-1], surfaces):
+        chart.set_xlabel(f"number along x of the{' ' if stacked else chr(10)}{SURFACES[name]}", fontsize=9)
+    figure.legend(handles=[patches.Patch(color=colour, label=word) for word, colour in zip(STATES, STATE_COLOURS)],
+                  loc="upper right", ncols=3, fontsize=8)
+    figure.suptitle(f"{name_of(path)}: contact states", fontsize=11, x=0.01, ha="left")
+    return figure
+
+
+def contact_charts(rows, wide):
+    """A figure and its charts, a list a row: the surfaces side by side, or below each other where there is no room."""
+    if sum(wide) > MOST_BESIDE:
+        figure, axes = pyplot.subplots(rows*len(wide), 1, squeeze=False, layout="constrained",
+                                       figsize=(11.0, 2.2*rows*len(wide) + 0.7), sharey=True)
+        return figure, axes.reshape(rows, len(wide))
+    return pyplot.subplots(rows, len(wide), squeeze=False, layout="constrained", sharey=True, sharex="col",
+                           figsize=(max(6.5, 2.4 + 0.38*sum(wide)), 2.2*rows + 1.1),
+                           gridspec_kw={"width_ratios": wide})
+
+
+def draw_states(chart, numbers, z, states):
+    """A column a contact line."""
+    palette = colors.ListedColormap(STATE_COLOURS)
+    for i, column in enumerate(states):
+        chart.pcolormesh([i + 0.6, i + 1.4], edges(MILLI*z), column[:, None], cmap=palette, vmin=-0.5, vmax=2.5)
+    places = numpy.arange(1, len(numbers) + 1)[::1 + len(numbers)//(MOST_NUMBERED + 1)]
+    chart.set(xticks=places, xlim=(0.4, len(numbers) + 0.6))
+    chart.set_xticklabels([numbers[place - 1] for place in places])
+
+
+def line_table(group):
+    """Numbers of the contact lines, z over the whole width [m], and the node of every line and z.
+
+    Where half the width was solved, the other half is its mirror image. A line that is held has no contacts;
+    its entries bear no number.
+    """
+    line = numpy.rint(group["line"][...]).astype(int)
+    numbers = sorted(set(line) - {0})
+    if not numbers:
+        stop("no contact line bears a number")
+    position = group["position_z"][...]
+    nodes = []
+    for number in numbers:
+        own = numpy.flatnonzero(line == number)
+        nodes.append(own[numpy.argsort(position[own])])
+    if len({len(own) for own in nodes}) > 1:
+        stop("contact lines of different lengths cannot be drawn")
+    node = numpy.array(nodes)
+    z = position[node[0]]
+    if z[0] >= 0.0 and len(z) > 1:
+        z = numpy.concatenate((-z[:0:-1], z))
+        node = numpy.concatenate((node[:, :0:-1], node), axis=1)
+    return numbers, z, node
+
+
+def edges(z):
+    """Borders halfway between nodes."""
+    middle = 0.5*(z[1:] + z[:-1])
+    return numpy.concatenate((z[:1], middle, z[-1:]))

@@ -1,0 +1,119 @@
+"""What gfb leaves behind: summaries, histories, films, and PETSc's log."""
+
+import csv
+import dataclasses
+import pathlib
+
+import h5py
+import numpy
+
+# Names of the summary that say what the answer cost, not what it is.
+COST = {"unknowns", "newton_iterations", "factorizations", "wall_time", "peak_memory"}
+
+
+def read_summary(path):
+    """{name: number or word} and {name: unit} of a summary file."""
+    values, units = {}, {}
+    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+        name, rest = line.split(" = ", 1)
+        word, _, unit = rest.partition(" [")
+        units[name] = unit.rstrip("]")
+        try:
+            values[name] = float(word)
+        except ValueError:
+            values[name] = word
+    return values, units
+
+
+def read_history(path):
+    """{column: values, a row each} of the history in a case's HDF5 file."""
+    with h5py.File(path, "r") as file:
+        return {name: data[...] for name, data in file["history"].items()}
+
+
+def read_film(path):
+    """{field: values on (station, row)} of a film file: x, z, theta, pressure, gap, ..."""
+    with h5py.File(path, "r") as file:
+        points = file["VTKHDF/Points"][...]
+        fields = {name: data[...] for name, data in file["VTKHDF/PointData"].items()}
+    rows = int((points[:, 0] == points[0, 0]).sum())
+    fields |= {"x": points[:, 0], "z": points[:, 2]}
+    return {name: data.reshape(len(points)//rows, rows) for name, data in fields.items()}
+
+
+def text_of(value):
+    """A text from an HDF5 file."""
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def attribute(data, name):
+    """A text attribute."""
+    return text_of(data.attrs[name])
+
+
+@dataclasses.dataclass
+class Answer:
+    """What a run left behind."""
+
+    status: int
+    log: str
+    complaint: str
+    stem: pathlib.Path  # of the result files, without ending
+    summary: dict       # name: number, or word
+    units: dict         # name: unit
+    wall: float = 0.0   # of the whole process [s]
+    cpu: float = 0.0    # user and system time [s]
+
+    def __getitem__(self, name):
+        return self.summary[name]
+
+    @property
+    def converged(self):
+        """Whether an answer was found."""
+        return self.status == 0
+
+    @property
+    def force(self):
+        """Of the film, and of solid contact, on the sleeve: x and y [N]."""
+        return self.vector("force")
+
+    @property
+    def torque(self):
+        """Of the film, and of solid contact, on the shaft: about x and y [N m]."""
+        return self.vector("torque")
+
+    @property
+    def eccentricity(self):
+        """Of the sleeve relative to the shaft: x and y [m]."""
+        return self.vector("eccentricity")
+
+    def vector(self, name):
+        """The components of a vector in the summary."""
+        return numpy.array([self[f"{name}_x"], self[f"{name}_y"]])
+
+    def physical(self):
+        """Numbers of the summary without those of the cost."""
+        return {name: value for name, value in self.summary.items()
+                if name not in COST and isinstance(value, float)}
+
+    def film(self):
+        """The film file's fields, as read_film gives them."""
+        return read_film(f"{self.stem}.film.vtkhdf")
+
+    def history(self):
+        """The columns of the history."""
+        return read_history(f"{self.stem}.h5")
+
+
+def read_petsc_log(path):
+    """{stage: {event: (calls, seconds)}} of PETSc's log (-log_view :FILE:ascii_csv); "summary": the whole stage."""
+    stages = {}
+    with open(path, encoding="utf-8", newline="") as log:
+        for stage, event, _, calls, seconds, *_ in csv.reader(log):
+            if event == "Event Name":
+                continue
+            events = stages.setdefault(stage, {})
+            before = events.get(event, (0.0, 0.0))  # older PETSc has a line for each registration
+            if float(calls) > 0.0:
+                events[event] = (before[0] + float(calls), before[1] + float(seconds))
+    return stages

@@ -1,0 +1,19 @@
+"""Tables for the terminal and for the documentation."""
+
+
+def plain_table(title, heads, rows):
+    """A table for the terminal; the first two columns are words."""
+    widths = [max(len(row[i]) for row in [heads, *rows]) for i in range(len(heads))]
+    text = title + "\n"
+    for row in [heads, *rows]:
+        cells = [cell.ljust(width) if i < 2 else cell.rjust(width)
+                 for i, (cell, width) in enumerate(zip(row, widths))]
+        text += "  ".join(cells).rstrip() + "\n"
+    return text
+
+
+def markdown_table(title, heads, rows):
+    """The same for the documentation, its title left out."""
+    del title
+    lines = [heads, ["---"]*2 + ["---:"]*(len(heads) - 2), *rows]
+    return "".join("| " + " | ".join(row) + " |\n" for row in lines)
