@@ -1,0 +1,290 @@
+!> The table of all names under which results are written.
+!>
+!> A new name is a row here and a call of `add_result` (module gfb_results) where its value is
+!> known. `<a>`, `<b>` and `<state>` in a name stand for one name each of what `marker_words` has,
+!> `<n>` for a number, `<quantity>` for a name that `&accuracy` may ask for. What stands in braces
+!> in a meaning is replaced where the assignment says so, by one of the phrases below.
+!>
+!> The table lies in the lowest layer because the scene, which knows no bearing, needs the names
+!> that `&accuracy` may ask for, and the output, which knows no scene, writes units and meanings.
+module gfb_result_table
+  use gfb_quantity, only: number => quantity_number, total => quantity_count, &
+                          word => quantity_word, truth => quantity_truth
+  implicit none (type, external)
+  private
+
+  integer, parameter, public :: name_length = 32
+
+  !> What has a result of a name: a bit each, and its words in the manual.
+  integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
+                                load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
+                                origin = 512
+  character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
+    'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
+    'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`']
+
+  !> A row of the table.
+  type, public :: result_type
+    character(len=name_length) :: name
+    character(len=8) :: unit      !! SI, or '1'; empty for words; `own_unit`
+    integer :: kind               !! `quantity_number`, ...
+    integer :: studies            !! sum of the bits of those that have it
+    character(len=112) :: meaning !! attribute in the result files, one line
+    character(len=272) :: manual = '' !! the manual's words; empty: the meaning says it all
+    logical :: asked = .false.    !! it may be the quantity of `&accuracy`
+    logical :: compared = .false. !! where groups of ranks meet, to see that answers are the same
+    logical :: varies = .false.   !! with the machine and from run to run
+    logical :: joins = .false.    !! in the manual it shares the line above
+  end type result_type
+
+  character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`
+
+  ! Phrases that take the place of the braces of a meaning.
+  character(len=*), parameter, public :: &
+    film_and_contact = 'film and solid contact', &
+    film_and_contact_brake = 'film and solid contact brake', &
+    all_modes_found = 'all modes asked for were found', &
+    of_this_step = 'of this step', &
+    of_all_steps = 'of all load steps', &
+    of_shifted_stiffness = 'of the shifted stiffness', &
+    of_whole_table = 'of the whole table', &
+    with_stretches = 'of ranks, each with a stretch of the sweep', &
+    travel_of_plate = 'travel of the plate', &
+    at_this_point = 'at this point', &
+    at_first_point = 'at the sweep''s first point', &
+    at_fixed_equilibrium = 'in the equilibrium at which the shaft is held', &
+    load_kept = '; the load is kept', &
+    shaft_fixed = '; the shaft is held', &
+    linearised_there = ', contact and friction linearised there'
+  !> By the axis of the sweep.
+  character(len=*), parameter, public :: over_tilt(2) = ['tilt_x = 0, over tilt_x', &
+                                                         'tilt_y = 0, over tilt_y']
+
+  type(result_type), parameter :: every_study(*) = [ &
+    result_type('analysis', '', word, bearing + strip + modes, 'kind of analysis'), &
+    result_type('converged', '1', truth, bearing + strip + modes + ensemble, &
+      'whether {the answer was found}')]
+
+  type(result_type), parameter :: sweeps(*) = [ &
+    result_type('load', 'N', number, sweep, 'what the sweep changes', &
+      'the `parameter` of `&sweep`, where it is none of the names above'), &
+    result_type('speed_rpm', 'rpm', number, sweep, 'what the sweep changes', joins=.true.), &
+    result_type('tilt_<a>', 'rad', number, sweep, 'what the sweep changes', joins=.true.), &
+    result_type('fold', '1', truth, sweep, 'what the sweep changes turns back there', &
+      'with `turn_folds`: 1 in the rows where the parameter turns back'), &
+    result_type('branch', '1', total, branch, 'number of the equilibrium', &
+      'history: number of the equilibrium, by rising lift of the top foil'), &
+    result_type('branches', '1', total, branch, &
+      'equilibria found; those above are the first''s', &
+      'equilibria found; the rest of the summary is of the first one')]
+
+  type(result_type), parameter :: bearings(*) = [ &
+    result_type('eccentricity_<a>', 'm', number, bearing, &
+      'e_<a>, of the sleeve relative to the shaft', &
+      'of the sleeve relative to the shaft, at the midplane', asked=.true., compared=.true.), &
+    result_type('attitude_angle', 'deg', number, bearing, &
+      'from the load to the thinnest film, positive in +theta', &
+      'from the load''s direction to that of the thinnest film, positive in +theta', &
+      asked=.true.), &
+    result_type('force_<a>', 'N', number, bearing, '{film} force on the sleeve, <a>', &
+      'force of the film, and of solid contact, on the sleeve; in equilibrium equal to `load`', &
+      asked=.true.), &
+    result_type('torque_<a>', 'N m', number, bearing, '{film} torque on the shaft about <a>', &
+      'torque of the film, and of solid contact, on the shaft', asked=.true.), &
+    result_type('torque_<a>_without_suction', 'N m', number, bearing, &
+      'torque_<a> of the pressure above ambient', &
+      'the same of the pressure above ambient only'), &
+    result_type('friction_torque', 'N m', number, bearing, &
+      'torque with which {the film brakes} the shaft', &
+      'torque with which the film, and solid contact, brake the shaft', asked=.true.), &
+    result_type('power_loss', 'W', number, bearing, 'friction torque times speed', &
+      asked=.true.), &
+    result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
+      asked=.true., compared=.true.), &
+    result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
+      'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true.), &
+    result_type('minimum_gap_edge', 'm', number, bearing, &
+      'smallest film thickness at the bearing edges', asked=.true., joins=.true.), &
+    result_type('maximum_pressure', 'Pa', number, bearing, 'largest absolute pressure', &
+      'largest and smallest absolute pressure', asked=.true.), &
+    result_type('minimum_pressure', 'Pa', number, bearing, 'smallest absolute pressure', &
+      asked=.true., joins=.true.), &
+    result_type('maximum_peclet', '1', number, bearing, 'largest cell Peclet number of the film'), &
+    result_type('leading_edge_lift', 'm', number, bearing, &
+      'way of the top foil''s edge towards the shaft, at z = 0', &
+      'foils of shells or beams: displacement of the top foil''s edge towards the shaft, at '// &
+      'z = 0, and (`_edge`) at the ends of the bearing', compared=.true.), &
+    result_type('leading_edge_lift_edge', 'm', number, bearing, &
+      'way of the top foil''s edge towards the shaft, at the ends of the bearing', &
+      compared=.true., joins=.true.), &
+    result_type('trailing_edge_lift', 'm', number, bearing, &
+      'way of the top foil''s edge towards the shaft, at z = 0', compared=.true., joins=.true.), &
+    result_type('trailing_edge_lift_edge', 'm', number, bearing, &
+      'way of the top foil''s edge towards the shaft, at the ends of the bearing', &
+      compared=.true., joins=.true.), &
+    result_type('lifted_length', '1', number, bearing, &
+      'crest length without contact over all of it', &
+      'foils of shells or beams: crest length without contact, over all of it', &
+      compared=.true.), &
+    result_type('solid_contact_force_<a>', 'N', number, bearing, &
+      'share of force_<a> that the solid contact carries', &
+      'with `&shaft_contact`: share of `force_x`, `force_y` that the asperities carry'), &
+    result_type('solid_contact_torque', 'N m', number, bearing, &
+      'share of friction_torque that the solid contact has', &
+      'the same: share of `friction_torque`; at rest what the shaft must overcome to turn'), &
+    result_type('maximum_solid_contact_pressure', 'Pa', number, bearing, &
+      'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
+
+  type(result_type), parameter :: tilts(*) = [ &
+    result_type('angular_stiffness_<a><b>', 'N m/rad', number, tilting, &
+      'slope of torque_<a> over tilt_<b>, {'//at_this_point//load_kept//'}', &
+      'slope of the torque (first letter) over the tilt (second), in the summary where the '// &
+      'sweep begins, in the history at every point; with the shaft fixed, or else with the '// &
+      'load kept; contact and friction are linearised there'), &
+    result_type('secant_stiffness_<a>', 'N m/rad', number, tilting, &
+      'torque_<a> less that at {'//over_tilt(1)//'}; the slope where that is zero', &
+      'history: the torque, less that at zero tilt, over the tilt; the slope where that is zero'), &
+    result_type('held_force_<a>', 'N', number, tilting, &
+      'film force on the sleeve '//at_fixed_equilibrium, &
+      'with `hold_position`: film force in the equilibrium at which the shaft is fixed (its '// &
+      'place is the eccentricity)'), &
+    result_type('held_leading_edge_lift', 'm', number, tilting, &
+      'leading_edge_lift '//at_fixed_equilibrium, &
+      'the same on shells or beams: what `leading_edge_lift`, ... are in that equilibrium'), &
+    result_type('held_leading_edge_lift_edge', 'm', number, tilting, &
+      'leading_edge_lift_edge '//at_fixed_equilibrium, joins=.true.), &
+    result_type('held_lifted_length', '1', number, tilting, &
+      'lifted_length '//at_fixed_equilibrium, joins=.true.)]
+
+  type(result_type), parameter :: judgements(*) = [ &
+    result_type('stability', '1', total, bearing, &
+      'negative eigenvalues of the foils'' stiffness with the film eliminated, shaft held; '// &
+      '0: stable', &
+      'foils of shells or beams, with `stability` in `&solver`: negative eigenvalues of the '// &
+      'foils'' stiffness in SI with the film eliminated, shaft fixed; 0: stable'), &
+    result_type('growing_modes', '1', total, bearing, &
+      'modes that grow where the gas resists the top foil''s motion, shaft held', &
+      'the same: modes that grow where the gas resists the top foil''s motion'), &
+    result_type('stability_margin', '1', number, bearing, &
+      'stiffness over p_a/C of the mode nearest to a change; negative: it grows', &
+      'the same: stiffness of the mode nearest to a change, pressure over deflection, over '// &
+      'p_a / C; negative where it grows; next to neutral within 0.01'), &
+    result_type('determinant_sign', '1', total, bearing, &
+      'sign of the determinant of all equations; it changes at folds', &
+      'where the shaft is balanced: sign of the determinant of all equations; along a branch '// &
+      'it changes at a fold, 0 in the row of one'), &
+    result_type('<quantity>_error', own_unit, number, accuracy, &
+      'estimated from nested meshes, absolute', &
+      'estimated error of that quantity, absolute; order of convergence that the meshes show, '// &
+      '0: none'), &
+    result_type('<quantity>_order', '1', number, accuracy, &
+      'observed order of convergence; 0: not known', joins=.true.), &
+    result_type('accuracy_met', '1', truth, accuracy, &
+      'whether the estimated error of {the quantity} is as small as asked for', &
+      'whether the estimate is within the target; meshes that were tried'), &
+    result_type('meshes', '1', total, accuracy, 'that were tried, each twice as fine', &
+      joins=.true.)]
+
+  type(result_type), parameter :: strips(*) = [ &
+    result_type('crest_deflection_<n>', 'm', number, strip + load_step, &
+      'mean deflection of a crest line towards the sleeve', &
+      'mean over crest line n, towards the sleeve; bump 1 at the smallest x'), &
+    result_type('maximum_deflection', 'm', number, strip, '{largest crest deflection}', &
+      'at the full load: largest crest deflection, or travel of the plate; force on all '// &
+      'crests; their ratio', asked=.true.), &
+    result_type('maximum_force', 'N', number, strip, 'force on all crests', asked=.true., &
+      joins=.true.), &
+    result_type('loading_stiffness', 'N/m', number, strip, &
+      'maximum force over maximum deflection', asked=.true., joins=.true.), &
+    result_type('deflection_round_off', '1', number, strip, &
+      'relative error of deflections that round-off leaves, about', &
+      'relative error of deflections that round-off leaves, about, where it is above 1e-8'), &
+    result_type('dissipated_energy', 'J', number, strip, 'work of the load over the cycle', &
+      'strips that are unloaded again: work of the load over the cycle', asked=.true.), &
+    result_type('step', '1', total, load_step, 'load step, 0: unloaded'), &
+    result_type('load_factor', '1', number, load_step, 'share of the full load'), &
+    result_type('force', 'N', number, load_step, 'on all crests'), &
+    result_type('plate_travel', 'm', number, load_step, &
+      'way of the upper plate towards the sleeve', &
+      'displacement of the upper plate towards the sleeve'), &
+    result_type('sleeve_<state>', '1', total, load_step, 'contact nodes in this state', &
+      'contact nodes on corner (`sleeve`) and crest lines (`top`) in this state'), &
+    result_type('top_<state>', '1', total, load_step, 'contact nodes in this state', &
+      joins=.true.), &
+    result_type('external_work', 'J', number, load_step, 'of the load, since the start'), &
+    result_type('strain_energy', 'J', number, load_step, 'in the foil'), &
+    result_type('penalty_energy', 'J', number, load_step, 'in the penetrations'), &
+    result_type('friction_work', 'J', number, load_step, 'done against friction, since the start')]
+
+  type(result_type), parameter :: vibrations(*) = [ &
+    result_type('frequency_<n>', 'Hz', number, modes, 'natural frequency', &
+      'natural frequencies, and how many of them are motions without strain'), &
+    result_type('rigid_modes', '1', total, modes, 'modes without strain among those found', &
+      joins=.true.), &
+    result_type('frequency_round_off', '1', number, modes, &
+      'relative error that round-off leaves, at most about', &
+      'very thin foils: relative error of `frequency_<n>` that round-off leaves, at most '// &
+      'about, where the matrix had lost digits'), &
+    result_type('craig_bampton_frequency_<n>', 'Hz', number, modes, &
+      'natural frequency of the reduced strip', &
+      'strips: natural frequencies from their reduced matrices')]
+
+  type(result_type), parameter :: costs(*) = [ &
+    result_type('foil_unknowns_full', '1', total, bearing + strip, &
+      'of the bump foil, whole width, before constraints', &
+      'bump foil of shells or beams: of the whole width, before supports'), &
+    result_type('foil_unknowns_retained', '1', total, bearing + strip, &
+      'of its retained lines, whole width, before constraints', &
+      'bump foil of shells: the same on the lines that are retained'), &
+    result_type('distinct_super_elements', '1', total, bearing + strip, 'condensed once each', &
+      'bump foil of shells: kinds of super-element, condensed once each'), &
+    result_type('unknowns', '1', total, bearing + strip + modes, 'unknowns of the equations', &
+      'of the equations'), &
+    result_type('newton_iterations', '1', total, bearing + strip + load_step, &
+      '{iterations of all solves}', &
+      'of all solves, those on coarse meshes too; in a bearing''s history from the start of '// &
+      'the run on, in a strip''s of that step'), &
+    result_type('factorizations', '1', total, bearing + strip + load_step + modes, &
+      '{matrix factorizations of all solves}', &
+      'the same of factorizations of matrices; modes: of the shifted stiffness'), &
+    result_type('wall_time', 's', number, bearing + strip + modes + ensemble, &
+      '{from start to answer}', 'from start to answer', varies=.true.), &
+    result_type('peak_memory', 'B', number, bearing + strip + modes, &
+      'sum over ranks of the largest held', varies=.true.)]
+
+  type(result_type), parameter :: ensembles(*) = [ &
+    result_type('member', '', word, ensemble, 'name of the case file', &
+      'history: name of the case file'), &
+    result_type('reason', '', word, ensemble, 'why there is no answer; empty where there is', &
+      'history: why there is no answer; empty where there is one'), &
+    result_type('exit_status', '1', total, ensemble, &
+      'that gfb would have had with this case alone', &
+      'history: exit status that gfb would have had with this case alone'), &
+    result_type('group', '1', total, ensemble, 'of ranks that computed it', &
+      'history: group of ranks that computed it', varies=.true.), &
+    result_type('members', '1', total, ensemble, 'cases of the table'), &
+    result_type('converged_members', '1', total, ensemble, 'of them', &
+      'cases of the table that have an answer'), &
+    result_type('groups', '1', total, ensemble + origin, '{of ranks}', &
+      'of ranks, each with cases or with a stretch of the sweep'), &
+    result_type('member_<n>', '', word, ensemble, '{case file}', &
+      'name of the case, and how it ended')]
+
+  type(result_type), parameter :: origins(*) = [ &
+    result_type('program_version', '', word, origin, 'version of gfb'), &
+    result_type('commit', '', word, origin, 'commit of its sources'), &
+    result_type('compiler', '', word, origin, 'compiler that built it'), &
+    result_type('build', '', word, origin, 'kind of build'), &
+    result_type('libraries', '', word, origin, 'versions of the solver libraries'), &
+    result_type('blas', '', word, origin, 'library of the dense kernels'), &
+    result_type('command', '', word, origin, 'command line', varies=.true.), &
+    result_type('host', '', word, origin, 'machine of the first rank', varies=.true.), &
+    result_type('date', '', word, origin, 'when it was written', varies=.true.), &
+    result_type('ranks', '1', total, origin + ensemble, 'processes of the job'), &
+    result_type('stretches', '', word, origin, 'how they fit together', &
+      'sweeps on several groups: how the groups'' stretches fit together')]
+
+  type(result_type), parameter, public :: result_rows(*) = [ &
+    every_study, bearings, tilts, judgements, strips, vibrations, costs, sweeps, ensembles, &
+    origins]
+end module gfb_result_table
