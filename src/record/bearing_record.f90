@@ -1,17 +1,17 @@
 !> What is kept of a bearing's answers: a row of the history and the contacts, for each.
 module gfb_bearing_record
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity, &
-                          add_quantity
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_results, only: add_result
+  use gfb_result_names, only: result_unit
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_sweep_case, only: sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, sweep_tilt_y, &
-                            sweep_eccentricity_x
+  use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, parameter_words
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type
-  use gfb_bearing_summary, only: answer_quantities, count_quantities
+  use gfb_bearing_summary, only: answer_quantities, add_counts
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
   use gfb_tilt_response, only: tilt_response_type, row_quantities
   implicit none (type, external)
@@ -43,21 +43,15 @@ contains
 
     ! The answer has the eccentricities anyway.
     if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then
-      call add_quantity(row%quantity, number_quantity(sweep_name(scene%sweep), value, &
-        sweep_unit(scene%sweep), 'what the sweep changes'))
+      call add_result(row%quantity, sweep_name(scene%sweep), value)
     end if
-    if (present(fold)) then
-      call add_quantity(row%quantity, truth_quantity('fold', fold, &
-        'what the sweep changes turns back there'))
-    end if
-    if (present(branch)) then
-      call add_quantity(row%quantity, count_quantity('branch', branch, 'number of the equilibrium'))
-    end if
+    if (present(fold)) call add_result(row%quantity, 'fold', fold)
+    if (present(branch)) call add_result(row%quantity, 'branch', branch)
     call add_quantity(row%quantity, answer_quantities(analysis_name(scene), converged, &
       bearing_answer(bearing), bearing%film%clearance, bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
-    call add_quantity(row%quantity, count_quantities(newton%iterations, newton%factorizations))
+    call add_counts(newton%iterations, newton%factorizations, row%quantity)
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
     call record_foil_contacts(bearing%foil, size(record%history), &
@@ -77,26 +71,13 @@ contains
   pure function sweep_name(sweep) result(name)
     type(sweep_case_type), intent(in) :: sweep
     character(len=:), allocatable :: name
-    character(len=14), parameter :: names(6) = [character(len=14) :: &
-                                                'load', 'speed_rpm', 'tilt_x', 'tilt_y', &
-                                                'eccentricity_x', 'eccentricity_y']
-    name = trim(names(sweep%parameter))
+    name = trim(parameter_words(sweep%parameter))
   end function sweep_name
 
   !> Its unit.
   pure function sweep_unit(sweep) result(unit)
     type(sweep_case_type), intent(in) :: sweep
     character(len=:), allocatable :: unit
-
-    select case (sweep%parameter)
-    case (sweep_load)
-      unit = 'N'
-    case (sweep_speed)
-      unit = 'rpm'
-    case (sweep_tilt_x, sweep_tilt_y)
-      unit = 'rad'
-    case default
-      unit = 'm'
-    end select
+    unit = result_unit(sweep_name(sweep))
   end function sweep_unit
 end module gfb_bearing_record

@@ -1,14 +1,15 @@
-!> The names under which a bearing's answer is written.
+!> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-                          truth_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_result_table, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
   implicit none (type, external)
   private
-  public :: answer_quantities, cost_quantities, count_quantities, attitude_angle, show_closing_block
+  public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block
 
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
@@ -32,113 +33,88 @@ contains
     real(wp), intent(in) :: clearance        !! C [m]
     real(wp), intent(in) :: force_scale      !! size of a force [N]
     type(quantity_type), allocatable :: list(:)
-    character(len=:), allocatable :: who !! presses on sleeve and shaft
-    character(len=:), allocatable :: braking
 
-    who = 'film'
-    braking = 'torque with which the film brakes the shaft'
-    if (answer%has_solid_contact) then
-      who = 'film and solid contact'
-      braking = 'torque with which film and solid contact brake the shaft'
-    end if
-    call add_quantity(list, word_quantity('analysis', analysis, 'kind of analysis'))
-    call add_quantity(list, truth_quantity('converged', converged, 'whether the answer was found'))
-    call add_quantity(list, number_quantity('eccentricity_x', answer%eccentricity(1), 'm', &
-      'e_x, of the sleeve relative to the shaft'))
-    call add_quantity(list, number_quantity('eccentricity_y', answer%eccentricity(2), 'm', &
-      'e_y, of the sleeve relative to the shaft'))
+    call add_result(list, 'analysis', analysis)
+    call add_result(list, 'converged', converged)
+    call add_result(list, 'eccentricity_x', answer%eccentricity(1))
+    call add_result(list, 'eccentricity_y', answer%eccentricity(2))
     if (norm2(answer%eccentricity) > no_direction*clearance .and. &
         norm2(answer%force(1:2)) > no_direction*force_scale) then
-      call add_quantity(list, number_quantity('attitude_angle', attitude_angle(answer)*degrees, &
-        'deg', 'from the load to the thinnest film, positive in +theta'))
+      call add_result(list, 'attitude_angle', attitude_angle(answer)*degrees)
     end if
-    call add_quantity(list, number_quantity('force_x', answer%force(1), 'N', who// &
-      ' force on the sleeve, x'))
-    call add_quantity(list, number_quantity('force_y', answer%force(2), 'N', who// &
-      ' force on the sleeve, y'))
-    call add_quantity(list, number_quantity('torque_x', answer%force(3), 'N m', who// &
-      ' torque on the shaft about x'))
-    call add_quantity(list, number_quantity('torque_y', answer%force(4), 'N m', who// &
-      ' torque on the shaft about y'))
-    call add_quantity(list, number_quantity('torque_x_without_suction', &
-      answer%force_without_suction(3), 'N m', 'torque_x of the pressure above ambient'))
-    call add_quantity(list, number_quantity('torque_y_without_suction', &
-      answer%force_without_suction(4), 'N m', 'torque_y of the pressure above ambient'))
-    call add_quantity(list, number_quantity('friction_torque', answer%friction_torque, 'N m', &
-      braking))
-    call add_quantity(list, number_quantity('power_loss', answer%power_loss, 'W', &
-      'friction torque times speed'))
-    call add_quantity(list, number_quantity('minimum_gap', answer%minimum_gap, 'm', &
-      'smallest film thickness'))
-    call add_quantity(list, number_quantity('minimum_gap_midplane', answer%minimum_gap_midplane, &
-      'm', 'smallest film thickness at z = 0'))
-    call add_quantity(list, number_quantity('minimum_gap_edge', answer%minimum_gap_edge, 'm', &
-      'smallest film thickness at the bearing edges'))
-    call add_quantity(list, number_quantity('maximum_pressure', answer%maximum_pressure, 'Pa', &
-      'largest absolute pressure'))
-    call add_quantity(list, number_quantity('minimum_pressure', answer%minimum_pressure, 'Pa', &
-      'smallest absolute pressure'))
-    call add_quantity(list, number_quantity('maximum_peclet', answer%maximum_peclet, '1', &
-      'largest cell Peclet number of the film'))
-    if (answer%has_foils) call add_quantity(list, foil_quantities(answer))
-    if (answer%has_solid_contact) call add_quantity(list, solid_quantities(answer))
+    call add_loads(answer, list)
+    call add_result(list, 'power_loss', answer%power_loss)
+    call add_result(list, 'minimum_gap', answer%minimum_gap)
+    call add_result(list, 'minimum_gap_midplane', answer%minimum_gap_midplane)
+    call add_result(list, 'minimum_gap_edge', answer%minimum_gap_edge)
+    call add_result(list, 'maximum_pressure', answer%maximum_pressure)
+    call add_result(list, 'minimum_pressure', answer%minimum_pressure)
+    call add_result(list, 'maximum_peclet', answer%maximum_peclet)
+    if (answer%has_foils) call add_foil_edges(answer, list)
+    if (answer%has_solid_contact) call add_solid_contact(answer, list)
   end function answer_quantities
 
-  !> What asperities of the shaft add.
-  function solid_quantities(answer) result(list)
+  !> Adds what presses on sleeve and shaft.
+  subroutine add_loads(answer, list)
     type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type) :: list(4)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=:), allocatable :: by, braking !! the meanings' own words without solid contact
 
-    list(1) = number_quantity('solid_contact_force_x', answer%solid_force(1), 'N', &
-                              'share of force_x that the solid contact carries')
-    list(2) = number_quantity('solid_contact_force_y', answer%solid_force(2), 'N', &
-                              'share of force_y that the solid contact carries')
-    list(3) = number_quantity('solid_contact_torque', answer%solid_torque, 'N m', &
-                              'share of friction_torque that the solid contact has')
-    list(4) = number_quantity('maximum_solid_contact_pressure', answer%maximum_solid_pressure, &
-                              'Pa', 'largest pressure of the solid contact')
-  end function solid_quantities
+    if (answer%has_solid_contact) then
+      by = film_and_contact
+      braking = film_and_contact_brake
+    end if
+    call add_result(list, 'force_x', answer%force(1), by)
+    call add_result(list, 'force_y', answer%force(2), by)
+    call add_result(list, 'torque_x', answer%force(3), by)
+    call add_result(list, 'torque_y', answer%force(4), by)
+    call add_result(list, 'torque_x_without_suction', answer%force_without_suction(3))
+    call add_result(list, 'torque_y_without_suction', answer%force_without_suction(4))
+    call add_result(list, 'friction_torque', answer%friction_torque, braking)
+  end subroutine add_loads
 
-  !> What foils that are structures add.
-  function foil_quantities(answer) result(list)
+  !> Adds what asperities of the shaft do.
+  subroutine add_solid_contact(answer, list)
     type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type) :: list(5)
-    character(len=*), parameter :: meaning = 'way of the top foil''s edge towards the shaft, '
+    type(quantity_type), allocatable, intent(inout) :: list(:)
 
-    list(1) = number_quantity('leading_edge_lift', answer%leading_edge_lift(1), 'm', &
-                              meaning//'at z = 0')
-    list(2) = number_quantity('leading_edge_lift_edge', answer%leading_edge_lift(2), 'm', &
-                              meaning//'at the ends of the bearing')
-    list(3) = number_quantity('trailing_edge_lift', answer%trailing_edge_lift(1), 'm', &
-                              meaning//'at z = 0')
-    list(4) = number_quantity('trailing_edge_lift_edge', answer%trailing_edge_lift(2), 'm', &
-                              meaning//'at the ends of the bearing')
-    list(5) = number_quantity('lifted_length', answer%lifted_length, '1', &
-                              'crest length without contact over all of it')
-  end function foil_quantities
+    call add_result(list, 'solid_contact_force_x', answer%solid_force(1))
+    call add_result(list, 'solid_contact_force_y', answer%solid_force(2))
+    call add_result(list, 'solid_contact_torque', answer%solid_torque)
+    call add_result(list, 'maximum_solid_contact_pressure', answer%maximum_solid_pressure)
+  end subroutine add_solid_contact
+
+  !> Adds what foils that are structures do.
+  subroutine add_foil_edges(answer, list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+
+    call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
+    call add_result(list, 'leading_edge_lift_edge', answer%leading_edge_lift(2))
+    call add_result(list, 'trailing_edge_lift', answer%trailing_edge_lift(1))
+    call add_result(list, 'trailing_edge_lift_edge', answer%trailing_edge_lift(2))
+    call add_result(list, 'lifted_length', answer%lifted_length)
+  end subroutine add_foil_edges
 
   !> Quantities of what it cost.
   function cost_quantities(cost) result(list)
     type(cost_type), intent(in) :: cost
     type(quantity_type), allocatable :: list(:)
 
-    call add_quantity(list, count_quantity('unknowns', cost%unknowns, 'unknowns of the equations'))
-    call add_quantity(list, count_quantities(cost%newton_iterations, cost%factorizations))
-    call add_quantity(list, number_quantity('wall_time', cost%wall_time, 's', &
-      'from start to answer'))
-    call add_quantity(list, number_quantity('peak_memory', cost%peak_memory, 'B', &
-      'sum over ranks of the largest held'))
+    call add_result(list, 'unknowns', cost%unknowns)
+    call add_counts(cost%newton_iterations, cost%factorizations, list)
+    call add_result(list, 'wall_time', cost%wall_time)
+    call add_result(list, 'peak_memory', cost%peak_memory)
   end function cost_quantities
 
-  !> What was counted from the start of the run to an answer.
-  pure function count_quantities(newton_iterations, factorizations) result(list)
-    integer, intent(in) :: newton_iterations, factorizations
-    type(quantity_type) :: list(2)
+  !> Adds what was counted from the start of the run to an answer.
+  pure subroutine add_counts(newton_iterations, factorizations, list)
+    integer, intent(in) :: newton_iterations, factorizations !! so far
+    type(quantity_type), allocatable, intent(inout) :: list(:)
 
-    list(1) = count_quantity('newton_iterations', newton_iterations, 'iterations of all solves')
-    list(2) = count_quantity('factorizations', factorizations, &
-                             'matrix factorizations of all solves')
-  end function count_quantities
+    call add_result(list, 'newton_iterations', newton_iterations)
+    call add_result(list, 'factorizations', factorizations)
+  end subroutine add_counts
 
   !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
   pure function attitude_angle(answer) result(angle)

@@ -1,7 +1,8 @@
 #include "gfb_version.h"
 !> Which program computed this, where and with what.
 module gfb_provenance
-  use gfb_quantity, only: quantity_type, word_quantity, count_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_c_library, only: host_name
   use gfb_petsc_session, only: petsc_version_text, rank_count
   implicit none (type, external)
@@ -28,16 +29,16 @@ contains
     character(len=*), intent(in) :: command !! the whole command line
     type(quantity_type), allocatable :: list(:)
 
-    call add_quantity(list, word_quantity('program_version', GFB_VERSION, 'version of gfb'))
-    call add_quantity(list, word_quantity('commit', GFB_COMMIT, 'commit of its sources'))
-    call add_quantity(list, word_quantity('compiler', GFB_COMPILER, 'compiler that built it'))
-    call add_quantity(list, word_quantity('build', GFB_BUILD, 'kind of build'))
-    call add_quantity(list, word_quantity('libraries', petsc_version_text(), 'versions of the solver libraries'))
-    call add_quantity(list, word_quantity('blas', blas_in_use(), 'library of the dense kernels'))
-    call add_quantity(list, word_quantity('command', command, 'command line'))
-    call add_quantity(list, word_quantity('host', host_name(), 'machine of the first rank'))
-    call add_quantity(list, word_quantity('date', date_text(), 'when it was written'))
-    call add_quantity(list, count_quantity('ranks', rank_count(), 'processes of the job'))
+    call add_result(list, 'program_version', GFB_VERSION)
+    call add_result(list, 'commit', GFB_COMMIT)
+    call add_result(list, 'compiler', GFB_COMPILER)
+    call add_result(list, 'build', GFB_BUILD)
+    call add_result(list, 'libraries', petsc_version_text())
+    call add_result(list, 'blas', blas_in_use())
+    call add_result(list, 'command', command)
+    call add_result(list, 'host', host_name())
+    call add_result(list, 'date', date_text())
+    call add_result(list, 'ranks', rank_count())
   end function provenance
 
   !> Date and time with their distance from UTC.

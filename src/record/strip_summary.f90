@@ -1,10 +1,11 @@
-!> Names, units and meanings of a strip's answer, and how the log shows it.
+!> A strip's answer as results, and how the log shows it.
 module gfb_strip_summary
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-    truth_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_result_table, only: of_this_step, of_all_steps, travel_of_plate
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_scene, only: scene_type
@@ -35,51 +36,35 @@ contains
     character(len=*), parameter :: state(3) = [character(len=5) :: 'open', 'stick', 'slip']
     integer :: i, k
 
-    call add_quantity(list, count_quantity('step', step, 'load step, 0: unloaded'))
-    call add_quantity(list, number_quantity('load_factor', answer%factor, '1', &
-      'share of the full load'))
-    call add_quantity(list, number_quantity('force', answer%force, 'N', 'on all crests'))
-    if (plates) call add_quantity(list, number_quantity('plate_travel', answer%travel, 'm', &
-      'way of the upper plate towards the sleeve'))
-    call add_quantity(list, crest_quantities(answer))
+    call add_result(list, 'step', step)
+    call add_result(list, 'load_factor', answer%factor)
+    call add_result(list, 'force', answer%force)
+    if (plates) call add_result(list, 'plate_travel', answer%travel)
+    call add_crests(answer, list)
     do k = 1, size(surface)
       if (sum(answer%count(:, k)) == 0) cycle
       do i = 1, size(state)
-        call add_quantity(list, count_quantity(trim(surface(k))//'_'//trim(state(i)), &
-          answer%count(i, k), 'contact nodes in this state'))
+        call add_result(list, trim(surface(k))//'_'//trim(state(i)), answer%count(i, k))
       end do
     end do
-    call add_quantity(list, energy_quantities(answer))
-    call add_quantity(list, count_quantity('newton_iterations', newton_iterations, 'of this step'))
-    call add_quantity(list, count_quantity('factorizations', factorizations, 'of this step'))
+    call add_result(list, 'external_work', answer%external_work)
+    call add_result(list, 'strain_energy', answer%strain_energy)
+    call add_result(list, 'penalty_energy', answer%penalty_energy)
+    call add_result(list, 'friction_work', answer%friction_work)
+    call add_result(list, 'newton_iterations', newton_iterations, of_this_step)
+    call add_result(list, 'factorizations', factorizations, of_this_step)
   end function step_quantities
 
-  !> Deflection of every crest.
-  function crest_quantities(answer) result(list)
+  !> Adds the deflection of every crest.
+  subroutine add_crests(answer, list)
     type(strip_answer_type), intent(in) :: answer
-    type(quantity_type) :: list(size(answer%deflection))
+    type(quantity_type), allocatable, intent(inout) :: list(:)
     integer :: bump
 
-    do bump = 1, size(list)
-      list(bump) = number_quantity('crest_deflection_'//text(bump), answer%deflection(bump), 'm', &
-                                   'mean deflection of a crest line towards the sleeve')
+    do bump = 1, size(answer%deflection)
+      call add_result(list, 'crest_deflection_'//text(bump), answer%deflection(bump))
     end do
-  end function crest_quantities
-
-  !> Works and energies since the start.
-  function energy_quantities(answer) result(list)
-    type(strip_answer_type), intent(in) :: answer
-    type(quantity_type), allocatable :: list(:)
-
-    call add_quantity(list, number_quantity('external_work', answer%external_work, 'J', &
-      'of the load, since the start'))
-    call add_quantity(list, number_quantity('strain_energy', answer%strain_energy, 'J', &
-      'in the foil'))
-    call add_quantity(list, number_quantity('penalty_energy', answer%penalty_energy, 'J', &
-      'in the penetrations'))
-    call add_quantity(list, number_quantity('friction_work', answer%friction_work, 'J', &
-      'done against friction, since the start'))
-  end function energy_quantities
+  end subroutine add_crests
 
   !> The summary: what holds at the full load, and what the cycle cost.
   function answer_quantities(full, last, plates, converged) result(list)
@@ -90,25 +75,22 @@ contains
     real(wp) :: largest
 
     largest = maxval(full%deflection)
-    if (plates) largest = full%travel
-    call add_quantity(list, word_quantity('analysis', 'strip', 'kind of analysis'))
-    call add_quantity(list, truth_quantity('converged', converged, 'whether the answer was found'))
-    call add_quantity(list, crest_quantities(full))
-    call add_quantity(list, number_quantity('maximum_deflection', largest, 'm', &
-      trim(merge('travel of the plate     ', 'largest crest deflection', plates))))
-    call add_quantity(list, number_quantity('maximum_force', full%force, 'N', &
-      'force on all crests'))
-    if (largest > 0.0_wp) then
-      call add_quantity(list, number_quantity('loading_stiffness', full%force/largest, 'N/m', &
-        'maximum force over maximum deflection'))
+    call add_result(list, 'analysis', 'strip')
+    call add_result(list, 'converged', converged)
+    call add_crests(full, list)
+    if (plates) then
+      largest = full%travel
+      call add_result(list, 'maximum_deflection', largest, travel_of_plate)
+    else
+      call add_result(list, 'maximum_deflection', largest)
     end if
+    call add_result(list, 'maximum_force', full%force)
+    if (largest > 0.0_wp) call add_result(list, 'loading_stiffness', full%force/largest)
     if (full%round_off > told_round_off) then
-      call add_quantity(list, number_quantity('deflection_round_off', full%round_off, '1', &
-                                    'relative error of deflections that round-off leaves, about'))
+      call add_result(list, 'deflection_round_off', full%round_off)
     end if
     if (converged .and. full%factor > last%factor) then
-      call add_quantity(list, number_quantity('dissipated_energy', last%external_work, 'J', &
-        'work of the load over the cycle'))
+      call add_result(list, 'dissipated_energy', last%external_work)
     end if
   end function answer_quantities
 
@@ -146,21 +128,14 @@ contains
     stations = strip%foil%mesh%stations
     rows = scene%mesh%axial_elements + 1
     memory = sum_over_ranks([peak_memory()])
-    call add_quantity(list, count_quantity('unknowns', strip%unknowns, 'unknowns of the equations'))
-    call add_quantity(list, count_quantity('foil_unknowns_full', node_unknowns*stations*rows, &
-      'of the bump foil, whole width, before constraints'))
-    call add_quantity(list, count_quantity('foil_unknowns_retained', &
-      node_unknowns*(size(strip%foil%substructure) + 1)*rows, &
-      'of its retained lines, whole width, before constraints'))
-    call add_quantity(list, count_quantity('distinct_super_elements', &
-      kind_count(strip%foil%substructure), 'condensed once each'))
-    call add_quantity(list, count_quantity('newton_iterations', newton%iterations, &
-      'of all load steps'))
-    call add_quantity(list, count_quantity('factorizations', newton%factorizations, &
-      'of all load steps'))
-    call add_quantity(list, number_quantity('wall_time', wall_time() - start_time, 's', &
-      'from start to answer'))
-    call add_quantity(list, number_quantity('peak_memory', memory(1), 'B', &
-      'sum over ranks of the largest held'))
+    call add_result(list, 'unknowns', strip%unknowns)
+    call add_result(list, 'foil_unknowns_full', node_unknowns*stations*rows)
+    call add_result(list, 'foil_unknowns_retained', &
+                    node_unknowns*(size(strip%foil%substructure) + 1)*rows)
+    call add_result(list, 'distinct_super_elements', kind_count(strip%foil%substructure))
+    call add_result(list, 'newton_iterations', newton%iterations, of_all_steps)
+    call add_result(list, 'factorizations', newton%factorizations, of_all_steps)
+    call add_result(list, 'wall_time', wall_time() - start_time)
+    call add_result(list, 'peak_memory', memory(1))
   end function cost_quantities
 end module gfb_strip_summary

@@ -3,7 +3,10 @@ module gfb_tilt_response
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_result_table, only: at_this_point, at_first_point, at_fixed_equilibrium, load_kept, &
+                              shaft_fixed, linearised_there, over_tilt
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_bearing_system, only: bearing_system_type
@@ -13,7 +16,7 @@ module gfb_tilt_response
   implicit none (type, external)
   private
   public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response
-  public :: response_numbers, recall_response
+  public :: tilt_axis, response_numbers, recall_response
 
   character(len=1), parameter :: axes(2) = ['x', 'y']
 
@@ -120,12 +123,11 @@ contains
 
     allocate (list(0))
     if (.not. response%measured) return
-    list = slope_quantities(response, response%slope, 'at this point')
+    call add_slopes(response, response%slope, at_this_point, list)
     if (.not. response%has_secant) return
     do i = 1, 2
-      call add_quantity(list, number_quantity('secant_stiffness_'//axes(i), response%secant(i), &
-        'N m/rad', 'torque_'//axes(i)//' less that at tilt_'//axes(response%axis)// &
-        ' = 0, over tilt_'//axes(response%axis)//'; the slope where that is zero'))
+      call add_result(list, 'secant_stiffness_'//axes(i), response%secant(i), &
+                      over_tilt(response%axis))
     end do
   end function row_quantities
 
@@ -133,51 +135,45 @@ contains
   function summary_quantities(response) result(list)
     type(tilt_response_type), intent(in) :: response
     type(quantity_type), allocatable :: list(:)
-    character(len=*), parameter :: meaning = ' in the equilibrium at which the shaft is held'
     integer :: i
 
     allocate (list(0))
     if (.not. response%measured) return
     if (.not. response%from_equilibrium) then
-      list = slope_quantities(response, response%first_slope, 'at the sweep''s first point')
+      call add_slopes(response, response%first_slope, at_first_point, list)
       return
     end if
-    list = slope_quantities(response, response%first_slope, meaning(2:))
+    call add_slopes(response, response%first_slope, at_fixed_equilibrium, list)
     associate (there => response%equilibrium)
       do i = 1, 2
-        call add_quantity(list, number_quantity('held_force_'//axes(i), there%force(i), 'N', &
-          'film force on the sleeve'//meaning))
+        call add_result(list, 'held_force_'//axes(i), there%force(i))
       end do
       if (.not. there%has_foils) return
-      call add_quantity(list, number_quantity('held_leading_edge_lift', &
-        there%leading_edge_lift(1), 'm', 'leading_edge_lift'//meaning))
-      call add_quantity(list, number_quantity('held_leading_edge_lift_edge', &
-        there%leading_edge_lift(2), 'm', 'leading_edge_lift_edge'//meaning))
-      call add_quantity(list, number_quantity('held_lifted_length', there%lifted_length, '1', &
-        'lifted_length'//meaning))
+      call add_result(list, 'held_leading_edge_lift', there%leading_edge_lift(1))
+      call add_result(list, 'held_leading_edge_lift_edge', there%leading_edge_lift(2))
+      call add_result(list, 'held_lifted_length', there%lifted_length)
     end associate
   end function summary_quantities
 
-  !> Four slopes with their names: first letter the torque, second the tilt.
-  function slope_quantities(response, slope, place) result(list)
+  !> Adds four slopes: first letter of the name the torque, second the tilt.
+  subroutine add_slopes(response, slope, place, list)
     type(tilt_response_type), intent(in) :: response
     real(wp), intent(in) :: slope(2, 2)   !! [N m/rad]
     character(len=*), intent(in) :: place !! where on the sweep
-    type(quantity_type) :: list(4)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
     character(len=:), allocatable :: kept
     integer :: torque, tilt
 
-    kept = '; the load is kept'
-    if (response%held) kept = '; the shaft is held'
-    if (response%rubs) kept = kept//', contact and friction linearised there'
+    kept = load_kept
+    if (response%held) kept = shaft_fixed
+    if (response%rubs) kept = kept//linearised_there
     do torque = 1, 2
       do tilt = 1, 2
-        list(2*(torque - 1) + tilt) = number_quantity( &
-          'angular_stiffness_'//axes(torque)//axes(tilt), slope(torque, tilt), 'N m/rad', &
-          'slope of torque_'//axes(torque)//' over tilt_'//axes(tilt)//', '//place//kept)
+        call add_result(list, 'angular_stiffness_'//axes(torque)//axes(tilt), &
+                        slope(torque, tilt), place//kept)
       end do
     end do
-  end function slope_quantities
+  end subroutine add_slopes
 
   !> What a sweep has told so far as plain numbers.
   pure function response_numbers(response) result(numbers)

@@ -9,7 +9,8 @@
 !> width. What differs from shells is the stiffness, and how the foil is built and shown.
 module gfb_beam_foil
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_bump_contacts, only: line_shares
   use gfb_contact_set, only: contact_set_type, contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type
@@ -149,8 +150,7 @@ contains
     type(quantity_type), allocatable :: list(:)
 
     allocate (list(0))
-    call add_quantity(list, count_quantity('foil_unknowns_full', beam_unknowns*self%bumps%mesh%stations, &
-                                           'of the bump foil, whole width, before constraints'))
+    call add_result(list, 'foil_unknowns_full', beam_unknowns*self%bumps%mesh%stations)
   end function beam_sizes
 
   !> Frees what PETSc holds.

@@ -3,7 +3,8 @@
 module gfb_shell_foil
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_number
   use gfb_shell_geometry, only: node_unknowns
@@ -121,13 +122,9 @@ contains
     allocate (list(0))
     rows = self%bumps%mesh%rows
     if (self%bumps%mesh%half) rows = 2*rows - 1
-    call add_quantity(list, count_quantity('foil_unknowns_full', node_unknowns*rows*self%bumps%mesh%stations, &
-                                           'of the bump foil, whole width, before constraints'))
-    call add_quantity(list, count_quantity('foil_unknowns_retained', &
-      node_unknowns*(size(self%bumps%substructure) + 1)*rows, &
-      'of its retained lines, whole width, before constraints'))
-    call add_quantity(list, count_quantity('distinct_super_elements', kind_count(self%bumps%substructure), &
-      'condensed once each'))
+    call add_result(list, 'foil_unknowns_full', node_unknowns*rows*self%bumps%mesh%stations)
+    call add_result(list, 'foil_unknowns_retained', node_unknowns*(size(self%bumps%substructure) + 1)*rows)
+    call add_result(list, 'distinct_super_elements', kind_count(self%bumps%substructure))
   end function shell_sizes
 
   !> Frees what PETSc holds.

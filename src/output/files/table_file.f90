@@ -2,6 +2,7 @@
 module gfb_table_file
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
+  use gfb_result_names, only: result_meaning
   use gfb_case_file, only: history_row_type, write_quantities, write_history
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   implicit none (type, external)
@@ -46,8 +47,8 @@ contains
     call write_quantities(file, '/provenance', provenance)
     call write_quantities(file, '/summary', summary)
     call write_history(file, rows)
-    call file%put_words('/history/member', names, 'name of the case file')
-    call file%put_words('/history/reason', reasons, 'why there is no answer; empty where there is')
+    call file%put_words('/history/member', names, result_meaning('member'))
+    call file%put_words('/history/reason', reasons, result_meaning('reason'))
     call close_result_file(file, error)
   end subroutine write_table_file
 

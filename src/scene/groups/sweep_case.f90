@@ -16,7 +16,7 @@ module gfb_sweep_case
   integer, parameter, public :: sweep_eccentricity_x = 5
   integer, parameter, public :: sweep_eccentricity_y = 6
 
-  character(len=*), parameter :: parameter_words(*) = &
+  character(len=*), parameter, public :: parameter_words(*) = &
     [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', 'tilt_y', 'eccentricity_x', &
                           'eccentricity_y']
   character(len=*), parameter :: units(0:6) = [character(len=16) :: &
