@@ -2,7 +2,7 @@
 module gfb_accuracy_analysis
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: accuracy_words
+  use gfb_accuracy_case, only: asked_name
   use gfb_accuracy_study, only: accuracy_study_type, start_study
   use gfb_bearing_refinement, only: refined_bearing_type, keep_scheme
   use gfb_model_case, only: foil_shell, foil_beam
@@ -120,7 +120,7 @@ contains
     trial = scene
     if (is_bearing(scene%general%analysis)) call keep_scheme(trial)
     trial%mesh = nested_mesh(scene, 0)
-    call log%line('accuracy: error of '//trim(accuracy_words(scene%accuracy%quantity))// &
+    call log%line('accuracy: error of '//asked_name(scene%accuracy)// &
                   ' from meshes that begin with '//mesh_words(trial)// &
                   ' elements and are doubled each way')
   end subroutine show_plan

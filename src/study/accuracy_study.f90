@@ -1,10 +1,10 @@
 !> What nested meshes say of one number: values, errors, and whether the target is met.
 module gfb_accuracy_study
   use gfb_kinds, only: wp
-  use gfb_accuracy_case, only: accuracy_case_type, accuracy_words
+  use gfb_accuracy_case, only: accuracy_case_type, asked_name
   use gfb_grid_convergence, only: convergence_type, estimate_error
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, truth_quantity, &
-                          add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   implicit none (type, external)
@@ -51,7 +51,7 @@ contains
     real(wp), intent(in) :: formal_order !! of the elements [1]
     type(accuracy_study_type) :: study
 
-    study%name = trim(accuracy_words(accuracy%quantity))
+    study%name = asked_name(accuracy)
     study%unit = ''
     study%target = accuracy%target
     study%formal_order = formal_order
@@ -125,15 +125,11 @@ contains
 
     if (self%has_error()) then
       last = self%last()
-      call add_quantity(list, number_quantity(self%name//'_error', last%error, self%unit, &
-        'estimated from nested meshes, absolute'))
-      call add_quantity(list, number_quantity(self%name//'_order', last%order, '1', &
-        'observed order of convergence; 0: not known'))
+      call add_result(list, self%name//'_error', last%error)
+      call add_result(list, self%name//'_order', last%order)
     end if
-    call add_quantity(list, truth_quantity('accuracy_met', self%met(), &
-      'whether the estimated error of '//self%name//' is as small as asked for'))
-    call add_quantity(list, count_quantity('meshes', size(self%answer), &
-      'that were tried, each twice as fine'))
+    call add_result(list, 'accuracy_met', self%met(), self%name)
+    call add_result(list, 'meshes', size(self%answer))
   end function study_quantities
 
   !> The meshes as a table.

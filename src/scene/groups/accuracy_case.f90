@@ -2,30 +2,20 @@
 module gfb_accuracy_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_result_names, only: asked_names, is_of
+  use gfb_result_table, only: name_length, bearing, strip
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_output_case, only: output_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_value_rules, only: between, from_to
   implicit none (type, external)
   private
-  public :: accuracy_case_type, read_accuracy_case, check_accuracy
-
-  integer, parameter :: first_of_strips = 15 !! among the words
-
-  !> Names of the summary; first those of bearings, then those of strips.
-  character(len=*), parameter, public :: accuracy_words(*) = [character(len=24) :: &
-                                         'eccentricity_x', 'eccentricity_y', 'attitude_angle', &
-                                         'force_x', 'force_y', 'torque_x', 'torque_y', &
-                                         'friction_torque', 'power_loss', 'minimum_gap', &
-                                         'minimum_gap_midplane', 'minimum_gap_edge', &
-                                         'maximum_pressure', 'minimum_pressure', &
-                                         'maximum_deflection', 'maximum_force', &
-                                         'loading_stiffness', 'dissipated_energy']
+  public :: accuracy_case_type, read_accuracy_case, check_accuracy, asked_name
 
   !> The number and its error.
   type :: accuracy_case_type
     logical :: present = .false.    !! the case asks for it
-    integer :: quantity = 0         !! place among the words
+    integer :: quantity = 0         !! number among the names that may be asked for
     real(wp) :: target = 1.0e-2_wp  !! error allowed, relative
     integer :: maximum_refinements = 4 !! of the first mesh, each by two
   end type accuracy_case_type
@@ -41,7 +31,7 @@ contains
     call keys%start_group('accuracy', optional=.true., present_in_file=accuracy%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis) .or. &
                                                     analysis == analysis_strip))
-    call keys%choice_key('quantity', accuracy%quantity, accuracy_words, &
+    call keys%choice_key('quantity', accuracy%quantity, asked_names(), &
                          'the number that must be known so well', accuracy%present)
     call keys%real_key('target', accuracy%target, '1', &
                        'error allowed, over the number itself; meshes are refined until the '// &
@@ -62,7 +52,7 @@ contains
 
     if (.not. accuracy%present .or. analysis == 0) return
     if (accuracy%quantity > 0) then
-      if (is_bearing(analysis) .neqv. accuracy%quantity < first_of_strips) then
+      if (.not. is_of(asked_name(accuracy), merge(bearing, strip, is_bearing(analysis)))) then
         call keys%complain('accuracy', 'quantity', 'is no number of this analysis')
       end if
     end if
@@ -74,4 +64,14 @@ contains
                          'goes on with them, so restart_every must be 0')
     end if
   end subroutine check_accuracy
+
+  !> Name of the number that must be known so well.
+  pure function asked_name(accuracy) result(name)
+    type(accuracy_case_type), intent(in) :: accuracy !! with a quantity
+    character(len=:), allocatable :: name
+    character(len=name_length), allocatable :: names(:)
+
+    names = asked_names()
+    name = trim(names(accuracy%quantity))
+  end function asked_name
 end module gfb_accuracy_case
