@@ -5,6 +5,7 @@ program gfb
   use gfb_run_log, only: run_log_type
   use gfb_job_groups, only: job_type, start_job, stop_job
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
+  use gfb_result_names, only: results_text
   use gfb_scene_reading, only: key_table
   use gfb_command_line, only: command_line_type, read_command_line, help_text
   use gfb_provenance, only: version_text
@@ -33,6 +34,8 @@ program gfb
       call log%line(version_text())
     else if (line%keys) then
       call log%line(key_table())
+    else if (line%results) then
+      call log%line(results_text())
     else if (line%groups > 0) then
       call run_groups(line, job, log, status, error)
     else

@@ -26,14 +26,15 @@ module gfb_command_line
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
+    logical :: results = .false. !! print the table of all names of results
     logical :: quiet = .false.   !! no line per iteration
     character(len=:), allocatable :: words !! the whole line
   end type command_line_type
 
-  character(len=11), parameter :: options(12) = [character(len=11) :: &
+  character(len=11), parameter :: options(13) = [character(len=11) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', &
                                                '--version', '--keys', '--quiet', '--petsc', &
-                                               '--groups', '--name']
+                                               '--groups', '--name', '--results']
 
 contains
 
@@ -72,6 +73,8 @@ contains
         line%version = .true.
       case ('--keys')
         line%keys = .true.
+      case ('--results')
+        line%results = .true.
       case ('--quiet')
         line%quiet = .true.
       case ('--petsc') ! the rest is for PETSc
@@ -91,7 +94,7 @@ contains
         call take_other(word, line, error)
       end select
     end do
-    if (allocated(error) .or. line%help .or. line%version .or. line%keys) return
+    if (allocated(error) .or. line%help .or. line%version .or. line%keys .or. line%results) return
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
     else if (line%restart .and. line%branches) then
@@ -205,6 +208,7 @@ contains
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
       '  --name NAME     of the table of several cases; default: ensemble'//next// &
       '  --keys          table of all keys of a case file'//next// &
+      '  --results       table of the names of all results'//next// &
       '  --version       version of the program and its libraries'//next// &
       '  --help          this text'//next// &
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &

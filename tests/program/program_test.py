@@ -42,13 +42,16 @@ def check_options(checks, folder):
     status, words, wrong = call("--help", folder=folder)
     checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
     checks.that("--help: names every option and the exit status", all(part in words for part in (
-        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--version", "--petsc", "exit status", "CASE.nml")))
+        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--results", "--version", "--petsc", "exit status", "CASE.nml")))
     status, words, wrong = call("--version", folder=folder)
     checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
     status, words, wrong = call("--keys", folder=folder)
     checks.that("--keys: a table with each group", status == 0 and all(f"{group}" in words for group in (
         "bearing", "gas", "operation", "sweep", "bump_foil", "model", "mesh", "solver", "output")))
     checks.that("--keys: with units", "| m |" in words and "speed_rpm" in words)
+    status, words, wrong = call("--results", folder=folder)
+    checks.that("--results: a table of names with units", status == 0 and all(part in words for part in (
+        "| `minimum_gap` | m | bearing |", "`crest_deflection_<n>`", "| `force_x`, `force_y` | N |")))
     status, words, wrong = call("--check", "good.nml", folder=folder)
     checks.that("--check: says what the scene needs", status == 0 and "48 x 8" in words and "in order" in words)
     checks.that("--check: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
