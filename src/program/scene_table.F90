@@ -6,8 +6,9 @@ module gfb_scene_table
   use gfb_errors, only: error_type, status_machine
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, number_quantity, truth_quantity, word_quantity, &
-                          add_quantity
+  use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
+  use gfb_results, only: add_result
+  use gfb_result_table, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, summary_text
   use gfb_table_file, only: table_member_type, write_table_file
@@ -103,11 +104,9 @@ contains
       member%status = status_unconverged
       call job%report(scene%name//' has no answer', 1)
     end if
-    if (.not. allocated(answer)) call add_quantity(answer, truth_quantity('converged', .false., &
-      'whether the answer was found'))
-    call add_quantity(member%row%quantity, count_quantity('exit_status', member%status, &
-      'that gfb would have had with this case alone'))
-    call add_quantity(member%row%quantity, count_quantity('group', member%group, 'of ranks that computed it'))
+    if (.not. allocated(answer)) call add_result(answer, 'converged', .false.)
+    call add_result(member%row%quantity, 'exit_status', member%status)
+    call add_result(member%row%quantity, 'group', member%group)
     call add_quantity(member%row%quantity, answer)
     call close_group_log(log)
   end subroutine run_member
@@ -161,13 +160,13 @@ contains
     character(len=:), allocatable :: stem
     integer :: i
 
-    call add_quantity(summary, count_quantity('members', size(members), 'cases of the table'))
-    call add_quantity(summary, count_quantity('converged_members', count(members%status == 0), 'of them'))
-    call add_quantity(summary, count_quantity('groups', job%groups, 'of ranks'))
-    call add_quantity(summary, count_quantity('ranks', job%ranks, 'processes of the job'))
-    call add_quantity(summary, number_quantity('wall_time', wall_time() - job%begun, 's', 'of the whole table'))
+    call add_result(summary, 'members', size(members))
+    call add_result(summary, 'converged_members', count(members%status == 0))
+    call add_result(summary, 'groups', job%groups)
+    call add_result(summary, 'ranks', job%ranks)
+    call add_result(summary, 'wall_time', wall_time() - job%begun, of_whole_table)
     do i = 1, size(members)
-      call add_quantity(summary, word_quantity('member_'//text(i), outcome(members(i)), scenes(i)%file))
+      call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do
     stem = line%folder//'/'//line%table
     call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(line%words), summary, members, &

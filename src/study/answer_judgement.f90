@@ -1,7 +1,8 @@
 !> What is asked of an answer once it is there: whether it folds, whether the foils stay.
 module gfb_answer_judgement
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
@@ -31,40 +32,20 @@ contains
       newton%factorizations = newton%factorizations + stability%factorizations
       call log%line('stability: '//stability_words(stability, &
                     bearing%whole%half .and. scene%model%foil == foil_shell))
-      if (stability%counted) call add_quantity(list, negative_eigenvalues(stability%negative))
-      if (stability%found) call add_quantity(list, growth_quantities(stability))
+      if (stability%counted) call add_result(list, 'stability', stability%negative)
+      if (stability%found) then
+        call add_result(list, 'growing_modes', stability%growing)
+        call add_result(list, 'stability_margin', real(stability%nearest, wp))
+      end if
     end if
     if (.not. bearing%floats .or. bearing%held) return
     ! The last of the factors, so that the next solve can begin with them.
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
-    call add_quantity(list, count_quantity('determinant_sign', sign_of_determinant, &
-      'sign of the determinant of all equations; it changes at folds'))
+    call add_result(list, 'determinant_sign', sign_of_determinant)
   end subroutine judge_answer
 
-  !> How many eigenvalues of the foils' stiffness are negative.
-  function negative_eigenvalues(number) result(quantity)
-    integer, intent(in) :: number
-    type(quantity_type) :: quantity
-
-    quantity = count_quantity('stability', number, 'negative eigenvalues of the foils'' '// &
-                              'stiffness with the film eliminated, shaft held; 0: stable')
-  end function negative_eigenvalues
-
-  !> The count of growing modes, and how near another one is.
-  function growth_quantities(stability) result(list)
-    type(stability_type), intent(in) :: stability
-    type(quantity_type) :: list(2)
-
-    list(1) = count_quantity('growing_modes', stability%growing, &
-                             'modes that grow where the gas '// &
-                             'resists the top foil''s motion, shaft held')
-    list(2) = number_quantity('stability_margin', real(stability%nearest, wp), '1', &
-                              'stiffness over p_a/C of the mode nearest to a change; negative: '// &
-                              'it grows')
-  end function growth_quantities
-
-  !> The same as a sentence.
+  !> The stability as a sentence.
   function stability_words(stability, symmetric) result(words)
     type(stability_type), intent(in) :: stability
     logical, intent(in) :: symmetric !! no others were looked for

@@ -5,7 +5,8 @@ module gfb_branch_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, add_quantity
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_model_case, only: meshes_foils
@@ -159,8 +160,7 @@ contains
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
     call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
       bearing%film%clearance, bearing%force_scale()))
-    call add_quantity(summary, count_quantity('branches', size(order), &
-      'equilibria found; those above are the first''s'))
+    call add_result(summary, 'branches', size(order))
     call add_quantity(summary, bearing%foil%sizes())
     call add_quantity(summary, cost_quantities(cost_type(bearing%unknowns, newton%iterations, &
       newton%factorizations, wall_time() - start_time, peak_memory())))

@@ -7,8 +7,9 @@ module gfb_modes_analysis
   use gfb_memory_check, only: check_memory
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-                          truth_quantity, add_quantity
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_results, only: add_result
+  use gfb_result_table, only: all_modes_found, of_shifted_stiffness
   use gfb_petsc_session, only: wall_time, sum_over_ranks, largest_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
@@ -125,8 +126,7 @@ contains
     eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
     call list_matrices(strip, kinds, arrays)
     do i = 1, size(eigenvalue)
-      call add_quantity(frequencies, number_quantity('craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), &
-        0.0_wp))/turn, 'Hz', 'natural frequency of the reduced strip'))
+      call add_result(frequencies, 'craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), 0.0_wp))/turn)
     end do
     call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
                   ' modes each, written to /craig_bampton')
@@ -189,14 +189,12 @@ contains
     type(quantity_type), allocatable :: list(:)
     integer :: i
 
-    call add_quantity(list, word_quantity('analysis', 'modes', 'kind of analysis'))
-    call add_quantity(list, truth_quantity('converged', converged, 'whether all modes asked for were found'))
+    call add_result(list, 'analysis', 'modes')
+    call add_result(list, 'converged', converged, all_modes_found)
     do i = 1, size(modes%eigenvalue)
-      call add_quantity(list, number_quantity('frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, &
-        'Hz', 'natural frequency'))
+      call add_result(list, 'frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn)
     end do
-    call add_quantity(list, count_quantity('rigid_modes', count(abs(modes%eigenvalue) < rigid*shift), &
-      'modes without strain among those found'))
+    call add_result(list, 'rigid_modes', count(abs(modes%eigenvalue) < rigid*shift))
   end function mode_quantities
 
   !> Quantities of what it cost.
@@ -207,10 +205,10 @@ contains
     real(wp) :: memory(1)
 
     memory = sum_over_ranks([peak_memory()])
-    call add_quantity(list, count_quantity('unknowns', part%unknowns, 'unknowns of the equations'))
-    call add_quantity(list, count_quantity('factorizations', 1, 'of the shifted stiffness'))
-    call add_quantity(list, number_quantity('wall_time', wall_time() - start_time, 's', 'from start to answer'))
-    call add_quantity(list, number_quantity('peak_memory', memory(1), 'B', 'sum over ranks of the largest held'))
+    call add_result(list, 'unknowns', part%unknowns)
+    call add_result(list, 'factorizations', 1, of_shifted_stiffness)
+    call add_result(list, 'wall_time', wall_time() - start_time)
+    call add_result(list, 'peak_memory', memory(1))
   end function cost_quantities
 
   !> Adds what round-off leaves, where it is worth a word.
@@ -218,9 +216,7 @@ contains
     real(wp), intent(in) :: lost, left !! of the eigenvalues, as `sharpen_modes` has it [1]
     type(quantity_type), allocatable, intent(inout) :: list(:)
 
-    if (.not. lost > exact) return
-    call add_quantity(list, number_quantity('frequency_round_off', left, '1', &
-                                            'relative error that round-off leaves, at most about'))
+    if (lost > exact) call add_result(list, 'frequency_round_off', left)
   end subroutine add_round_off
 
   !> Says where the matrix had lost digits.

@@ -11,7 +11,9 @@ module gfb_divided_sweep
   use gfb_text, only: text
   use gfb_division, only: stretch_of
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_result_table, only: with_stretches
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type
@@ -237,7 +239,7 @@ contains
     terminal%active = job%leads
     terminal%verbose = .false.
     converged = all(stretches%status == 0)
-    call merge_histories(stretches, record%history)
+    call merge_histories(scene, stretches, record%history)
     call merge_arrays(stretches, contacts)
     record%tilted%first_slope = stretches(1)%first_slope
     call write_bearing(scene, plan, line%folder, origin(line, job, stretches, scene), terminal, bearing, converged, &
@@ -270,8 +272,8 @@ contains
       if (seam_words(scene, stretches(i - 1), stretches(i)) /= '') words = 'not all begin with the answer '// &
                                                                     'to which the stretch before leads'
     end do
-    call add_quantity(list, count_quantity('groups', job%groups, 'of ranks, each with a stretch of the sweep'))
-    if (job%groups > 1) call add_quantity(list, word_quantity('stretches', words, 'how they fit together'))
+    call add_result(list, 'groups', job%groups, with_stretches)
+    if (job%groups > 1) call add_result(list, 'stretches', words)
   end function origin
 
   !> Which stretches end early, and why.

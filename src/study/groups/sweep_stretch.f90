@@ -4,10 +4,12 @@ module gfb_sweep_stretch
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
                           add_quantity
+  use gfb_result_names, only: compared_names, result_unit
+  use gfb_result_table, only: name_length
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_row_packing, only: pack_rows, unpack_rows
-  use gfb_tilt_response, only: tilt_response_type
+  use gfb_tilt_response, only: tilt_response_type, tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
   implicit none (type, external)
   private
@@ -16,13 +18,6 @@ module gfb_sweep_stretch
 
   !> Two ways to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
-  character(len=*), parameter :: secant = 'secant_stiffness_'
-  !> What is compared of two answers.
-  character(len=*), parameter :: compared(8) = [character(len=23) :: &
-                                                'eccentricity_x', 'eccentricity_y', &
-                                                'minimum_gap', 'leading_edge_lift', &
-                                                'leading_edge_lift_edge', 'trailing_edge_lift', &
-                                                'trailing_edge_lift_edge', 'lifted_length']
 
   !> What a group has found.
   type, public :: stretch_type
@@ -97,20 +92,22 @@ contains
   end subroutine read_stretch
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
-  subroutine merge_histories(stretches, history)
+  subroutine merge_histories(scene, stretches, history)
+    type(scene_type), intent(in) :: scene
     type(stretch_type), intent(in) :: stretches(:)
     type(history_row_type), allocatable, intent(out) :: history(:)
     type(history_row_type) :: row
-    integer :: i, k, before(2)
+    integer :: i, k, axis, before(2)
 
     allocate (history(0))
+    axis = tilt_axis(scene%sweep)
     before = 0
     do i = 1, size(stretches)
       do k = 1, size(stretches(i)%row)
         row = stretches(i)%row(k)
         call add_to(row, 'newton_iterations', before(1))
         call add_to(row, 'factorizations', before(2))
-        if (size(history) > 0) call match_secants(history(1), row)
+        if (size(history) > 0 .and. axis > 0) call match_secants(history(1), axis, row)
         history = [history, row]
       end do
       before = before + [stretches(i)%iterations, stretches(i)%factorizations]
@@ -132,41 +129,48 @@ contains
 
   !> Measures a row's secant stiffness from the torque without tilt that the sweep's first point
   !> knows, as a sweep in one piece does; none where it does not know it.
-  subroutine match_secants(first, row)
+  subroutine match_secants(first, axis, row)
     type(history_row_type), intent(in) :: first
+    integer, intent(in) :: axis !! that the sweep tilts about: 1 is x, 2 is y
     type(history_row_type), intent(inout) :: row
     character(len=1), parameter :: axes(2) = ['x', 'y']
-    character(len=1) :: axis
     type(quantity_type), allocatable :: kept(:)
     type(quantity_type) :: new
+    character(len=:), allocatable :: swept, torque
     real(wp) :: tilt, untilted
-    integer :: i, k
+    integer :: i, of
 
     allocate (kept(0))
     do i = 1, size(row%quantity)
-      if (index(row%quantity(i)%name, secant) /= 1) kept = [kept, row%quantity(i)]
+      if (secant_axis(row%quantity(i)%name) == 0) kept = [kept, row%quantity(i)]
     end do
+    swept = 'tilt_'//axes(axis)
     do i = 1, size(first%quantity)
-      if (index(first%quantity(i)%name, secant) /= 1) cycle
       new = first%quantity(i)
-      axis = new%name(len(new%name):)
-      do k = 1, 2
-        if (index(new%meaning, 'tilt_'//axes(k)//' ') == 0) cycle
-        ! The torque without tilt stands in the first row's secant, or is the first row's torque.
-        tilt = number_of(first, 'tilt_'//axes(k))
-        untilted = number_of(first, 'torque_'//axis)
-        if (abs(tilt) > 0.0_wp) untilted = untilted - tilt*new%number
-        tilt = number_of(row, 'tilt_'//axes(k))
-        if (abs(tilt) > 0.0_wp) then
-          new%number = (number_of(row, 'torque_'//axis) - untilted)/tilt
-        else
-          new%number = number_of(row, 'angular_stiffness_'//axis//axes(k))
-        end if
-      end do
+      of = secant_axis(new%name)
+      if (of == 0) cycle
+      torque = 'torque_'//axes(of)
+      ! The torque without tilt stands in the first row's secant, or is the first row's torque.
+      tilt = number_of(first, swept)
+      untilted = number_of(first, torque)
+      if (abs(tilt) > 0.0_wp) untilted = untilted - tilt*new%number
+      tilt = number_of(row, swept)
+      if (abs(tilt) > 0.0_wp) then
+        new%number = (number_of(row, torque) - untilted)/tilt
+      else
+        new%number = number_of(row, 'angular_stiffness_'//axes(of)//axes(axis))
+      end if
       kept = [kept, new]
     end do
     call move_alloc(kept, row%quantity)
   end subroutine match_secants
+
+  !> Axis of the torque of a secant stiffness, by its name; 0: it is another result.
+  pure function secant_axis(name) result(axis)
+    character(len=*), intent(in) :: name
+    integer :: axis
+    axis = findloc([name == 'secant_stiffness_x', name == 'secant_stiffness_y'], .true., dim=1)
+  end function secant_axis
 
   !> A row's number of a name; zero where it has none.
   pure function number_of(row, name) result(number)
@@ -214,6 +218,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(stretch_type), intent(in) :: before, behind
     character(len=:), allocatable :: words
+    character(len=name_length), allocatable :: compared(:)
     real(wp) :: one, other, difference
     integer :: i
 
@@ -224,11 +229,12 @@ contains
         place_text(scene, behind%first)//': without groups the sweep would have ended there'
       return
     end if
+    compared = compared_names()
     do i = 1, size(compared)
       one = number_of(before%next(1), trim(compared(i)))
       other = number_of(behind%row(1), trim(compared(i)))
       difference = abs(other - one)
-      if (compared(i) /= 'lifted_length') difference = difference/scene%bearing%clearance
+      if (result_unit(trim(compared(i))) == 'm') difference = difference/scene%bearing%clearance
       if (difference <= same_answer) cycle
       words = 'another answer than a sweep without groups from '// &
         place_text(scene, behind%first)//' on: there '//trim(compared(i))//' is '//text(one)// &
