@@ -1,11 +1,10 @@
 !> One case file from reading to results.
 module gfb_run_case
-  use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
   use gfb_c_library, only: make_folder
   use gfb_run_log, only: run_log_type
   use gfb_partition_report, only: show_bearing_partition, show_strip_partition
-  use gfb_petsc_session, only: this_rank, rank_count, wall_time, any_rank
+  use gfb_petsc_session, only: this_rank, rank_count, any_rank
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_text_file, only: folder_is_writable
@@ -15,17 +14,15 @@ module gfb_run_case
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_builder, only: foil_plan_type
   use gfb_foil_plan, only: plan_foil
-  use gfb_scene_case, only: analysis_strip, analysis_modes, is_bearing
+  use gfb_scene_case, only: is_bearing
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_direct_solver, only: keep_factors_on_disk
-  use gfb_accuracy_analysis, only: run_accuracy
-  use gfb_bearing_analysis, only: run_bearing
-  use gfb_branch_analysis, only: run_branches
-  use gfb_strip_analysis, only: run_strip
-  use gfb_modes_analysis, only: run_modes
   use gfb_command_line, only: command_line_type
-  use gfb_restart, only: restart_type, find_restart
   use gfb_provenance, only: version_text
+  use gfb_run_context, only: run_context_type
+  use gfb_study, only: study_type
+  use gfb_run_study, only: run_study
+  use gfb_studies, only: create_study
   implicit none (type, external)
   private
   public :: run_case, run_scene, check_scene, prepare_folder
@@ -36,16 +33,18 @@ contains
   !>
   !> Fails on wrong input and on files that cannot be read or written.
   subroutine run_case(line, log, converged, error)
-    type(command_line_type), intent(in) :: line
-    type(run_log_type), intent(in) :: log
-    logical, intent(out) :: converged
-    type(error_type), allocatable, intent(out) :: error
+    type(command_line_type), intent(in) :: line !! what was typed
+    type(run_log_type), intent(in) :: log !! where lines go
+    logical, intent(out) :: converged !! there is an answer
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(scene_type) :: scene
-    real(wp) :: start_time
+    type(run_context_type) :: context
+    class(study_type), allocatable :: study
+    type(quantity_type), allocatable :: summary(:)
     logical :: only_look
 
     converged = .true.
-    start_time = wall_time()
+    context = line%context(log)
     call read_scene(line%case_file, scene, error)
     only_look = line%check .or. line%parts >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
@@ -53,7 +52,8 @@ contains
     if (only_look) then
       call check_scene(scene, line%parts, log, error)
     else
-      call run_scene(scene, line, start_time, log, converged, error)
+      call run_scene(scene, line%branches, context, study, summary, error)
+      if (.not. allocated(error)) converged = study%converged
     end if
   end subroutine run_case
 
@@ -61,10 +61,10 @@ contains
   !>
   !> Fails when METIS does.
   subroutine check_scene(scene, parts, log, error)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     integer, intent(in) :: parts !! ranks whose shares to show; 0: those of the job; negative: none
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(bearing_plan_type) :: plan
     type(foil_plan_type) :: foil_plan
     integer :: shares
@@ -88,56 +88,35 @@ contains
   !> Computes and writes what a scene asks for.
   !>
   !> Fails on files that cannot be written.
-  subroutine run_scene(scene, line, start_time, log, converged, error, answer)
-    type(scene_type), intent(in) :: scene
-    type(command_line_type), intent(in) :: line
-    real(wp), intent(in) :: start_time !! [s]
-    type(run_log_type), intent(in) :: log
-    logical, intent(out) :: converged
-    type(error_type), allocatable, intent(out) :: error
-    type(quantity_type), allocatable, intent(out), optional :: answer(:) !! what the summary has
-    type(restart_type) :: restart
+  subroutine run_scene(scene, branches, context, study, summary, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    logical, intent(in) :: branches !! all equilibria are looked for
+    type(run_context_type), intent(inout) :: context !! of the run; the restart file is looked for
+    class(study_type), allocatable, intent(out) :: study        !! that was done
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what was written of the answer
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    call log%line(version_text())
-    call log%line(scene%file//': '//scene%general%title)
-    call log%line('results go to '//line%folder//', '//text(rank_count())//' rank(s)')
+    call context%log%line(version_text())
+    call context%log%line(scene%file//': '//scene%general%title)
+    call context%log%line('results go to '//context%folder//', '//text(rank_count())//' rank(s)')
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
-    converged = .false.
+    call create_study(scene, branches, study, error)
+    if (allocated(error)) return
     if (scene%accuracy%present) then
-      if (line%branches) then
-        call fail(error, scene%file//': &accuracy: is for one answer, not for all of --branches')
-      else
-        if (line%restart) call log%line('restart: not with &accuracy, the run starts anew')
-        call run_accuracy(scene, line%folder, line%words, start_time, log, converged, error, answer)
-      end if
-      return
-    end if
-    if (.not. line%branches) then
-      call find_restart(scene, line%folder, line%restart, line%words, log, restart, error)
+      if (context%resumes) call context%log%line('restart: not with &accuracy, the run starts anew')
+    else if (.not. branches) then
+      call context%find_restart(scene, error)
       if (allocated(error)) return
     end if
-    select case (scene%general%analysis)
-    case (analysis_strip)
-      call run_strip(scene, line%folder, line%words, restart, start_time, log, converged, error, &
-        answer)
-    case (analysis_modes)
-      call run_modes(scene, line%folder, line%words, start_time, log, converged, error, answer)
-    case default
-      if (line%branches) then
-        call run_branches(scene, line%folder, line%words, start_time, log, converged, error)
-        return
-      end if
-      call run_bearing(scene, line%folder, line%words, restart, start_time, log, converged, error, &
-                       answer)
-    end select
+    call run_study(study, scene, context, summary, error)
   end subroutine run_scene
 
   !> Makes the folder of the results if it is not there.
   !>
   !> Fails when nothing can be written there.
   subroutine prepare_folder(folder, error)
-    character(len=*), intent(in) :: folder
-    type(error_type), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: folder !! its path
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     logical :: refused
 
     refused = .false.

@@ -7,6 +7,7 @@ module gfb_run_groups
   use gfb_scene_reading, only: read_scene
   use gfb_job_groups, only: job_type
   use gfb_command_line, only: command_line_type
+  use gfb_run_context, only: run_context_type
   use gfb_run_case, only: check_scene, prepare_folder
   use gfb_divided_sweep, only: run_divided_sweep
   use gfb_scene_table, only: run_scene_table
@@ -21,15 +22,17 @@ contains
   !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
   !> members: they are told, and `status` says so.
   subroutine run_groups(line, job, log, status, error)
-    type(command_line_type), intent(in) :: line
-    type(job_type), target, intent(inout) :: job
+    type(command_line_type), intent(in) :: line !! what was typed
+    type(job_type), target, intent(inout) :: job !! that is divided
     type(run_log_type), intent(in) :: log !! the terminal
     integer, intent(out) :: status        !! exit status of the program
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(scene_type), allocatable :: scenes(:)
+    type(run_context_type) :: context
     integer :: i
 
     status = 0
+    context = line%context(log)
     call read_all(line, scenes, error)
     if (.not. allocated(error)) call check_work(line, job, scenes, error)
     if (.not. (line%check .or. line%parts >= 0 .or. allocated(error)) .and. job%group == 1) then
@@ -46,9 +49,9 @@ contains
         if (allocated(error)) return
       end do
     else if (size(scenes) == 1) then
-      call run_divided_sweep(scenes(1), line, job, log, status)
+      call run_divided_sweep(scenes(1), context, job, status)
     else
-      call run_scene_table(scenes, line, job, log, status)
+      call run_scene_table(scenes, line%table, context, job, status)
     end if
   end subroutine run_groups
 

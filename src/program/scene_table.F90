@@ -3,7 +3,7 @@
 module gfb_scene_table
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, status_machine
+  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
@@ -17,7 +17,8 @@ module gfb_scene_table
   use gfb_row_packing, only: pack_rows, unpack_rows
   use gfb_petsc_session, only: wall_time
   use gfb_job_groups, only: job_type, text_type
-  use gfb_command_line, only: command_line_type
+  use gfb_run_context, only: run_context_type
+  use gfb_study, only: study_type
   use gfb_group_log, only: open_group_log, close_group_log
   use gfb_provenance, only: provenance, version_text
   use gfb_run_case, only: run_scene
@@ -31,29 +32,31 @@ module gfb_scene_table
 contains
 
   !> Computes all members, each of which writes its own files, and writes their table.
-  subroutine run_scene_table(scenes, line, job, log, status)
-    type(scene_type), intent(in) :: scenes(:)
-    type(command_line_type), intent(in) :: line
-    type(job_type), target, intent(inout) :: job
-    type(run_log_type), intent(in) :: log !! the terminal
-    integer, intent(out) :: status        !! exit status of the program
+  subroutine run_scene_table(scenes, name, context, job, status)
+    type(scene_type), intent(in) :: scenes(:) !! the members
+    character(len=*), intent(in) :: name          !! of the table
+    type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
+    type(job_type), target, intent(inout) :: job !! that is divided
+    integer, intent(out) :: status                !! exit status of the program
 
     type(history_row_type), allocatable :: rows(:)
     type(text_type), allocatable :: all(:)
     type(table_member_type), allocatable :: members(:)
     type(table_member_type) :: one
     type(error_type), allocatable :: error
+    type(run_log_type) :: log
     integer :: member
 
+    log = context%log
     call log%line(version_text())
-    call log%line(text(size(scenes))//' cases, results go to '//line%folder//', '//text(job%ranks)// &
+    call log%line(text(size(scenes))//' cases, results go to '//context%folder//', '//text(job%ranks)// &
                   ' rank(s) in '//text(job%groups)//' group(s), a log for each case as CASE.log')
     job%total = size(scenes)
     allocate (rows(0))
     status = 0
     call job%next_member(member)
     do while (member <= size(scenes))
-      call run_member(scenes(member), line, job, log%verbose, one)
+      call run_member(scenes(member), context, job, one)
       rows = [rows, packed_row(one, member)]
       status = max(status, one%status)
       call job%next_member(member)
@@ -61,7 +64,7 @@ contains
     call job%collect(pack_rows(rows), 1, all)
     if (job%rank == 0) then
       call read_members(all, size(scenes), members)
-      call write_table(members, scenes, line, job, log, error)
+      call write_table(members, scenes, name, context, job, error)
       call show_failures(members, log)
       if (allocated(error)) then
         call log%complaint(error%message)
@@ -72,43 +75,42 @@ contains
   end subroutine run_scene_table
 
   !> One member from its case to its files.
-  subroutine run_member(scene, line, job, verbose, member)
+  subroutine run_member(scene, context, job, member)
     type(scene_type), intent(in) :: scene
-    type(command_line_type), intent(in) :: line
+    type(run_context_type), intent(in) :: context
     type(job_type), target, intent(inout) :: job
-    logical, intent(in) :: verbose
     type(table_member_type), intent(out) :: member
+    class(study_type), allocatable :: study
     type(quantity_type), allocatable :: answer(:)
     type(error_type), allocatable :: error
-    type(run_log_type) :: log
-    logical :: converged
+    type(run_context_type) :: own
 
-    job%reason = ''
-    converged = .false.
-    call open_group_log(line%folder//'/'//scene%name//'.log', verbose, job, log, error)
+    own = context
+    call open_group_log(context%folder//'/'//scene%name//'.log', job, own, error)
     if (.not. allocated(error)) then
-      call run_scene(scene, line, wall_time(), log, converged, error, answer)
+      own%start_time = wall_time()
+      call run_scene(scene, .false., own, study, answer, error)
     end if
     member%name = scene%name
     member%group = job%group
-    member%reason = job%reason
+    member%reason = ''
     if (allocated(error)) then
-      call log%complaint(error%message)
+      call own%log%complaint(error%message)
       member%status = error%status
       member%reason = error%message
       call job%report(scene%name//' failed', 1)
-    else if (converged) then
-      member%reason = ''
+    else if (study%converged) then
       call job%report(scene%name, 1)
     else
       member%status = status_unconverged
+      member%reason = study%reason%words()
       call job%report(scene%name//' has no answer', 1)
     end if
     if (.not. allocated(answer)) call add_result(answer, 'converged', .false.)
     call add_result(member%row%quantity, 'exit_status', member%status)
     call add_result(member%row%quantity, 'group', member%group)
     call add_quantity(member%row%quantity, answer)
-    call close_group_log(log)
+    call close_group_log(own%log)
   end subroutine run_member
 
   !> A member as a row: its number and reason, and then its row of the table.
@@ -148,12 +150,12 @@ contains
   !> Writes the table and its summary; older ones are replaced when both are whole.
   !>
   !> Fails when they cannot be written.
-  subroutine write_table(members, scenes, line, job, log, error)
+  subroutine write_table(members, scenes, name, context, job, error)
     type(table_member_type), intent(in) :: members(:)
     type(scene_type), intent(in) :: scenes(:)
-    type(command_line_type), intent(in) :: line
+    character(len=*), intent(in) :: name
+    type(run_context_type), intent(in) :: context
     type(job_type), intent(in) :: job
-    type(run_log_type), intent(in) :: log
     type(error_type), allocatable, intent(out) :: error
     type(quantity_type), allocatable :: summary(:)
     type(result_file_type) :: file
@@ -168,8 +170,8 @@ contains
     do i = 1, size(members)
       call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do
-    stem = line%folder//'/'//line%table
-    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(line%words), summary, members, &
+    stem = context%folder//'/'//name
+    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(context%command), summary, members, &
                           file, error)
     if (.not. allocated(error)) call keep_result_file(file, error)
     if (allocated(error)) then
@@ -178,8 +180,8 @@ contains
     end if
     call write_text_file(stem//'.summary', summary_text(summary), error)
     if (allocated(error)) return
-    call log%line('')
-    call log%line('table of all cases: '//stem//'.summary, .h5')
+    call context%log%line('')
+    call context%log%line('table of all cases: '//stem//'.summary, .h5')
   end subroutine write_table
 
   !> How a member ended.

@@ -2,6 +2,7 @@
 module gfb_group_log
   use gfb_errors, only: error_type, fail, status_machine
   use gfb_run_log, only: run_log_type
+  use gfb_run_context, only: run_context_type
   use gfb_petsc_session, only: any_rank
   use gfb_job_groups, only: job_type
   implicit none (type, external)
@@ -10,34 +11,32 @@ module gfb_group_log
 
 contains
 
-  !> Begins a log; its events are told to the job.
+  !> Begins a group's log, with the job as listener.
   !>
   !> Fails when the file cannot be written; the log is silent then.
-  subroutine open_group_log(path, verbose, job, log, error)
-    character(len=*), intent(in) :: path
-    logical, intent(in) :: verbose !! iterations too
-    type(job_type), target, intent(in) :: job
-    type(run_log_type), intent(out) :: log
-    type(error_type), allocatable, intent(out) :: error
+  subroutine open_group_log(path, job, context, error)
+    character(len=*), intent(in) :: path !! of the file
+    type(job_type), target, intent(in) :: job !! whose group it is
+    type(run_context_type), intent(inout) :: context !! of the group; it stays as verbose
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     integer :: status, unit
 
-    log%active = job%leads
-    log%verbose = verbose
-    log%listener => job
+    context%log%active = job%leads
+    context%listener => job
     status = 0
     if (job%leads) then
       open (newunit=unit, file=path, action='write', status='replace', iostat=status)
-      log%unit = unit
+      context%log%unit = unit
     end if
     if (any_rank(status /= 0)) then
-      log = run_log_type(active=.false.)
+      context%log = run_log_type(active=.false.)
       call fail(error, path//': the file cannot be written', status_machine)
     end if
   end subroutine open_group_log
 
   !> Ends a log.
   subroutine close_group_log(log)
-    type(run_log_type), intent(in) :: log
+    type(run_log_type), intent(in) :: log !! as it was opened
 
     if (log%active) close (log%unit)
   end subroutine close_group_log

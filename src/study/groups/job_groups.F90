@@ -10,7 +10,7 @@ module gfb_job_groups
   use gfb_kinds, only: wp, long
   use gfb_text, only: text
   use gfb_division, only: stretch_of, owner_of
-  use gfb_run_log, only: run_listener_type
+  use gfb_run_context, only: run_listener_type
   implicit none (type)
   private
   public :: start_job, stop_job
@@ -36,11 +36,9 @@ module gfb_job_groups
     integer :: total = 0      !! of what is to be done by all groups
     integer :: counted = 0    !! points of this group's sweep that are still to be counted
     real(wp) :: begun = 0.0_wp !! when the groups began [s]
-    character(len=:), allocatable :: reason !! why this group has no answer
     integer, private :: window = 0
   contains
     procedure :: point_done => count_point
-    procedure :: gave_up => keep_reason
     procedure :: report
     procedure :: next_member
     procedure :: collect
@@ -54,7 +52,7 @@ contains
   !> for, and divides nothing where ranks are too few.
   subroutine start_job(groups, job)
     integer, intent(in) :: groups !! 0: none asked for
-    type(job_type), intent(out) :: job
+    type(job_type), intent(out) :: job !! with this rank's place in it
     GFB_COMM :: part
     integer(MPI_ADDRESS_KIND) :: bytes, place
     integer :: provided, ierr
@@ -92,7 +90,7 @@ contains
 
   !> Ends MPI, after PETSc has ended.
   subroutine stop_job(job)
-    type(job_type), intent(inout) :: job
+    type(job_type), intent(inout) :: job !! that has ended
     integer :: ierr
 
     if (job%groups == 0) return
@@ -124,18 +122,10 @@ contains
     call self%report(words, 1)
   end subroutine count_point
 
-  !> Keeps why there is no answer.
-  subroutine keep_reason(self, words)
-    class(job_type), intent(inout) :: self
-    character(len=*), intent(in) :: words
-
-    self%reason = words
-  end subroutine keep_reason
-
   !> A line for the terminal: how many are done, how long it will take, what this group has done.
   subroutine report(self, words, number)
     class(job_type), intent(in) :: self
-    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: words !! what was done
     integer, intent(in) :: number !! of what is done with this
     character(len=:), allocatable :: line
     real(wp) :: seconds
@@ -183,7 +173,7 @@ contains
   !> Number of the member that this group takes next, from 1; whoever is free takes the next one.
   subroutine next_member(self, member)
     class(job_type), intent(in) :: self
-    integer, intent(out) :: member
+    integer, intent(out) :: member !! number of the member
     integer :: ierr
 
     member = 0
@@ -225,7 +215,7 @@ contains
   !> The largest of all ranks' numbers, on every rank of the job.
   function largest(self, number)
     class(job_type), intent(in) :: self
-    integer, intent(in) :: number
+    integer, intent(in) :: number !! this rank's
     integer :: largest
     integer :: ierr
     call MPI_Allreduce(number, largest, 1, MPI_INTEGER, MPI_MAX, MPI_COMM_WORLD, ierr)
@@ -234,7 +224,7 @@ contains
   !> Sum of each number over all ranks of the job.
   function total_of(self, numbers) result(total)
     class(job_type), intent(in) :: self
-    real(wp), intent(in) :: numbers(:)
+    real(wp), intent(in) :: numbers(:) !! this rank's, in any unit [SI]
     real(wp) :: total(size(numbers))
     integer :: ierr
     call MPI_Allreduce(numbers, total, size(numbers), MPI_DOUBLE_PRECISION, MPI_SUM, MPI_COMM_WORLD, ierr)

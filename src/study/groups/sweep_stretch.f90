@@ -11,6 +11,7 @@ module gfb_sweep_stretch
   use gfb_row_packing, only: pack_rows, unpack_rows
   use gfb_tilt_response, only: tilt_response_type, tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
+  use gfb_reasons, only: reason_type
   implicit none (type, external)
   private
   public :: stretch_words, read_stretch, merge_histories, merge_arrays, number_of, seam_words, &
@@ -18,6 +19,8 @@ module gfb_sweep_stretch
 
   !> Two ways to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
+  character(len=1), parameter :: axes(2) = ['x', 'y']
+  character(len=*), parameter :: secants(2) = 'secant_stiffness_'//axes
 
   !> What a group has found.
   type, public :: stretch_type
@@ -25,7 +28,7 @@ module gfb_sweep_stretch
     integer :: status = 0          !! exit status that gfb would have had
     integer :: iterations = 0      !! of Newton
     integer :: factorizations = 0
-    character(len=:), allocatable :: reason    !! why it ended before its last value, if it did
+    type(reason_type) :: reason    !! why it ended before its last value, if it did
     type(history_row_type), allocatable :: row(:)  !! its points
     !> The first point of the stretch behind, from its own last one; none where there is none.
     type(history_row_type), allocatable :: next(:)
@@ -37,9 +40,10 @@ contains
 
   !> A group's stretch, but for the contacts, as a text.
   function stretch_words(stretch, tilted) result(words)
-    type(stretch_type), intent(in) :: stretch
-    type(tilt_response_type), intent(in) :: tilted
+    type(stretch_type), intent(in) :: stretch !! that this group has computed
+    type(tilt_response_type), intent(in) :: tilted !! what its sweep has told of tilt
     character(len=:), allocatable :: words
+    character(len=:), allocatable :: detail
     type(history_row_type) :: head(1)
     integer :: i, k
 
@@ -50,13 +54,16 @@ contains
     call add('iterations', stretch%iterations)
     call add('factorizations', stretch%factorizations)
     call add('rows', size(stretch%row))
-    call add_quantity(head(1)%quantity, word_quantity('reason', stretch%reason, ''))
+    detail = ''
+    if (allocated(stretch%reason%detail)) detail = stretch%reason%detail
+    call add_quantity(head(1)%quantity, word_quantity('reason', detail, ''))
     do k = 1, 2
       do i = 1, 2
         call add_quantity(head(1)%quantity, number_quantity('slope', tilted%first_slope(i, k), &
           '', ''))
       end do
     end do
+    call add('reason code', stretch%reason%code)
     words = pack_rows([head, stretch%row, stretch%next])
 
   contains
@@ -71,8 +78,8 @@ contains
 
   !> The stretch of a text.
   subroutine read_stretch(words, stretch)
-    character(len=*), intent(in) :: words
-    type(stretch_type), intent(out) :: stretch
+    character(len=*), intent(in) :: words !! as `stretch_words` made them
+    type(stretch_type), intent(out) :: stretch !! that it tells of
     type(history_row_type), allocatable :: rows(:)
     integer :: points
 
@@ -84,8 +91,9 @@ contains
       stretch%iterations = nint(head(4)%number)
       stretch%factorizations = nint(head(5)%number)
       points = nint(head(6)%number)
-      stretch%reason = head(7)%word
+      stretch%reason%detail = head(7)%word
       stretch%first_slope = reshape(head(8:11)%number, [2, 2])
+      stretch%reason%code = nint(head(12)%number)
     end associate
     stretch%row = rows(2:points + 1)
     stretch%next = rows(points + 2:)
@@ -93,21 +101,20 @@ contains
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
   subroutine merge_histories(scene, stretches, history)
-    type(scene_type), intent(in) :: scene
-    type(stretch_type), intent(in) :: stretches(:)
-    type(history_row_type), allocatable, intent(out) :: history(:)
+    type(scene_type), intent(in) :: scene !! with the whole sweep
+    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(history_row_type), allocatable, intent(out) :: history(:) !! one row a point
     type(history_row_type) :: row
-    integer :: i, k, axis, before(2)
+    integer :: i, k, before(2)
 
     allocate (history(0))
-    axis = tilt_axis(scene%sweep)
     before = 0
     do i = 1, size(stretches)
       do k = 1, size(stretches(i)%row)
         row = stretches(i)%row(k)
         call add_to(row, 'newton_iterations', before(1))
         call add_to(row, 'factorizations', before(2))
-        if (size(history) > 0 .and. axis > 0) call match_secants(history(1), axis, row)
+        if (size(history) > 0) call match_secants(tilt_axis(scene%sweep), history(1), row)
         history = [history, row]
       end do
       before = before + [stretches(i)%iterations, stretches(i)%factorizations]
@@ -129,53 +136,43 @@ contains
 
   !> Measures a row's secant stiffness from the torque without tilt that the sweep's first point
   !> knows, as a sweep in one piece does; none where it does not know it.
-  subroutine match_secants(first, axis, row)
+  subroutine match_secants(axis, first, row)
+    integer, intent(in) :: axis !! that the sweep tilts about: 1 is x, 2 is y, 0 none
     type(history_row_type), intent(in) :: first
-    integer, intent(in) :: axis !! that the sweep tilts about: 1 is x, 2 is y
     type(history_row_type), intent(inout) :: row
-    character(len=1), parameter :: axes(2) = ['x', 'y']
     type(quantity_type), allocatable :: kept(:)
     type(quantity_type) :: new
-    character(len=:), allocatable :: swept, torque
     real(wp) :: tilt, untilted
-    integer :: i, of
+    integer :: i, torque
 
+    if (axis == 0) return
     allocate (kept(0))
     do i = 1, size(row%quantity)
-      if (secant_axis(row%quantity(i)%name) == 0) kept = [kept, row%quantity(i)]
+      if (all(row%quantity(i)%name /= secants)) kept = [kept, row%quantity(i)]
     end do
-    swept = 'tilt_'//axes(axis)
     do i = 1, size(first%quantity)
+      torque = findloc(secants == first%quantity(i)%name, .true., 1)
+      if (torque == 0) cycle
       new = first%quantity(i)
-      of = secant_axis(new%name)
-      if (of == 0) cycle
-      torque = 'torque_'//axes(of)
       ! The torque without tilt stands in the first row's secant, or is the first row's torque.
-      tilt = number_of(first, swept)
-      untilted = number_of(first, torque)
+      tilt = number_of(first, 'tilt_'//axes(axis))
+      untilted = number_of(first, 'torque_'//axes(torque))
       if (abs(tilt) > 0.0_wp) untilted = untilted - tilt*new%number
-      tilt = number_of(row, swept)
+      tilt = number_of(row, 'tilt_'//axes(axis))
       if (abs(tilt) > 0.0_wp) then
-        new%number = (number_of(row, torque) - untilted)/tilt
+        new%number = (number_of(row, 'torque_'//axes(torque)) - untilted)/tilt
       else
-        new%number = number_of(row, 'angular_stiffness_'//axes(of)//axes(axis))
+        new%number = number_of(row, 'angular_stiffness_'//axes(torque)//axes(axis))
       end if
       kept = [kept, new]
     end do
     call move_alloc(kept, row%quantity)
   end subroutine match_secants
 
-  !> Axis of the torque of a secant stiffness, by its name; 0: it is another result.
-  pure function secant_axis(name) result(axis)
-    character(len=*), intent(in) :: name
-    integer :: axis
-    axis = findloc([name == 'secant_stiffness_x', name == 'secant_stiffness_y'], .true., dim=1)
-  end function secant_axis
-
   !> A row's number of a name; zero where it has none.
   pure function number_of(row, name) result(number)
-    type(history_row_type), intent(in) :: row
-    character(len=*), intent(in) :: name
+    type(history_row_type), intent(in) :: row !! of a history
+    character(len=*), intent(in) :: name !! of the number
     real(wp) :: number
     integer :: i
 
@@ -187,8 +184,8 @@ contains
 
   !> The contacts of all points in the sweep's order.
   subroutine merge_arrays(stretches, arrays)
-    type(stretch_type), intent(in) :: stretches(:)
-    type(case_array_type), allocatable, intent(out) :: arrays(:)
+    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(case_array_type), allocatable, intent(out) :: arrays(:) !! with all points
     real(wp), allocatable :: values(:, :)
     integer :: i, k, columns, rows
 
@@ -215,8 +212,8 @@ contains
   !> What is to be said of the seam between two stretches; nothing where the first leads to the same
   !> answer as that with which the second begins.
   function seam_words(scene, before, behind) result(words)
-    type(scene_type), intent(in) :: scene
-    type(stretch_type), intent(in) :: before, behind
+    type(scene_type), intent(in) :: scene !! with the whole sweep
+    type(stretch_type), intent(in) :: before, behind !! the seam
     character(len=:), allocatable :: words
     character(len=name_length), allocatable :: compared(:)
     real(wp) :: one, other, difference
@@ -245,7 +242,7 @@ contains
 
   !> A point of the sweep in words.
   function place_text(scene, point) result(words)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! with the whole sweep
     integer, intent(in) :: point !! number of the value
     character(len=:), allocatable :: words
 

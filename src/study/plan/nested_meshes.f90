@@ -1,16 +1,20 @@
 !> Meshes of a scene, each twice as fine as the one before.
 module gfb_nested_meshes
   use gfb_kinds, only: wp
+  use gfb_run_log, only: run_log_type
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, meshes_foils, &
-                            film_order_biquadratic
+                            film_order_bilinear, film_order_biquadratic, film_scheme_auto, &
+                            film_scheme_galerkin, film_scheme_supg
+  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_bearing_plan, only: plan_bearing
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: nested_mesh, mesh_words, formal_order
+  public :: nested_mesh, mesh_words, formal_order, keep_scheme
 
   integer, parameter :: quarter = 4             !! the first mesh is as much coarser each way
   integer, parameter :: least_circumferential = 4
@@ -20,7 +24,7 @@ contains
   !> Elements of a nested mesh. Number 0 is a quarter of what `&mesh` says, or the coarsest mesh
   !> that a case may have.
   pure function nested_mesh(scene, number) result(mesh)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! on the mesh of its case
     integer, intent(in) :: number !! from 0
     type(mesh_case_type) :: mesh
 
@@ -54,7 +58,7 @@ contains
 
   !> A mesh in words: elements along the pad and over the width, or of a bump.
   pure function mesh_words(scene) result(words)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     character(len=:), allocatable :: words
 
     associate (mesh => scene%mesh)
@@ -69,7 +73,7 @@ contains
 
   !> Order with which the elements of a scene converge.
   pure function formal_order(scene) result(order)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     real(wp) :: order !! [1]
 
     order = 2.0_wp
@@ -78,4 +82,18 @@ contains
           model%foil == foil_elastic_foundation)) order = 3.0_wp
     end associate
   end function formal_order
+
+  !> Takes for all meshes the film's weighting that the mesh of the case would have: values of two
+  !> schemes do not approach their limit in one way.
+  subroutine keep_scheme(scene)
+    type(scene_type), intent(inout) :: scene !! of a bearing, on the mesh of the case
+    type(bearing_plan_type) :: plan
+    type(run_log_type) :: quiet
+
+    if (scene%model%film_scheme /= film_scheme_auto .or. &
+        scene%model%film_order /= film_order_bilinear) return
+    quiet%active = .false.
+    call plan_bearing(scene, quiet, plan)
+    scene%model%film_scheme = merge(film_scheme_supg, film_scheme_galerkin, plan%upwind)
+  end subroutine keep_scheme
 end module gfb_nested_meshes

@@ -1,5 +1,5 @@
 !> What nested meshes say of one number: values, errors, and whether the target is met.
-module gfb_accuracy_study
+module gfb_mesh_sequence
   use gfb_kinds, only: wp
   use gfb_accuracy_case, only: accuracy_case_type, asked_name
   use gfb_grid_convergence, only: convergence_type, estimate_error
@@ -9,7 +9,7 @@ module gfb_accuracy_study
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: start_study
+  public :: start_sequence
 
   integer, parameter :: least_meshes = 3 !! that show an order
   character(len=*), parameter :: row_format = '(a16,a11,a18,a14,a7,a10)'
@@ -24,7 +24,7 @@ module gfb_accuracy_study
   end type mesh_answer_type
 
   !> The meshes so far.
-  type, public :: accuracy_study_type
+  type, public :: mesh_sequence_type
     character(len=:), allocatable :: name  !! of the number
     character(len=:), allocatable :: unit  !! its unit
     real(wp) :: target = 0.0_wp            !! error allowed, relative
@@ -32,38 +32,38 @@ module gfb_accuracy_study
     type(mesh_answer_type), allocatable :: answer(:)
     real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
   contains
-    procedure :: add => study_add
-    procedure :: add_failure => study_add_failure
-    procedure :: met => study_met
-    procedure :: quantities => study_quantities
-    procedure :: show => study_show
-    procedure :: needs => study_needs
-    procedure :: value_words => study_value_words
-    procedure, private :: has_error => study_has_error
-    procedure, private :: last => study_last
-  end type accuracy_study_type
+    procedure :: add => sequence_add
+    procedure :: add_failure => sequence_add_failure
+    procedure :: met => sequence_met
+    procedure :: quantities => sequence_quantities
+    procedure :: show => sequence_show
+    procedure :: needs => sequence_needs
+    procedure :: value_words => sequence_value_words
+    procedure, private :: has_error => sequence_has_error
+    procedure, private :: last => sequence_last
+  end type mesh_sequence_type
 
 contains
 
-  !> A study without meshes.
-  pure function start_study(accuracy, formal_order) result(study)
-    type(accuracy_case_type), intent(in) :: accuracy
+  !> A sequence without meshes.
+  pure function start_sequence(accuracy, formal_order) result(sequence)
+    type(accuracy_case_type), intent(in) :: accuracy !! what is asked for
     real(wp), intent(in) :: formal_order !! of the elements [1]
-    type(accuracy_study_type) :: study
+    type(mesh_sequence_type) :: sequence
 
-    study%name = asked_name(accuracy)
-    study%unit = ''
-    study%target = accuracy%target
-    study%formal_order = formal_order
-    allocate (study%answer(0), study%value(0))
-  end function start_study
+    sequence%name = asked_name(accuracy)
+    sequence%unit = ''
+    sequence%target = accuracy%target
+    sequence%formal_order = formal_order
+    allocate (sequence%answer(0), sequence%value(0))
+  end function start_sequence
 
   !> Takes a mesh's value, and judges all of them.
-  subroutine study_add(self, mesh, quantity, unknowns, seconds)
-    class(accuracy_study_type), intent(inout) :: self
+  subroutine sequence_add(self, mesh, quantity, unknowns, seconds)
+    class(mesh_sequence_type), intent(inout) :: self
     character(len=*), intent(in) :: mesh     !! in words
-    type(quantity_type), intent(in) :: quantity
-    integer, intent(in) :: unknowns
+    type(quantity_type), intent(in) :: quantity !! its number on that mesh
+    integer, intent(in) :: unknowns !! of its equations
     real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
     type(mesh_answer_type) :: one
 
@@ -75,13 +75,13 @@ contains
     one%seconds = seconds
     one%estimate = estimate_error(self%value, self%formal_order)
     self%answer = [self%answer, one]
-  end subroutine study_add
+  end subroutine sequence_add
 
   !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
-  subroutine study_add_failure(self, mesh, unknowns, seconds)
-    class(accuracy_study_type), intent(inout) :: self
+  subroutine sequence_add_failure(self, mesh, unknowns, seconds)
+    class(mesh_sequence_type), intent(inout) :: self
     character(len=*), intent(in) :: mesh     !! in words
-    integer, intent(in) :: unknowns
+    integer, intent(in) :: unknowns !! of its equations
     real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
     type(mesh_answer_type) :: one
 
@@ -90,36 +90,36 @@ contains
     one%unknowns = unknowns
     one%seconds = seconds
     self%answer = [self%answer, one]
-  end subroutine study_add_failure
+  end subroutine sequence_add_failure
 
   !> The finest mesh's estimate.
-  pure function study_last(self) result(estimate)
-    class(accuracy_study_type), intent(in) :: self
+  pure function sequence_last(self) result(estimate)
+    class(mesh_sequence_type), intent(in) :: self
     type(convergence_type) :: estimate
     if (size(self%value) > 0) estimate = self%answer(size(self%answer))%estimate
-  end function study_last
+  end function sequence_last
 
   !> Whether the finest mesh's error is known.
-  pure function study_has_error(self) result(has)
-    class(accuracy_study_type), intent(in) :: self
+  pure function sequence_has_error(self) result(has)
+    class(mesh_sequence_type), intent(in) :: self
     logical :: has
     has = size(self%value) > 1
-  end function study_has_error
+  end function sequence_has_error
 
   !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
   !> an estimate without one is not enough.
-  pure function study_met(self) result(met)
-    class(accuracy_study_type), intent(in) :: self
+  pure function sequence_met(self) result(met)
+    class(mesh_sequence_type), intent(in) :: self
     logical :: met
     type(convergence_type) :: last
 
     last = self%last()
     met = size(self%value) >= least_meshes .and. last%error <= self%target*abs(last%value)
-  end function study_met
+  end function sequence_met
 
   !> What the summary says of the error.
-  function study_quantities(self) result(list)
-    class(accuracy_study_type), intent(in) :: self
+  function sequence_quantities(self) result(list)
+    class(mesh_sequence_type), intent(in) :: self
     type(quantity_type), allocatable :: list(:)
     type(convergence_type) :: last
 
@@ -130,12 +130,12 @@ contains
     end if
     call add_result(list, 'accuracy_met', self%met(), self%name)
     call add_result(list, 'meshes', size(self%answer))
-  end function study_quantities
+  end function sequence_quantities
 
   !> The meshes as a table.
-  subroutine study_show(self, log)
-    class(accuracy_study_type), intent(in) :: self
-    type(run_log_type), intent(in) :: log
+  subroutine sequence_show(self, log)
+    class(mesh_sequence_type), intent(in) :: self
+    type(run_log_type), intent(in) :: log !! where lines go
     character(len=80) :: line
     integer :: i
 
@@ -156,7 +156,7 @@ contains
       end associate
       call log%line(trim(line))
     end do
-  end subroutine study_show
+  end subroutine sequence_show
 
   !> An estimate; none on one mesh.
   pure function error_words(estimate) result(words)
@@ -177,8 +177,8 @@ contains
   end function order_words
 
   !> The number with its error, in words.
-  function study_value_words(self) result(words)
-    class(accuracy_study_type), intent(in) :: self
+  function sequence_value_words(self) result(words)
+    class(mesh_sequence_type), intent(in) :: self
     character(len=:), allocatable :: words
     type(convergence_type) :: last
 
@@ -198,11 +198,11 @@ contains
     else
       words = words//', no order observed)'
     end if
-  end function study_value_words
+  end function sequence_value_words
 
   !> What a target that is not met would need, in words.
-  function study_needs(self) result(words)
-    class(accuracy_study_type), intent(in) :: self
+  function sequence_needs(self) result(words)
+    class(mesh_sequence_type), intent(in) :: self
     character(len=:), allocatable :: words
     type(convergence_type) :: last
     real(wp) :: order, ratio
@@ -220,5 +220,5 @@ contains
       words = 'about '//text(ceiling(log(ratio)/(order*log(2.0_wp))))// &
               ' more refinement(s), if the order stays'
     end if
-  end function study_needs
-end module gfb_accuracy_study
+  end function sequence_needs
+end module gfb_mesh_sequence

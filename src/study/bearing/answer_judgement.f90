@@ -18,11 +18,11 @@ contains
 
   !> Judges the bearing's present state, which must be an answer; state and point stay as they are.
   subroutine judge_answer(scene, log, bearing, newton, list)
-    type(scene_type), intent(in) :: scene
-    type(run_log_type), intent(in) :: log
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(quantity_type), allocatable, intent(out) :: list(:)
+    type(scene_type), intent(in) :: scene !! whether stability is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at an answer
+    type(newton_type), intent(inout) :: newton !! its solver
+    type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
     integer :: sign_of_determinant
 

@@ -20,11 +20,11 @@ contains
   !>
   !> Fails when METIS does.
   subroutine show_bearing_partition(scene, plan, parts, log, error)
-    type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    integer, intent(in) :: parts
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_plan_type), intent(in) :: plan !! of the bearing
+    integer, intent(in) :: parts !! ranks that share
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(division_type) :: division
 
     call divide_bearing(scene, film_mesh_of(scene, plan), parts, division, error)
@@ -38,11 +38,11 @@ contains
   !>
   !> Fails when METIS does.
   subroutine show_strip_partition(scene, plan, parts, log, error)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    integer, intent(in) :: parts
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(foil_plan_type), intent(in) :: plan !! of the foil
+    integer, intent(in) :: parts !! ranks that share
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(division_type) :: division
     integer :: rows
 

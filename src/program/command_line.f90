@@ -1,7 +1,10 @@
 !> What the user typed after the program's name.
 module gfb_command_line
   use gfb_errors, only: error_type, fail
+  use gfb_run_log, only: run_log_type
   use gfb_text, only: nearest_word
+  use gfb_petsc_session, only: wall_time
+  use gfb_run_context, only: run_context_type
   implicit none (type, external)
   private
   public :: read_command_line, help_text
@@ -22,13 +25,15 @@ module gfb_command_line
     logical :: branches = .false. !! look for all equilibria
     !> ranks whose shares to show instead of solving; 0: those of the job
     integer :: parts = -1
-    logical :: restart = .false. !! go on from the restart file
+    logical :: restart = .false. !! resume from the restart file
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
     logical :: results = .false. !! print the table of all names of results
     logical :: quiet = .false.   !! no line per iteration
     character(len=:), allocatable :: words !! the whole line
+  contains
+    procedure :: context => run_context
   end type command_line_type
 
   character(len=11), parameter :: options(13) = [character(len=11) :: &
@@ -42,8 +47,8 @@ contains
   !>
   !> Fails on an unknown option, a missing or a second case file.
   subroutine read_command_line(line, error)
-    type(command_line_type), intent(out) :: line
-    type(error_type), allocatable, intent(out) :: error
+    type(command_line_type), intent(out) :: line !! what was typed
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     character(len=:), allocatable :: word
     integer :: i
 
@@ -186,6 +191,19 @@ contains
     allocate (character(len=length) :: word)
     call get_command_argument(number, word)
   end function argument
+
+  !> What a run is told, which begins now.
+  function run_context(self, log) result(context)
+    class(command_line_type), intent(in) :: self
+    type(run_log_type), intent(in) :: log !! the terminal
+    type(run_context_type) :: context
+
+    context%folder = self%folder
+    context%command = self%words
+    context%resumes = self%restart
+    context%start_time = wall_time()
+    context%log = log
+  end function run_context
 
   !> What `--help` prints.
   pure function help_text() result(words)

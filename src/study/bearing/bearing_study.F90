@@ -1,0 +1,121 @@
+#include "gfb_petsc.h"
+!> A bearing with a given load or a given position, at one point or along a sweep.
+module gfb_bearing_study
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_run_log, only: run_log_type
+  use gfb_c_library, only: peak_memory
+  use gfb_scene, only: scene_type
+  use gfb_model_case, only: film_scheme_auto, film_order_bilinear
+  use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
+  use gfb_bearing_answer, only: bearing_answer
+  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_newton, only: destroy_newton
+  use gfb_bearing_plan, only: plan_bearing
+  use gfb_bearing_record, only: analysis_name
+  use gfb_bearing_summary, only: cost_type, answer_quantities
+  use gfb_contact_record, only: foil_contact_arrays
+  use gfb_provenance, only: provenance
+  use gfb_run_context, only: run_context_type
+  use gfb_study, only: study_type
+  use gfb_sweep, only: sweep_type
+  use gfb_bearing_solution, only: solve_bearing
+  use gfb_bearing_writing, only: bearing_result_type, write_bearing
+  implicit none (type)
+  private
+
+  !> The bearing, and what was found of it.
+  type, extends(study_type), public :: bearing_study_type
+    type(bearing_plan_type) :: plan
+    type(sweep_type) :: sweep
+  contains
+    procedure :: prepare => prepare_bearing
+    procedure :: solve => solve_study
+    procedure :: write => write_study
+    procedure :: left_out => bearing_left_out
+    procedure :: discard => discard_bearing
+  end type bearing_study_type
+
+contains
+
+  !> Plans the bearing.
+  subroutine prepare_bearing(self, scene, log)
+    class(bearing_study_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+
+    call plan_bearing(scene, log, self%plan)
+    self%memory = self%plan%memory
+  end subroutine prepare_bearing
+
+  !> Finds all answers.
+  !>
+  !> Fails when the mesh cannot be cut or a restart file cannot be read.
+  subroutine solve_study(self, scene, context, error)
+    class(bearing_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    call solve_bearing(scene, self%plan, context, self%sweep, self%reason, error)
+    if (allocated(error)) return
+    self%converged = .not. self%reason%is_given()
+    associate (bearing => self%sweep%bearing, newton => self%sweep%newton)
+      self%unknowns = bearing%unknowns
+      self%iterations = newton%iterations
+      self%factorizations = newton%factorizations
+      self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
+                                     bearing%film%clearance, bearing%force_scale())
+    end associate
+  end subroutine solve_study
+
+  !> Writes the result files.
+  !>
+  !> Fails when one cannot be written.
+  subroutine write_study(self, scene, context, summary, error)
+    class(bearing_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(bearing_result_type) :: result
+    real(wp) :: memory(1)
+
+    memory = sum_over_ranks([peak_memory()])
+    result%converged = self%converged
+    result%upwind = self%plan%upwind
+    result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, &
+                            wall_time() - context%start_time, memory(1))
+    result%ranks = rank_count()
+    result%origin = provenance(context%command)
+    associate (record => self%sweep%record)
+      result%contacts = foil_contact_arrays(self%sweep%bearing%foil, record%contacts, size(record%history))
+      if (allocated(self%more)) call add_quantity(record%judged, self%more)
+    end associate
+    call write_bearing(scene, context, self%sweep, result, summary, error)
+  end subroutine write_study
+
+  !> What the model leaves out, and why.
+  function bearing_left_out(self, scene) result(words)
+    class(bearing_study_type), intent(in) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (self%plan%half) words = 'the other half of the width, which mirrors the one solved; '
+    if (scene%model%film_order == film_order_bilinear .and. scene%model%film_scheme == film_scheme_auto .and. &
+        .not. self%plan%upwind) then
+      words = words//'upwinding (SUPG), which the mesh of the case does not need; '
+    end if
+  end function bearing_left_out
+
+  !> Frees what the solvers hold.
+  subroutine discard_bearing(self)
+    class(bearing_study_type), intent(inout) :: self
+
+    call destroy_newton(self%sweep%newton)
+    call self%sweep%bearing%destroy()
+  end subroutine discard_bearing
+end module gfb_bearing_study

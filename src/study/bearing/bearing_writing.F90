@@ -1,0 +1,75 @@
+#include "gfb_petsc.h"
+!> What a bearing's study shows and writes.
+module gfb_bearing_writing
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_scene, only: scene_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
+                                 show_closing_block
+  use gfb_tilt_response, only: summary_quantities, show_tilt_response
+  use gfb_bearing_record, only: analysis_name
+  use gfb_case_file, only: case_array_type
+  use gfb_result_set, only: result_grid_type, write_result_set
+  use gfb_film_grid, only: add_film_grid
+  use gfb_foil_output, only: add_foil_grids
+  use gfb_provenance, only: blas_in_use
+  use gfb_run_context, only: run_context_type
+  use gfb_sweep, only: sweep_type
+  implicit none (type)
+  private
+  public :: write_bearing
+
+  real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
+
+  !> What is written beside the bearing's state and record.
+  type, public :: bearing_result_type
+    logical :: converged = .false.                   !! the state is the answer
+    logical :: upwind = .false.                      !! SUPG was planned
+    type(cost_type) :: cost
+    integer :: ranks = 1                             !! that computed it
+    type(quantity_type), allocatable :: origin(:)    !! what the files say of it
+    type(case_array_type), allocatable :: contacts(:)
+  end type bearing_result_type
+
+contains
+
+  !> Shows the present state and writes it with what was recorded before.
+  !>
+  !> Fails when a file cannot be written.
+  subroutine write_bearing(scene, context, sweep, result, summary, error)
+    type(scene_type), intent(in) :: scene !! whose names the files have
+    type(run_context_type), intent(in) :: context !! of the run
+    type(sweep_type), intent(inout) :: sweep !! with the last state and the record
+    type(bearing_result_type), intent(in) :: result !! what else is written
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    type(bearing_answer_type) :: answer
+    type(result_grid_type), allocatable :: grids(:)
+
+    associate (bearing => sweep%bearing, record => sweep%record, converged => result%converged, log => context%log)
+      answer = bearing_answer(bearing)
+      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
+        bearing%force_scale()))
+      call add_quantity(summary, summary_quantities(record%tilted))
+      call add_quantity(summary, bearing%foil%sizes())
+      if (allocated(record%judged)) call add_quantity(summary, record%judged)
+      call add_quantity(summary, cost_quantities(result%cost))
+      call show_closing_block(log, converged, answer, bearing%film%clearance, result%cost, result%ranks, blas_in_use())
+      call show_tilt_response(log, record%tilted)
+      if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
+        call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
+                         'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
+      end if
+      allocate (grids(0))
+      call add_film_grid(bearing, scene%output, grids)
+      call add_foil_grids(bearing, grids)
+      call write_result_set(scene, context%folder, converged, result%origin, summary, record%history, result%contacts, &
+                            grids, log, error)
+    end associate
+  end subroutine write_bearing
+end module gfb_bearing_writing

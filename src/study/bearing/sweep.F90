@@ -1,0 +1,199 @@
+#include "gfb_petsc.h"
+!> A bearing that walks along a sweep, each answer from its neighbour's; a scene without a sweep has the
+!> first answer only.
+module gfb_sweep
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sweep_case, only: operation_at
+  use gfb_petsc_session, only: wall_time
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: operating_point
+  use gfb_newton, only: newton_type, newton_settings_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
+  use gfb_tilt_response, only: begin_tilt, measure_tilt
+  use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
+  use gfb_bearing_restart, only: keep_bearing
+  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft
+  use gfb_run_context, only: run_context_type
+  use gfb_walk, only: walk_type
+  use gfb_answer_judgement, only: judge_answer
+  implicit none (type)
+  private
+
+  !> The bearing, its solvers, and what was recorded. Keep it where it is.
+  type, extends(walk_type), public :: sweep_type
+    type(scene_type) :: scene
+    type(run_context_type) :: context
+    type(path_settings_type) :: path
+    type(newton_settings_type) :: tolerances
+    type(bearing_system_type) :: bearing
+    type(newton_type) :: newton
+    type(bearing_record_type) :: record
+    logical :: partitioned = .false. !! film and foil are solved in turns
+    type(partitioned_type) :: sides  !! of the bearing, then
+  contains
+    procedure :: begin => begin_sweep
+    procedure :: reach => reach_value
+    procedure :: record_point => record_value
+    procedure :: keep_point => keep_value
+    procedure :: target_at
+    procedure :: stop_short
+    procedure :: explain
+    procedure, private :: fix_shaft
+  end type sweep_type
+
+contains
+
+  !> What follows the first answer: a scene without a sweep is done, the shaft is fixed, or the first point
+  !> of a sweep is there.
+  subroutine begin_sweep(self, converged)
+    class(sweep_type), target, intent(inout) :: self
+    logical, intent(in) :: converged !! the answer is one
+
+    associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
+      record%begun = wall_time()
+      if (.not. scene%sweep%present) then
+        if (converged) call judge_answer(scene, self%context%log, bearing, newton, record%judged)
+        call add_row(scene, bearing, newton, converged, record)
+      else if (converged .and. scene%sweep%hold_position) then
+        if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
+        call self%fix_shaft()
+        call begin_tilt(scene, bearing, newton, record%tilted)
+      else if (converged) then
+        call self%record_point(1)
+      end if
+    end associate
+  end subroutine begin_sweep
+
+  !> Follows the path from the present answer to that of a sweep point.
+  subroutine reach_value(self, point, reason)
+    class(sweep_type), target, intent(inout) :: self
+    integer, intent(in) :: point             !! number of the sweep's value
+    type(reason_type), intent(out) :: reason !! why there is no answer
+    type(path_report_type) :: report
+
+    if (self%partitioned) then
+      call follow_partitioned(self%bearing, self%newton, self%target_at(point), self%path, self%sides, report)
+    else
+      call follow_path(self%bearing, self%newton, self%target_at(point), 1.0_wp, self%path, report)
+    end if
+    if (.not. report%converged) call self%stop_short(report, reason)
+  end subroutine reach_value
+
+  !> Records a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
+  subroutine record_value(self, point)
+    class(sweep_type), target, intent(inout) :: self
+    integer, intent(in) :: point !! number of the sweep's value
+
+    associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
+      call measure_tilt(scene, scene%sweep%values(point), bearing, newton, record%tilted)
+      call judge_answer(scene, self%context%log, bearing, newton, record%judged)
+      if (scene%sweep%turn_folds) then
+        call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point), .false.)
+      else
+        call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point))
+      end if
+      if (scene%sweep%friction_memory) call bearing%commit()
+      call show_progress(self%context, scene, point, record%begun)
+      if (point == 1) record%begun = wall_time()
+    end associate
+  end subroutine record_value
+
+  !> Writes the restart file after a point, where one is due; 0: where the shaft is fixed.
+  subroutine keep_value(self, point)
+    class(sweep_type), target, intent(inout) :: self
+    integer, intent(in) :: point !! number of the sweep's value
+
+    if (.not. self%context%restart%is_due(point)) return
+    call keep_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
+                      self%record)
+    call forget_partitioned(self%sides)
+  end subroutine keep_value
+
+  !> Where a sweep point puts the shaft; a fixed shaft stays where it is.
+  function target_at(self, point) result(target)
+    class(sweep_type), intent(in) :: self
+    integer, intent(in) :: point !! number of the sweep's value
+    type(operating_point_type) :: target
+
+    target = operating_point(operation_at(self%scene%operation, self%scene%sweep, point))
+    if (self%scene%sweep%hold_position) target%eccentricity = self%bearing%point%eccentricity
+  end function target_at
+
+  !> Fixes the shaft at its equilibrium from now on.
+  subroutine fix_shaft(self)
+    class(sweep_type), intent(inout) :: self
+
+    associate (bearing => self%bearing)
+      bearing%point%eccentricity = bearing%eccentricity()
+      bearing%held = .true.
+      call self%context%log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
+                                 text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
+    end associate
+  end subroutine fix_shaft
+
+  !> Ends a sweep before its last point; what was known of the last answer is not of the state now.
+  subroutine stop_short(self, report, reason)
+    class(sweep_type), intent(inout) :: self
+    type(path_report_type), intent(in) :: report !! of the path to the point without an answer
+    type(reason_type), intent(out) :: reason     !! why there is none
+
+    call self%explain(report, self%bearing%held, reason)
+    self%record%judged = self%record%judged(:0)
+  end subroutine stop_short
+
+  !> Says why there is no answer, and how far the path led.
+  subroutine explain(self, report, fixed, reason)
+    class(sweep_type), intent(in) :: self
+    type(path_report_type), intent(in) :: report !! of the path
+    logical, intent(in) :: fixed             !! the shaft was, at an equilibrium
+    type(reason_type), intent(out) :: reason !! why there is none
+
+    reason%code = reason_no_answer
+    if (self%scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
+    if (fixed) reason%code = reason_fixed_shaft
+    reason%detail = report%reason
+    associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)
+      call log%line(reason%words())
+      select case (reason%code)
+      case (reason_fixed_shaft)
+        call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)// &
+                      ') rad, film force ('//text(force(1), 5)//', '//text(force(2), 5)//') N, smallest gap '// &
+                      text(self%bearing%smallest_gap()*1.0e6_wp, 3)//' um')
+      case (reason_no_equilibrium)
+        call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
+                      ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
+                      text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
+      case default
+        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the way, speed '// &
+                      text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm')
+      end select
+    end associate
+  end subroutine explain
+
+  !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
+  subroutine show_progress(context, scene, point, begun)
+    type(run_context_type), intent(in) :: context
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: point
+    real(wp), intent(in) :: begun !! when the first point was there [s]
+    character(len=:), allocatable :: line, value
+    integer :: left
+
+    associate (sweep => scene%sweep)
+      value = sweep_name(sweep)//' = '//text(sweep%values(point))//' '//sweep_unit(sweep)
+      call context%point_done(value)
+      line = 'point '//text(point)//' of '//text(size(sweep%values))//': '//value
+      left = size(sweep%values) - point
+    end associate
+    if (point > 1 .and. left > 0) then
+      line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'
+    end if
+    call context%log%line(line)
+  end subroutine show_progress
+end module gfb_sweep

@@ -1,0 +1,190 @@
+#include "gfb_petsc.h"
+!> Natural modes of a foil or a component of it.
+module gfb_modes_study
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_petsc_session, only: largest_over_ranks
+  use gfb_scene, only: scene_type
+  use gfb_modes_case, only: part_strip
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_builder, only: foil_plan_type, build_part
+  use gfb_foil_plan, only: plan_foil
+  use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
+  use gfb_mode_energies, only: free_motions, sharpen_modes
+  use gfb_craig_bampton, only: craig_bampton_type, craig_bampton
+  use gfb_reduced_strip, only: assembled_eigenvalues
+  use gfb_case_file, only: case_array_type, fill_array
+  use gfb_reasons, only: reason_few_modes
+  use gfb_run_context, only: run_context_type
+  use gfb_study, only: study_type
+  use gfb_modes_writing, only: modes_result_type, write_modes, rigid, turn
+  implicit none (type)
+  private
+
+  !> The component that vibrates, and its modes.
+  type, extends(study_type), public :: modes_study_type
+    private
+    type(foil_plan_type) :: plan
+    type(foil_structure_type) :: part
+    type(modes_result_type) :: result
+  contains
+    procedure :: prepare => prepare_modes
+    procedure :: solve => solve_modes
+    procedure :: write => write_study
+    procedure :: discard => discard_modes
+  end type modes_study_type
+
+contains
+
+  !> Plans the component.
+  subroutine prepare_modes(self, scene, log)
+    class(modes_study_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+
+    call plan_foil(scene, log, self%plan)
+    self%memory = self%plan%memory
+  end subroutine prepare_modes
+
+  !> Finds the modes, and those of a strip's reduced matrices.
+  !>
+  !> Fails when the mesh cannot be made or an eigenvalue solver fails.
+  subroutine solve_modes(self, scene, context, error)
+    class(modes_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(modes_type) :: motions
+    Mat :: mass
+    PetscErrorCode :: ierr
+    integer :: found
+
+    associate (part => self%part, modes => self%result%modes, shift => self%result%shift)
+      call build_part(scene, self%plan, part, error)
+      if (allocated(error)) return
+      call part%assemble_mass(mass, error)
+      if (allocated(error)) return
+      shift = plate_eigenvalue(part)
+      call free_motions(part, mass, motions)
+      call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes, motions)
+      call destroy_modes(motions)
+      call sharpen_modes(part, mass, rigid*shift, modes, self%result%lost, self%result%left, error)
+      PetscCallA(MatDestroy(mass, ierr))
+      if (allocated(error)) return
+      found = size(modes%eigenvalue)
+      self%converged = found >= min(scene%modes%count, part%unknowns)
+      if (.not. self%converged) then
+        self%reason%code = reason_few_modes
+        self%reason%at = found
+        call context%log%line(self%reason%words())
+      end if
+      allocate (self%result%arrays(0), self%result%reduced(0))
+      if (scene%modes%part == part_strip) then
+        call reduce_strip(part, scene%modes%substructure_modes, found, shift, context%log, self%result%arrays, &
+                          self%result%reduced, error)
+      end if
+    end associate
+  end subroutine solve_modes
+
+  !> Writes the result files.
+  !>
+  !> Fails when one cannot be written.
+  subroutine write_study(self, scene, context, summary, error)
+    class(modes_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    self%result%converged = self%converged
+    call write_modes(scene, context, self%part, self%result, summary, error)
+  end subroutine write_study
+
+  !> Frees what the solvers hold.
+  subroutine discard_modes(self)
+    class(modes_study_type), intent(inout) :: self
+
+    call destroy_modes(self%result%modes)
+    call destroy_foil_structure(self%part)
+  end subroutine discard_modes
+
+  !> Craig-Bampton matrices of the strip for the result file, and the frequencies they give.
+  subroutine reduce_strip(strip, modes_kept, wanted, shift, log, arrays, frequencies, error)
+    type(foil_structure_type), intent(in) :: strip
+    integer, intent(in) :: modes_kept !! of every super-element
+    integer, intent(in) :: wanted     !! frequencies
+    real(wp), intent(in) :: shift     !! [1/s2]
+    type(run_log_type), intent(in) :: log
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(quantity_type), allocatable, intent(inout) :: frequencies(:)
+    type(error_type), allocatable, intent(out) :: error
+
+    type(craig_bampton_type), allocatable :: kinds(:)
+    real(wp), allocatable :: eigenvalue(:)
+    integer :: i
+
+    call craig_bampton(strip, modes_kept, kinds, error)
+    if (allocated(error)) return
+    eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
+    call list_matrices(strip, kinds, arrays)
+    do i = 1, size(eigenvalue)
+      call add_result(frequencies, 'craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), 0.0_wp))/turn)
+    end do
+    call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
+                  ' modes each, written to /craig_bampton')
+  end subroutine reduce_strip
+
+  !> The matrices of every kind, each on the rank that computed it, for the result file.
+  subroutine list_matrices(strip, kinds, arrays)
+    type(foil_structure_type), intent(in) :: strip
+    type(craig_bampton_type), intent(inout) :: kinds(:) !! the matrices leave them
+    type(case_array_type), allocatable, intent(out) :: arrays(:)
+    integer :: i
+
+    allocate (arrays(2*size(kinds) + 1))
+    do i = 1, size(kinds)
+      call add_matrix('stiffness', kinds(i)%stiffness, arrays(2*i - 1))
+      call add_matrix('mass', kinds(i)%mass, arrays(2*i))
+    end do
+    call fill_array('/craig_bampton/kind_of_substructure', '1', 'kind of each super-element, from the smallest x on', &
+                    reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)]), arrays(size(arrays)))
+
+  contains
+
+    !> One matrix of a kind.
+    subroutine add_matrix(name, matrix, array)
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: matrix(:, :)
+      type(case_array_type), intent(inout) :: array
+
+      array%path = '/craig_bampton/kind_'//text(i)//'/'//name
+      array%unit = 'mixed SI'
+      array%meaning = 'retained unknowns, then modes'
+      array%rows = kinds(i)%retained + kinds(i)%modes
+      if (kinds(i)%mine) then
+        call move_alloc(matrix, array%values)
+      else
+        allocate (array%values(array%rows, 0))
+      end if
+    end subroutine add_matrix
+  end subroutine list_matrices
+
+  !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
+  function plate_eigenvalue(part) result(eigenvalue)
+    type(foil_structure_type), intent(in) :: part
+    real(wp) :: eigenvalue
+    real(wp) :: length, ends(4)
+
+    associate (x => part%mesh%position(1, :), z => part%mesh%position(3, :), foil => part%section)
+      ends = largest_over_ranks([maxval(x), -minval(x), maxval(z), -minval(z)])
+      length = max(ends(1) + ends(2), ends(3) + ends(4))
+      eigenvalue = foil%youngs_modulus*foil%thickness**2/(12.0_wp*(1.0_wp - foil%poissons_ratio**2)* &
+                                                          foil%density*length**4)
+    end associate
+  end function plate_eigenvalue
+end module gfb_modes_study

@@ -1,0 +1,64 @@
+!> What a run is given beside its scene: where its results and its log go, when it began, and
+!> whether it resumes from a restart file.
+module gfb_run_context
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_restart, only: restart_type, find_restart_file => find_restart
+  implicit none (type, external)
+  private
+
+  !> Somebody who wants to hear how far a run is, such as a job that is made of many.
+  type, abstract, public :: run_listener_type
+  contains
+    procedure(hear), deferred :: point_done !! a point of a sweep has its answer
+  end type run_listener_type
+
+  abstract interface
+    !> Hears of an event; all ranks tell it.
+    subroutine hear(self, words)
+      import :: run_listener_type
+      implicit none (type, external)
+      class(run_listener_type), intent(inout) :: self
+      character(len=*), intent(in) :: words !! which point
+    end subroutine hear
+  end interface
+
+  !> One run of the program, or of one of its groups of ranks.
+  type, public :: run_context_type
+    character(len=:), allocatable :: folder  !! where the results go
+    character(len=:), allocatable :: command !! the whole command line
+    logical :: resumes = .false.             !! from the scene's restart file, where there is one
+    real(wp) :: start_time = 0.0_wp          !! of the run [s]
+    type(run_log_type) :: log
+    type(restart_type) :: restart            !! of the scene, once it has been looked for
+    class(run_listener_type), pointer :: listener => null()
+  contains
+    procedure :: find_restart
+    procedure :: point_done
+  end type run_context_type
+
+contains
+
+  !> Looks for a scene's restart file.
+  !>
+  !> Fails where the run is to resume from a file of another scene or program, or from a damaged
+  !> one.
+  subroutine find_restart(self, scene, error)
+    class(run_context_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! that the run solves
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    call find_restart_file(scene, self%folder, self%resumes, self%command, self%log, &
+                           self%restart, error)
+  end subroutine find_restart
+
+  !> A point of a sweep has its answer: for who listens.
+  subroutine point_done(self, words)
+    class(run_context_type), intent(in) :: self
+    character(len=*), intent(in) :: words !! which point
+
+    if (associated(self%listener)) call self%listener%point_done(words)
+  end subroutine point_done
+end module gfb_run_context

@@ -1,0 +1,99 @@
+!> A study: what an analysis does with a scene, from what it needs to the files it writes.
+module gfb_study
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_quantity, only: quantity_type
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_memory_check, only: check_memory
+  use gfb_reasons, only: reason_type
+  use gfb_run_context, only: run_context_type
+  implicit none (type, external)
+  private
+
+  !> One analysis of one scene. It stays where it is from `solve` to `discard`: solvers point into
+  !> it.
+  type, abstract, public :: study_type
+    character(len=24) :: heading = 'solution'    !! of the log while it solves; empty: its own
+    real(wp) :: memory = 0.0_wp                  !! that its equations take, after `prepare` [B]
+    logical :: converged = .false.               !! there is an answer, after `solve`
+    type(reason_type) :: reason                  !! why there is none
+    type(quantity_type), allocatable :: found(:) !! numbers of the answer, for a refinement
+    integer :: unknowns = 0
+    integer :: iterations = 0                    !! of Newton, in all
+    integer :: factorizations = 0                !! in all
+    type(quantity_type), allocatable :: more(:)  !! what the summary is to say beside the answer
+  contains
+    procedure(prepare_study), deferred :: prepare !! says what the scene needs
+    procedure :: check => check_study             !! refuses what the machine cannot hold
+    procedure(solve_study), deferred :: solve     !! finds the answer
+    procedure(write_study), deferred :: write     !! writes the result files
+    procedure :: left_out => nothing_left_out     !! what the model leaves out, and why
+    procedure(discard_study), deferred :: discard !! gives the memory back
+  end type study_type
+
+  abstract interface
+    !> Plans the study, and tells the log why.
+    subroutine prepare_study(self, scene, log)
+      import :: study_type, scene_type, run_log_type
+      implicit none (type, external)
+      class(study_type), intent(inout) :: self
+      type(scene_type), intent(in) :: scene !! that is asked for
+      type(run_log_type), intent(in) :: log !! where lines go
+    end subroutine prepare_study
+
+    !> Finds the answer, after `prepare`. No answer is a reason and no error.
+    !>
+    !> Fails when the equations cannot be set up or a restart file cannot be read.
+    subroutine solve_study(self, scene, context, error)
+      import :: study_type, scene_type, run_context_type, error_type
+      implicit none (type, external)
+      class(study_type), target, intent(inout) :: self
+      type(scene_type), intent(in) :: scene !! that is asked for
+      type(run_context_type), intent(in) :: context !! of the run
+      type(error_type), allocatable, intent(out) :: error !! why it failed
+    end subroutine solve_study
+
+    !> Writes everything, after `solve`.
+    !>
+    !> Fails when a file cannot be written.
+    subroutine write_study(self, scene, context, summary, error)
+      import :: study_type, scene_type, run_context_type, error_type, quantity_type
+      implicit none (type, external)
+      class(study_type), target, intent(inout) :: self
+      type(scene_type), intent(in) :: scene !! that is asked for
+      type(run_context_type), intent(in) :: context !! of the run
+      type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
+      type(error_type), allocatable, intent(out) :: error !! why it failed
+    end subroutine write_study
+
+    !> Frees what the solvers hold; may be called where nothing was solved.
+    subroutine discard_study(self)
+      import :: study_type
+      implicit none (type, external)
+      class(study_type), intent(inout) :: self
+    end subroutine discard_study
+  end interface
+
+contains
+
+  !> Checks, after `prepare`, whether the study can be done.
+  !>
+  !> Fails where the machine has too little memory.
+  subroutine check_study(self, scene, error)
+    class(study_type), intent(in) :: self
+    type(scene_type), intent(in) :: scene !! that is asked for
+    type(error_type), allocatable, intent(out) :: error !! what is lacking
+
+    call check_memory(scene, self%memory, error)
+  end subroutine check_study
+
+  !> What the model leaves out, and why, as parts of a sentence, each with a semicolon behind.
+  function nothing_left_out(self, scene) result(words)
+    class(study_type), intent(in) :: self
+    type(scene_type), intent(in) :: scene !! as the case has it
+    character(len=:), allocatable :: words
+
+    words = ''
+  end function nothing_left_out
+end module gfb_study

@@ -1,0 +1,51 @@
+!> A walk from answer to answer: the points of a sweep, or the load steps of a strip.
+module gfb_walk
+  use gfb_reasons, only: reason_type
+  implicit none (type, external)
+  private
+  public :: take_walk
+
+  !> What is asked of a model at every point.
+  type, abstract, public :: walk_type
+  contains
+    procedure(reach_point), deferred :: reach      !! finds its answer from the last point's
+    procedure(end_point), deferred :: record_point !! records it
+    procedure(end_point), deferred :: keep_point   !! for a restart, where that is due
+  end type walk_type
+
+  abstract interface
+    !> Finds the answer of a point; without one the model is left at the last state it has reached.
+    subroutine reach_point(self, point, reason)
+      import :: walk_type, reason_type
+      implicit none (type, external)
+      class(walk_type), target, intent(inout) :: self
+      integer, intent(in) :: point             !! number, from 1
+      type(reason_type), intent(out) :: reason !! why there is no answer
+    end subroutine reach_point
+
+    !> Does what is to be done at a point that has its answer.
+    subroutine end_point(self, point)
+      import :: walk_type
+      implicit none (type, external)
+      class(walk_type), target, intent(inout) :: self
+      integer, intent(in) :: point !! number, from 1
+    end subroutine end_point
+  end interface
+
+contains
+
+  !> Walks from a point to another; the first that has no answer ends the walk.
+  subroutine take_walk(walk, first, last, reason)
+    class(walk_type), target, intent(inout) :: walk !! left at the last answer
+    integer, intent(in) :: first, last       !! points; none where the last lies before the first
+    type(reason_type), intent(out) :: reason !! why the walk has ended before its last point
+    integer :: point
+
+    do point = first, last
+      call walk%reach(point, reason)
+      if (reason%is_given()) return
+      call walk%record_point(point)
+      call walk%keep_point(point)
+    end do
+  end subroutine take_walk
+end module gfb_walk
