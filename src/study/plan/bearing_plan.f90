@@ -36,9 +36,9 @@ contains
 
   !> Chooses width, weighting and unknowns, and tells the log why.
   subroutine plan_bearing(scene, log, plan)
-    type(scene_type), intent(in) :: scene
-    type(run_log_type), intent(in) :: log
-    type(bearing_plan_type), intent(out) :: plan
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_plan_type), intent(out) :: plan !! what was chosen
     integer :: nodes
 
     plan%order = scene%model%film_order

@@ -23,9 +23,9 @@ contains
 
   !> Chooses width and reduction, and tells the log why.
   subroutine plan_foil(scene, log, plan)
-    type(scene_type), intent(in) :: scene
-    type(run_log_type), intent(in) :: log
-    type(foil_plan_type), intent(out) :: plan
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(foil_plan_type), intent(out) :: plan !! what was chosen
     logical :: strip
 
     strip = scene%general%analysis == analysis_strip
@@ -156,11 +156,11 @@ contains
 
   !> Stations and unknowns of the bump foil, before supports.
   pure subroutine count_bumps(scene, rows, reduced, stations, unknowns)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     integer, intent(in) :: rows           !! that are solved
     logical, intent(in) :: reduced        !! bumps are condensed
-    integer, intent(out) :: stations
-    real(wp), intent(out) :: unknowns     !! may be more than an integer holds
+    integer, intent(out) :: stations !! along the foil
+    real(wp), intent(out) :: unknowns     !! may be more than an integer holds [1]
     integer :: lines
 
     associate (foil => scene%bump_foil, mesh => scene%mesh)

@@ -22,7 +22,7 @@ contains
   !> One line on the memory of a scene.
   subroutine show_memory(bytes, log)
     real(wp), intent(in) :: bytes !! of the equations [B]
-    type(run_log_type), intent(in) :: log
+    type(run_log_type), intent(in) :: log !! where the line goes
     real(wp) :: total
 
     total = rank_memory(bytes, rank_count())
@@ -37,9 +37,9 @@ contains
 
   !> Refuses a scene that needs more memory than the machine has, on all ranks alike.
   subroutine check_memory(scene, bytes, error)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     real(wp), intent(in) :: bytes !! of its equations [B]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     if (.not. scene%solver%memory_check) return
     if (is_too_much(bytes)) then

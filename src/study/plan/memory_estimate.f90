@@ -31,7 +31,7 @@ contains
   !> A bump strip [B].
   pure function strip_memory(unknowns, stations, rows, reduced, friction, linear_solver) &
     result(bytes)
-    real(wp), intent(in) :: unknowns         !! of the equations
+    real(wp), intent(in) :: unknowns         !! of the equations [1]
     integer, intent(in) :: stations, rows    !! of nodes that are solved
     logical, intent(in) :: reduced           !! bumps are condensed
     logical, intent(in) :: friction          !! the matrix is not symmetric
@@ -61,8 +61,8 @@ contains
 
   !> Modes of a strip: all unknowns with a mass, and the strip of super-elements beside them [B].
   pure function modes_memory(unknowns, retained, stations, rows) result(bytes)
-    real(wp), intent(in) :: unknowns
-    real(wp), intent(in) :: retained      !! of them, where bumps are super-elements
+    real(wp), intent(in) :: unknowns !! of the equations [1]
+    real(wp), intent(in) :: retained      !! of them, where bumps are super-elements [1]
     integer, intent(in) :: stations, rows !! of nodes
     real(wp) :: bytes
     real(wp), parameter :: a_mass = 540.0_wp       !! of an unknown [B]
@@ -82,7 +82,7 @@ contains
   !> A bearing of shells [B].
   pure function bearing_memory(nodes, bump_unknowns, rows, reduced, linear_solver) result(bytes)
     integer, intent(in) :: nodes              !! of the film, and of the top foil
-    real(wp), intent(in) :: bump_unknowns     !! of the bump foil, condensed or not
+    real(wp), intent(in) :: bump_unknowns     !! of the bump foil, condensed or not [1]
     integer, intent(in) :: rows               !! of nodes over the width that is solved
     logical, intent(in) :: reduced            !! bumps are condensed
     integer, intent(in) :: linear_solver      !! `linear_solver_direct`, ...
@@ -110,7 +110,7 @@ contains
   !> All ranks together, with what each process takes by itself [B].
   pure function rank_memory(bytes, ranks) result(total)
     real(wp), intent(in) :: bytes !! of the equations [B]
-    integer, intent(in) :: ranks
+    integer, intent(in) :: ranks !! of the job
     real(wp) :: total
     real(wp), parameter :: a_cut = 0.1_wp !! a further rank adds for ghosts, messages, whole tables
     total = bytes*(1.0_wp + a_cut*real(min(ranks, 8) - 1, wp)) + a_rank*real(ranks, wp)
