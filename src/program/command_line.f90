@@ -24,7 +24,7 @@ module gfb_command_line
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
     logical :: branches = .false. !! look for all equilibria
     !> ranks whose shares to show instead of solving; 0: those of the job
-    integer :: parts = -1
+    integer :: shares = -1
     logical :: restart = .false. !! resume from the restart file
     logical :: help = .false.
     logical :: version = .false.
@@ -69,7 +69,7 @@ contains
       case ('--branches')
         line%branches = .true.
       case ('--partition')
-        line%parts = 0
+        line%shares = 0
       case ('--restart')
         line%restart = .true.
       case ('--help', '-h')
@@ -157,8 +157,8 @@ contains
     if (index(word, '--output=') == 1 .and. len(word) > 9) then
       line%folder = word(10:)
     else if (index(word, '--partition=') == 1) then
-      read (word(13:), *, iostat=status) line%parts
-      if (status /= 0 .or. verify(word(13:), '0123456789') /= 0 .or. line%parts < 1) then
+      read (word(13:), *, iostat=status) line%shares
+      if (status /= 0 .or. verify(word(13:), '0123456789') /= 0 .or. line%shares < 1) then
         call fail(error, 'gfb: '//word//': the number of ranks is a whole number above zero')
       end if
     else if (index(word, '--groups=') == 1) then

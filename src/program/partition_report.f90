@@ -16,44 +16,44 @@ module gfb_partition_report
 
 contains
 
-  !> Parts of a bearing.
+  !> Shares of a bearing.
   !>
   !> Fails when METIS does.
-  subroutine show_bearing_partition(scene, plan, parts, log, error)
+  subroutine show_bearing_partition(scene, plan, ranks, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_plan_type), intent(in) :: plan !! of the bearing
-    integer, intent(in) :: parts !! ranks that share
+    integer, intent(in) :: ranks !! that share
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(division_type) :: division
 
-    call divide_bearing(scene, film_mesh_of(scene, plan), parts, division, error)
+    call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
     if (allocated(error)) return
-    call show_parts(division, &
+    call show_shares(division, &
       scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
     if (scene%model%foil /= foil_shell) call log%line('beams, if any, are the first rank''s')
   end subroutine show_bearing_partition
 
-  !> Parts of a strip, or of what else vibrates.
+  !> Shares of a strip, or of what else vibrates.
   !>
   !> Fails when METIS does.
-  subroutine show_strip_partition(scene, plan, parts, log, error)
+  subroutine show_strip_partition(scene, plan, ranks, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(foil_plan_type), intent(in) :: plan !! of the foil
-    integer, intent(in) :: parts !! ranks that share
+    integer, intent(in) :: ranks !! that share
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(division_type) :: division
     integer :: rows
 
     rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, plan%half))
-    call divide(no_chain(), foil_chain(scene, rows, plan%reduced), parts, division, error)
+    call divide(no_chain(), foil_chain(scene, rows, plan%reduced), ranks, division, error)
     if (allocated(error)) return
-    call show_parts(division, plan%reduced, log)
+    call show_shares(division, plan%reduced, log)
   end subroutine show_strip_partition
 
-  !> A line a part.
-  subroutine show_parts(division, reduced, log)
+  !> A line a share.
+  subroutine show_shares(division, reduced, log)
     type(division_type), intent(in) :: division
     logical, intent(in) :: reduced !! the bump foil's pieces are super-elements, else columns
     type(run_log_type), intent(in) :: log
@@ -73,5 +73,5 @@ contains
     call log%line('largest load over the mean: '//text(division%balance(), 4))
     call log%line('joints between pieces that are cut: '//text(division%cut)//' of '// &
       text(division%joints))
-  end subroutine show_parts
+  end subroutine show_shares
 end module gfb_partition_report

@@ -46,11 +46,11 @@ contains
     converged = .true.
     context = line%context(log)
     call read_scene(line%case_file, scene, error)
-    only_look = line%check .or. line%parts >= 0
+    only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
     if (only_look) then
-      call check_scene(scene, line%parts, log, error)
+      call check_scene(scene, line%shares, log, error)
     else
       call run_scene(scene, line%branches, context, study, summary, error)
       if (.not. allocated(error)) converged = study%converged
@@ -60,25 +60,25 @@ contains
   !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
   !>
   !> Fails when METIS does.
-  subroutine check_scene(scene, parts, log, error)
+  subroutine check_scene(scene, shares, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
-    integer, intent(in) :: parts !! ranks whose shares to show; 0: those of the job; negative: none
+    integer, intent(in) :: shares !! ranks whose shares to show; 0: those of the job; negative: none
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(bearing_plan_type) :: plan
     type(foil_plan_type) :: foil_plan
-    integer :: shares
+    integer :: ranks
 
     call log%line(version_text())
     call log%line(scene%file//': '//scene%general%title)
-    shares = parts
-    if (parts == 0) shares = rank_count()
+    ranks = shares
+    if (shares == 0) ranks = rank_count()
     if (is_bearing(scene%general%analysis)) then
       call plan_bearing(scene, log, plan)
-      if (parts >= 0) call show_bearing_partition(scene, plan, shares, log, error)
+      if (shares >= 0) call show_bearing_partition(scene, plan, ranks, log, error)
     else
       call plan_foil(scene, log, foil_plan)
-      if (parts >= 0) call show_strip_partition(scene, foil_plan, shares, log, error)
+      if (shares >= 0) call show_strip_partition(scene, foil_plan, ranks, log, error)
     end if
     if (allocated(error)) return
     call log%line('')

@@ -35,7 +35,7 @@ contains
     context = line%context(log)
     call read_all(line, scenes, error)
     if (.not. allocated(error)) call check_work(line, job, scenes, error)
-    if (.not. (line%check .or. line%parts >= 0 .or. allocated(error)) .and. job%group == 1) then
+    if (.not. (line%check .or. line%shares >= 0 .or. allocated(error)) .and. job%group == 1) then
       ! By one group: a second one might take away its trial file.
       call prepare_folder(line%folder, error)
     end if
@@ -43,9 +43,9 @@ contains
     status = job%largest(status)
     if (status /= 0 .and. .not. allocated(error)) call fail(error, 'another rank failed', status)
     if (allocated(error)) return
-    if (line%check .or. line%parts >= 0) then
+    if (line%check .or. line%shares >= 0) then
       do i = 1, size(scenes)
-        call check_scene(scenes(i), line%parts, log, error)
+        call check_scene(scenes(i), line%shares, log, error)
         if (allocated(error)) return
       end do
     else if (size(scenes) == 1) then

@@ -139,11 +139,11 @@ def check_beams(checks, folder):
     # From above, the branch ends in a fold; from below it is another one than a start at 100 N finds.
     down = solve(folder, "down", ranks=2, options=["--groups", "2"], model=BEAM, mesh=INSIDE,
                  sweep={"parameter": "load", "values": (100.0, 20.0)})
-    checks.that("beams, a fold between two groups: said", "warning: group 2: the way from the point before finds no "
+    checks.that("beams, a fold between two groups: said", "warning: group 2: the path from the point before finds no "
                 "answer at load = 20 N" in down.log)
     up = solve(folder, "up", ranks=2, options=["--groups", "2"], model=BEAM, mesh=INSIDE,
                sweep={"parameter": "load", "values": (20.0, 100.0)})
-    checks.that("beams, another equilibrium than the way from the point before leads to: said",
+    checks.that("beams, another equilibrium than the path from the point before leads to: said",
                 "warning: group 2: another answer than a sweep without groups from load = 100 N on" in up.log)
     for run, values in ((down, (100.0, 20.0)), (up, (20.0, 100.0))):
         rows = run.history()

@@ -1,6 +1,6 @@
 #include "gfb_petsc.h"
-!> A sweep that goes on where what it changes turns back: the branch of answers is followed by its own
-!> length, round its folds, until it leaves the range of the sweep's values.
+!> A sweep beyond the folds where what it changes turns back: the branch of answers is followed by its own
+!> length, until it leaves the range of the sweep's values.
 module gfb_folds
   use petscsys
   use gfb_kinds, only: wp
@@ -34,69 +34,69 @@ contains
     type(sweep_type), target, intent(inout) :: sweep !! left at the last answer
     type(reason_type), intent(out) :: reason !! why the branch does not lead on
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(fold_way_type), target :: way
+    type(fold_way_type), target :: branch
     type(path_report_type) :: report
     integer :: kept
     logical :: ended
 
-    call begin_branch(sweep, way, error)
+    call begin_branch(sweep, branch, error)
     if (allocated(error)) return
     ended = .false.
     do while (.not. ended)
       kept = size(sweep%record%history)
-      call take_step(sweep, way, report, ended)
+      call take_step(sweep, branch, report, ended)
       associate (points => size(sweep%record%history), context => sweep%context)
         if (.not. ended .and. context%restart%is_due_after(kept, points)) then
           call keep_bearing(sweep%scene, context%restart, context%log, points, sweep%bearing, sweep%newton, &
-                            sweep%record, way)
+                            sweep%record, branch)
         end if
       end associate
     end do
     report%reached = sweep%bearing%point
-    report%fraction = way%arc%place
-    call end_arc(way%arc, sweep%newton)
+    report%fraction = branch%arc%place
+    call end_arc(branch%arc, sweep%newton)
     if (.not. report%converged) call sweep%stop_short(report, reason)
   end subroutine sweep_round_folds
 
   !> Begins at the bearing's present answer, or where a restart file has the branch.
   !>
   !> Fails when that file is damaged.
-  subroutine begin_branch(sweep, way, error)
+  subroutine begin_branch(sweep, branch, error)
     type(sweep_type), target, intent(inout) :: sweep
-    type(fold_way_type), target, intent(inout) :: way
+    type(fold_way_type), target, intent(inout) :: branch
     type(error_type), allocatable, intent(out) :: error
     logical :: begun
 
     associate (bearing => sweep%bearing, restart => sweep%context%restart, values => sweep%scene%sweep%values)
-      way%first = bearing%point
-      way%last = sweep%target_at(size(values))
-      way%place = (values - values(1))/(values(size(values)) - values(1))
+      branch%first = bearing%point
+      branch%last = sweep%target_at(size(values))
+      branch%place = (values - values(1))/(values(size(values)) - values(1))
       begun = .false.
       if (restart%goes_on) then
         call bearing%linearise(bearing%state) ! an arc needs to know which entries the matrix has
-        call recall_way(restart, way%last, bearing, sweep%newton, way, begun, error)
+        call recall_way(restart, branch%last, bearing, sweep%newton, branch, begun, error)
         if (allocated(error)) return
       end if
-      if (.not. begun) call begin_arc(bearing, sweep%newton, way%last, 1.0_wp, way%arc)
+      if (.not. begun) call begin_arc(bearing, sweep%newton, branch%last, 1.0_wp, branch%arc)
     end associate
   end subroutine begin_branch
 
   !> One step along the branch, with what it has passed.
-  subroutine take_step(sweep, way, report, ended)
+  subroutine take_step(sweep, branch, report, ended)
     type(sweep_type), target, intent(inout) :: sweep
-    type(fold_way_type), target, intent(inout) :: way
+    type(fold_way_type), target, intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(inout) :: ended
     real(wp) :: gap
     logical :: moved, again
 
-    call advance_arc(way%arc, moved)
-    report%steps = way%arc%steps
+    call advance_arc(branch%arc, moved)
+    report%steps = branch%arc%steps
     if (moved) then
-      call record_values(sweep, way, report, ended)
-      if (.not. ended .and. way%arc%turned) then
-        call way%arc%nears_fold(again)
-        if (.not. again) call record_fold(sweep, way)
+      call record_values(sweep, branch, report, ended)
+      if (.not. ended .and. branch%arc%turned) then
+        call branch%arc%nears_fold(again)
+        if (.not. again) call record_fold(sweep, branch)
       end if
     else
       report%reason = 'no step, however short, leads on along the branch'
@@ -104,8 +104,8 @@ contains
     gap = sweep%bearing%smallest_gap()
     if (moved .and. gap < sweep%path%touch_down_gap) then
       report%touched = .true.
-      report%reason = 'the shaft touches down at '//value_text(sweep%scene, way%arc%place)
-    else if (way%arc%steps >= most_steps) then
+      report%reason = 'the shaft touches down at '//value_text(sweep%scene, branch%arc%place)
+    else if (branch%arc%steps >= most_steps) then
       report%reason = 'more than '//text(most_steps)//' steps along the branch'
     end if
     ended = ended .or. allocated(report%reason)
@@ -113,71 +113,71 @@ contains
 
   !> Records the answers at those values that the last step has passed; the branch ends where it leaves
   !> their range.
-  subroutine record_values(sweep, way, report, ended)
+  subroutine record_values(sweep, branch, report, ended)
     type(sweep_type), target, intent(inout) :: sweep
-    type(fold_way_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ended
     logical :: found
     integer :: i, k, values
 
-    values = size(way%place)
+    values = size(branch%place)
     ended = .false.
-    associate (from => way%arc%place_before, to => way%arc%place)
+    associate (from => branch%arc%place_before, to => branch%arc%place)
       do i = 1, values
         k = merge(i, values + 1 - i, to > from)
-        if (.not. passed(from, way%place(k), to)) cycle
-        if (k == way%kept .and. way%arc%heading*way%kept_heading > 0.0_wp) cycle ! before a retreat
-        call way%arc%between((way%place(k) - from)/(to - from))
-        call record_value(sweep, k, way, report, found)
+        if (.not. passed(from, branch%place(k), to)) cycle
+        if (k == branch%kept .and. branch%arc%heading*branch%kept_heading > 0.0_wp) cycle ! before a retreat
+        call branch%arc%between((branch%place(k) - from)/(to - from))
+        call record_value(sweep, k, branch, report, found)
         if (.not. found) return
-        ended = k == values .and. to >= way%place(k) .or. k == 1 .and. to <= way%place(k)
+        ended = k == values .and. to >= branch%place(k) .or. k == 1 .and. to <= branch%place(k)
         if (ended) then
           report%converged = .true.
           if (k == 1) call sweep%context%log%line('the branch has come back to the first value')
           return
         end if
-        call way%arc%return_to()
+        call branch%arc%return_to()
       end do
     end associate
   end subroutine record_values
 
   !> Finds and records the answer at a value from a state on the branch close to it.
-  subroutine record_value(sweep, number, way, report, found)
+  subroutine record_value(sweep, number, branch, report, found)
     type(sweep_type), target, intent(inout) :: sweep
     integer, intent(in) :: number !! of the value
-    type(fold_way_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: found
     type(newton_report_type) :: solved
 
     associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
-      bearing%point = point_between(way%first, way%last, way%place(number))
+      bearing%point = point_between(branch%first, branch%last, branch%place(number))
       call solve_newton(newton, solved)
       found = solved%converged
       if (.not. found) then
-        report%reason = 'no answer at '//value_text(scene, way%place(number))//', which the branch passes ('// &
+        report%reason = 'no answer at '//value_text(scene, branch%place(number))//', which the branch passes ('// &
           solved%reason//')'
         return
       end if
-      way%kept = number
-      way%kept_heading = way%arc%heading
+      branch%kept = number
+      branch%kept_heading = branch%arc%heading
       call measure_tilt(scene, scene%sweep%values(number), bearing, newton, record%tilted)
       call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)
       call add_row(scene, bearing, newton, .true., record, scene%sweep%values(number), .false.)
-      call sweep%context%log%line('on the branch: '//value_text(scene, way%place(number)))
+      call sweep%context%log%line('on the branch: '//value_text(scene, branch%place(number)))
     end associate
   end subroutine record_value
 
   !> Records the answer at which the parameter turns back.
-  subroutine record_fold(sweep, way)
+  subroutine record_fold(sweep, branch)
     type(sweep_type), target, intent(inout) :: sweep
-    type(fold_way_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: branch
     real(wp) :: fold
     integer :: i
 
-    call way%arc%to_turn()
-    fold = way%arc%place_before
+    call branch%arc%to_turn()
+    fold = branch%arc%place_before
     associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
       call measure_tilt(scene, value_at(scene, fold), bearing, newton, record%tilted)
       call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)
@@ -185,35 +185,35 @@ contains
         if (record%judged(i)%name == 'determinant_sign') record%judged(i)%number = 0.0_wp ! it changes here
       end do
       call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
-      way%kept = 0
+      branch%kept = 0
       call sweep%context%log%line('fold: the branch turns back at '//value_text(scene, fold))
     end associate
-    call way%arc%return_to()
+    call branch%arc%return_to()
   end subroutine record_fold
 
-  !> Whether a place lies between two others, the second included.
-  pure function passed(from, place, to)
-    real(wp), intent(in) :: from, place, to
+  !> Whether a value of the path parameter lies between two others, the second included.
+  pure function passed(from, at, to)
+    real(wp), intent(in) :: from, at, to
     logical :: passed
-    passed = (place - from)*(to - from) > 0.0_wp .and. abs(place - from) <= abs(to - from)
+    passed = (at - from)*(to - from) > 0.0_wp .and. abs(at - from) <= abs(to - from)
   end function passed
 
-  !> What the sweep changes, at a place between its first and last values.
-  pure function value_at(scene, place) result(value)
+  !> What the sweep changes, at a path parameter of 0 at its first and 1 at its last value.
+  pure function value_at(scene, at) result(value)
     type(scene_type), intent(in) :: scene
-    real(wp), intent(in) :: place
+    real(wp), intent(in) :: at !! path parameter [1]
     real(wp) :: value
 
     associate (values => scene%sweep%values)
-      value = values(1) + place*(values(size(values)) - values(1))
+      value = values(1) + at*(values(size(values)) - values(1))
     end associate
   end function value_at
 
   !> The same in words.
-  function value_text(scene, place) result(words)
+  function value_text(scene, at) result(words)
     type(scene_type), intent(in) :: scene
-    real(wp), intent(in) :: place
+    real(wp), intent(in) :: at !! path parameter [1]
     character(len=:), allocatable :: words
-    words = sweep_name(scene%sweep)//' = '//text(value_at(scene, place), 6)//' '//sweep_unit(scene%sweep)
+    words = sweep_name(scene%sweep)//' = '//text(value_at(scene, at), 6)//' '//sweep_unit(scene%sweep)
   end function value_text
 end module gfb_folds

@@ -170,7 +170,7 @@ contains
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
                       text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
       case default
-        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the way, speed '// &
+        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the path, speed '// &
                       text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm')
       end select
     end associate

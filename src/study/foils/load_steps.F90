@@ -183,7 +183,7 @@ contains
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
     real(wp), allocatable :: force(:), crest(:)
-    real(wp) :: total, size_of_load, place, reach
+    real(wp) :: total, size_of_load, centre, reach
 
     words = ''
     associate (foil => scene%bump_foil, load => scene%strip_load)
@@ -200,8 +200,8 @@ contains
                 ' N towards the sleeve, and the strip is fixed nowhere'
         return
       end if
-      place = (dot_product(force, crest)/total - 0.5_wp*(maxval(crest) + minval(crest)))/reach
-      if (abs(place) > 0.5_wp) then
+      centre = (dot_product(force, crest)/total - 0.5_wp*(maxval(crest) + minval(crest)))/reach
+      if (abs(centre) > 0.5_wp) then
         words = 'the load tips the strip over: it acts beyond the last corner line, and the strip is fixed nowhere'
       end if
     end associate

@@ -30,7 +30,7 @@ module gfb_modes_study
   type, extends(study_type), public :: modes_study_type
     private
     type(foil_plan_type) :: plan
-    type(foil_structure_type) :: part
+    type(foil_structure_type) :: component
     type(modes_result_type) :: result
   contains
     procedure :: prepare => prepare_modes
@@ -64,20 +64,20 @@ contains
     PetscErrorCode :: ierr
     integer :: found
 
-    associate (part => self%part, modes => self%result%modes, shift => self%result%shift)
-      call build_part(scene, self%plan, part, error)
+    associate (component => self%component, modes => self%result%modes, shift => self%result%shift)
+      call build_part(scene, self%plan, component, error)
       if (allocated(error)) return
-      call part%assemble_mass(mass, error)
+      call component%assemble_mass(mass, error)
       if (allocated(error)) return
-      shift = plate_eigenvalue(part)
-      call free_motions(part, mass, motions)
-      call lowest_modes(PETSC_COMM_WORLD, part%stiffness, mass, shift, scene%modes%count, modes, motions)
+      shift = plate_eigenvalue(component)
+      call free_motions(component, mass, motions)
+      call lowest_modes(PETSC_COMM_WORLD, component%stiffness, mass, shift, scene%modes%count, modes, motions)
       call destroy_modes(motions)
-      call sharpen_modes(part, mass, rigid*shift, modes, self%result%lost, self%result%left, error)
+      call sharpen_modes(component, mass, rigid*shift, modes, self%result%lost, self%result%left, error)
       PetscCallA(MatDestroy(mass, ierr))
       if (allocated(error)) return
       found = size(modes%eigenvalue)
-      self%converged = found >= min(scene%modes%count, part%unknowns)
+      self%converged = found >= min(scene%modes%count, component%unknowns)
       if (.not. self%converged) then
         self%reason%code = reason_few_modes
         self%reason%at = found
@@ -85,7 +85,7 @@ contains
       end if
       allocate (self%result%arrays(0), self%result%reduced(0))
       if (scene%modes%part == part_strip) then
-        call reduce_strip(part, scene%modes%substructure_modes, found, shift, context%log, self%result%arrays, &
+        call reduce_strip(component, scene%modes%substructure_modes, found, shift, context%log, self%result%arrays, &
                           self%result%reduced, error)
       end if
     end associate
@@ -102,7 +102,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
     self%result%converged = self%converged
-    call write_modes(scene, context, self%part, self%result, summary, error)
+    call write_modes(scene, context, self%component, self%result, summary, error)
   end subroutine write_study
 
   !> Frees what the solvers hold.
@@ -110,7 +110,7 @@ contains
     class(modes_study_type), intent(inout) :: self
 
     call destroy_modes(self%result%modes)
-    call destroy_foil_structure(self%part)
+    call destroy_foil_structure(self%component)
   end subroutine discard_modes
 
   !> Craig-Bampton matrices of the strip for the result file, and the frequencies they give.
@@ -175,12 +175,12 @@ contains
   end subroutine list_matrices
 
   !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
-  function plate_eigenvalue(part) result(eigenvalue)
-    type(foil_structure_type), intent(in) :: part
+  function plate_eigenvalue(component) result(eigenvalue)
+    type(foil_structure_type), intent(in) :: component
     real(wp) :: eigenvalue
     real(wp) :: length, ends(4)
 
-    associate (x => part%mesh%position(1, :), z => part%mesh%position(3, :), foil => part%section)
+    associate (x => component%mesh%position(1, :), z => component%mesh%position(3, :), foil => component%section)
       ends = largest_over_ranks([maxval(x), -minval(x), maxval(z), -minval(z)])
       length = max(ends(1) + ends(2), ends(3) + ends(4))
       eigenvalue = foil%youngs_modulus*foil%thickness**2/(12.0_wp*(1.0_wp - foil%poissons_ratio**2)* &

@@ -44,22 +44,22 @@ contains
   !> Shows the modes and writes all files.
   !>
   !> Fails when one cannot be written.
-  subroutine write_modes(scene, context, part, found, summary, error)
+  subroutine write_modes(scene, context, component, found, summary, error)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
-    type(foil_structure_type), intent(in) :: part !! that vibrates
+    type(foil_structure_type), intent(in) :: component !! that vibrates
     type(modes_result_type), intent(in) :: found !! the modes
     type(quantity_type), allocatable, intent(out) :: summary(:) !! all of it
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(history_row_type) :: history(1)
     type(result_grid_type) :: grid
 
-    call show_closing_block(context%log, scene, found%modes, part)
+    call show_closing_block(context%log, scene, found%modes, component)
     call warn_of_round_off(context%log, found%lost, found%left, scene%modes%part == part_strip)
-    call draw_modes(scene, part, found%modes, grid)
+    call draw_modes(scene, component, found%modes, grid)
     call add_quantity(history(1)%quantity, mode_quantities(found%converged, found%modes, found%shift))
     call add_round_off(found%lost, found%left, history(1)%quantity)
-    call add_quantity(history(1)%quantity, cost_quantities(part, context%start_time))
+    call add_quantity(history(1)%quantity, cost_quantities(component, context%start_time))
     call add_quantity(summary, history(1)%quantity)
     call add_quantity(summary, found%reduced)
     call write_result_set(scene, context%folder, found%converged, provenance(context%command), summary, history, &
@@ -67,19 +67,19 @@ contains
   end subroutine write_modes
 
   !> The shapes of the modes as fields of a surface.
-  subroutine draw_modes(scene, part, modes, grid)
+  subroutine draw_modes(scene, component, modes, grid)
     type(scene_type), intent(in) :: scene
-    type(foil_structure_type), intent(in) :: part
+    type(foil_structure_type), intent(in) :: component
     type(modes_type), intent(in) :: modes
     type(result_grid_type), intent(out) :: grid
     real(wp), allocatable :: moved(:, :)
     integer :: i
 
-    call create_foil_grid(part, trim(merge('top_foil ', 'bump_foil', scene%modes%part == part_top_foil)), grid)
-    allocate (moved(node_unknowns, size(part%part%mesh_node)))
+    call create_foil_grid(component, trim(merge('top_foil ', 'bump_foil', scene%modes%part == part_top_foil)), grid)
+    allocate (moved(node_unknowns, size(component%part%mesh_node)))
     do i = 1, size(modes%shape)
-      call part%displacements(modes%shape(i), moved)
-      call add_displacement(part, 'mode_'//text(i), 'shape of unit modal mass', moved, grid)
+      call component%displacements(modes%shape(i), moved)
+      call add_displacement(component, 'mode_'//text(i), 'shape of unit modal mass', moved, grid)
     end do
   end subroutine draw_modes
 
@@ -100,14 +100,14 @@ contains
   end function mode_quantities
 
   !> Quantities of what it cost.
-  function cost_quantities(part, start_time) result(list)
-    type(foil_structure_type), intent(in) :: part
+  function cost_quantities(component, start_time) result(list)
+    type(foil_structure_type), intent(in) :: component
     real(wp), intent(in) :: start_time !! [s]
     type(quantity_type), allocatable :: list(:)
     real(wp) :: memory(1)
 
     memory = sum_over_ranks([peak_memory()])
-    call add_result(list, 'unknowns', part%unknowns)
+    call add_result(list, 'unknowns', component%unknowns)
     call add_result(list, 'factorizations', 1, of_shifted_stiffness)
     call add_result(list, 'wall_time', wall_time() - start_time)
     call add_result(list, 'peak_memory', memory(1))
@@ -135,18 +135,18 @@ contains
   end subroutine warn_of_round_off
 
   !> The answer in the units an engineer reads.
-  subroutine show_closing_block(log, scene, modes, part)
+  subroutine show_closing_block(log, scene, modes, component)
     type(run_log_type), intent(in) :: log
     type(scene_type), intent(in) :: scene
     type(modes_type), intent(in) :: modes
-    type(foil_structure_type), intent(in) :: part
+    type(foil_structure_type), intent(in) :: component
     integer :: i
 
     call log%heading('answer')
     do i = 1, size(modes%eigenvalue)
       call log%line('mode '//text(i)//'  '//text(sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, 6)//' Hz')
     end do
-    call log%line(trim(part_words(scene%modes%part))//' of '//text(part%unknowns)//' unknowns, '// &
+    call log%line(trim(part_words(scene%modes%part))//' of '//text(component%unknowns)//' unknowns, '// &
                   text(rank_count())//' rank(s), BLAS '//blas_in_use())
   end subroutine show_closing_block
 end module gfb_modes_writing

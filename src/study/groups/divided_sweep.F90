@@ -2,7 +2,7 @@
 !> A sweep whose points are divided among groups of ranks: a stretch each, one set of results.
 !>
 !> A group's first point starts from nothing, where the sweep in one piece comes from the point before.
-!> Whether both lead to the same answer is seen: every group but the last also follows its way to the
+!> Whether both lead to the same answer is seen: every group but the last also follows its path to the
 !> first point of the next one.
 module gfb_divided_sweep
   use petscsys

@@ -17,7 +17,7 @@ module gfb_sweep_stretch
   public :: stretch_words, read_stretch, merge_histories, merge_arrays, number_of, seam_words, &
             place_text
 
-  !> Two ways to one answer differ by less, over the clearance [1].
+  !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
   character(len=1), parameter :: axes(2) = ['x', 'y']
   character(len=*), parameter :: secants(2) = 'secant_stiffness_'//axes
@@ -222,7 +222,7 @@ contains
     words = ''
     if (before%status /= 0 .or. size(behind%row) == 0) return
     if (size(before%next) == 0) then
-      words = 'the way from the point before finds no answer at '// &
+      words = 'the path from the point before finds no answer at '// &
         place_text(scene, behind%first)//': without groups the sweep would have ended there'
       return
     end if
@@ -235,7 +235,7 @@ contains
       if (difference <= same_answer) cycle
       words = 'another answer than a sweep without groups from '// &
         place_text(scene, behind%first)//' on: there '//trim(compared(i))//' is '//text(one)// &
-        ' on the way from the point before, and '//text(other)//' as it was found'
+        ' on the path from the point before, and '//text(other)//' as it was found'
       return
     end do
   end function seam_words
