@@ -7,7 +7,7 @@ module gfb_scene_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_case, only: contact_case_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
-  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_shell, &
+  use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_word, &
                             meshes_foils, half_width_yes, reduction_guyan
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
@@ -216,7 +216,7 @@ contains
     end if
     if (bearing%leading_edge_condition == leading_edge_periodic) then
       call keys%complain('bearing', 'leading_edge_condition', "must be 'slit' with foil = '"// &
-                         trim(merge('shell', 'beam ', model%foil == foil_shell))// &
+                         foil_word(model%foil)// &
                          "': a foil has edges")
     end if
     if (bearing%length > 0.0_wp .and. foil%width > 0.0_wp .and. &

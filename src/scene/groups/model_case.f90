@@ -6,12 +6,25 @@ module gfb_model_case
   use gfb_value_rules, only: positive, from_to
   implicit none (type, external)
   private
-  public :: model_case_type, read_model_case, meshes_foils
+  public :: model_case_type, read_model_case, meshes_foils, foil_word, foil_meaning, foil_count
 
-  integer, parameter, public :: foil_rigid = 1
-  integer, parameter, public :: foil_elastic_foundation = 2 !! independent bump springs
-  integer, parameter, public :: foil_shell = 3              !! both foils as shells
-  integer, parameter, public :: foil_beam = 4               !! both foils as planar beams
+  !> Rows of the list of foil models, in its order.
+  integer, parameter, public :: foil_rigid = 1, foil_elastic_foundation = 2
+  integer, parameter, public :: foil_shell = 3, foil_beam = 4
+
+  !> A foil model, as the scene knows it; `gfb_foil_models` has what each row builds.
+  type :: foil_row_type
+    character(len=18) :: word    !! in the case file
+    logical :: meshed            !! top foil and bumps have meshes of their own
+    character(len=70) :: meaning !! to the log; of meshed foils behind 'top foil and bumps'
+  end type foil_row_type
+
+  type(foil_row_type), parameter :: foil_rows(*) = [ &
+    foil_row_type('rigid', .false., 'rigid, no structure'), &
+    foil_row_type('elastic_foundation', .false., 'elastic foundation'), &
+    foil_row_type('shell', .true., 'as shells in contact'), &
+    foil_row_type('beam', .true., &
+                  'as planar beams in contact, under the axial mean of the pressure')]
 
   integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
@@ -33,8 +46,6 @@ module gfb_model_case
   integer, parameter, public :: foundation_pressure_local = 1
   integer, parameter, public :: foundation_pressure_axial_mean = 2
 
-  character(len=*), parameter :: foil_words(*) = [character(len=18) :: &
-                                                  'rigid', 'elastic_foundation', 'shell', 'beam']
   character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
@@ -64,7 +75,8 @@ contains
 
     call keys%start_group('model', required=is_bearing(analysis))
     if (is_structure(analysis)) model%foil = foil_shell
-    call keys%choice_key('foil', model%foil, foil_words, 'model of the foils', is_bearing(analysis))
+    call keys%choice_key('foil', model%foil, foil_rows%word, 'model of the foils', &
+                         is_bearing(analysis))
     if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
       call keys%complain('model', 'foil', "must be 'shell' for strips and modes")
     end if
@@ -130,6 +142,28 @@ contains
   elemental function meshes_foils(foil) result(meshes)
     integer, intent(in) :: foil !! the model's, 0 where it is not known
     logical :: meshes
-    meshes = foil == foil_shell .or. foil == foil_beam
+
+    meshes = .false.
+    if (foil > 0) meshes = foil_rows(foil)%meshed
   end function meshes_foils
+
+  !> The word of a foil model in a case file.
+  pure function foil_word(foil) result(word)
+    integer, intent(in) :: foil !! the model's
+    character(len=:), allocatable :: word
+    word = trim(foil_rows(foil)%word)
+  end function foil_word
+
+  !> Number of foil models there are.
+  pure function foil_count() result(models)
+    integer :: models
+    models = size(foil_rows)
+  end function foil_count
+
+  !> What a foil model is, to the log.
+  pure function foil_meaning(foil) result(meaning)
+    integer, intent(in) :: foil !! the model's
+    character(len=:), allocatable :: meaning
+    meaning = trim(foil_rows(foil)%meaning)
+  end function foil_meaning
 end module gfb_model_case

@@ -6,13 +6,14 @@ module gfb_bearing_plan
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: is_symmetric
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
-  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, &
-                            meshes_foils, reduction_guyan, half_width_auto, half_width_yes, &
+  use gfb_model_case, only: foil_elastic_foundation, foil_shell, meshes_foils, foil_word, &
+                            foil_meaning, reduction_guyan, half_width_auto, half_width_yes, &
                             film_scheme_supg, film_scheme_auto, film_order_biquadratic, &
                             foundation_pressure_axial_mean
   use gfb_bearing_case, only: pad_length
   use gfb_operation_case, only: angular_speed
   use gfb_sweep_case, only: sweep_speed
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_reynolds_element, only: film_flow_type, cell_peclet
   use gfb_shaft_motion, only: entraining_speed
   use gfb_foundation_foil, only: foundation_stiffness
@@ -89,7 +90,6 @@ contains
     type(bearing_plan_type), intent(inout) :: plan
     integer, intent(in) :: nodes !! of the film, and of the top foil
     type(run_log_type), intent(in) :: log
-    integer, parameter :: node_unknowns = 5
     integer :: rows, stations
     real(wp) :: unknowns
     logical :: reduced
@@ -108,10 +108,7 @@ contains
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: source, pressure
 
-    if (scene%model%foil == foil_rigid) then
-      call log%line('foil: rigid, no structure')
-      if (scene%bump_foil%present) call log%line('  &bump_foil is not used by a rigid foil')
-    else if (scene%model%foil == foil_elastic_foundation) then
+    if (scene%model%foil == foil_elastic_foundation) then
       source = 'by Walowit-Anno from &bump_foil'
       if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
       pressure = 'local pressure'
@@ -124,12 +121,14 @@ contains
       if (scene%bump_foil%present .and. scene%model%foundation_stiffness > 0.0_wp) then
         call log%line('  &bump_foil is not used: foundation_stiffness is given')
       end if
-    else if (scene%model%foil == foil_shell) then
-      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)// &
-                    ' bumps as shells in contact')
-    else if (scene%model%foil == foil_beam) then
-      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)// &
-                    ' bumps as planar beams in contact, under the axial mean of the pressure')
+    else if (meshes_foils(scene%model%foil)) then
+      call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps '// &
+                    foil_meaning(scene%model%foil))
+    else
+      call log%line('foil: '//foil_meaning(scene%model%foil))
+      if (scene%bump_foil%present) then
+        call log%line('  &bump_foil is not used by a '//foil_word(scene%model%foil)//' foil')
+      end if
     end if
   end subroutine describe_foil
 
