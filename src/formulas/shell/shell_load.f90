@@ -1,69 +1,39 @@
-!> Pressure on the mid-surface of the shell element.
+!> Film pressure on a foil of shells: forces on the nodes that film and foil share.
 module gfb_shell_load
   use gfb_kinds, only: wp
-  use gfb_shell_geometry, only: shell_geometry_type, shell_nodes, shell_unknowns, node_unknowns, &
-    shell_abscissa, bilinear, cross
   implicit none (type, external)
   private
-  public :: shell_pressure_load, shell_pressure_derivative
+  public :: pressure_weights
 
 contains
 
-  !> Nodal forces of a pressure on the upper face (the one the directors point to).
+  !> Weights of the nodal overpressures in the nodal forces, for an element of area one.
   !>
-  !> $$ f = - \int_{\Omega^e} N^T (p - p_a) \, \mathbf{n} \, d\Omega, \qquad
-  !>    \mathbf{n} \, d\Omega = \mathbf{x}_{,\xi} \times \mathbf{x}_{,\eta} \, d\xi \, d\eta $$
+  !> $$ f_a = - \int_{\Omega^e} N_a (p - p_a) \, \mathbf{n} \, d\Omega
+  !>        = - \mathbf{n} \, \Omega^e \sum_b W_{ab} (p_b - p_a), \qquad
+  !>    W_{ab} = \frac{1}{\Omega^e} \int_{\Omega^e} N_a M_b \, d\Omega $$
   !>
-  !> Source: [Gu2020] eq. 2; the nodal pressures are interpolated bilinearly and the mid-surface as
-  !> it was before deformation is loaded, so there are no couples. 2 x 2 Gauss, exact on any
-  !> element.
-  pure subroutine shell_pressure_load(geometry, overpressure, force)
-    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
-    real(wp), intent(in) :: overpressure(shell_nodes) !! p - p_a at the nodes [Pa]
-    real(wp), intent(out) :: force(shell_unknowns)    !! forces [N], couples (zero) [N m]
+  !> Source: [Gu2020] eq. 2. \( M_b \) are the shape functions of the film's element, \( N_a \)
+  !> those of the shells, bilinear in each of the cells between its nodes. The top foil is loaded as
+  !> it was before it deformed: flat, its elements rectangles. So there are no couples, and the
+  !> integral is the product of two over lines of length one.
+  pure function pressure_weights(nodes) result(weight)
+    integer, intent(in) :: nodes          !! of the film's element: 4, round it, or 9, row by row
+    real(wp) :: weight(nodes, nodes)      !! W, (force, overpressure) [1]
 
-    real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
-    real(wp) :: push(3)
-    integer :: i, j, a
+    integer, parameter :: corners = 4
+    ! Over a line: two linear functions; linear functions on both halves times quadratic ones.
+    real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
+    real(wp), parameter :: quadratic(3, 3) = reshape( &
+      [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
+    integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
+    integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3]
+    integer, parameter :: row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
 
-    force = 0.0_wp
-    do j = -1, 1, 2
-      do i = -1, 1, 2
-        call bilinear(i*shell_abscissa, j*shell_abscissa, shape, by_xi, by_eta)
-        push = -dot_product(shape, overpressure)* &
-          cross(matmul(geometry%position, by_xi), matmul(geometry%position, by_eta))
-        do a = 1, shell_nodes
-          associate (first => node_unknowns*(a - 1))
-            force(first + 1:first + 3) = force(first + 1:first + 3) + shape(a)*push
-          end associate
-        end do
-      end do
-    end do
-  end subroutine shell_pressure_load
-
-  !> Exact derivative of `shell_pressure_load` with respect to the nodal pressures.
-  pure subroutine shell_pressure_derivative(geometry, by_pressure)
-    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
-    real(wp), intent(out) :: by_pressure(shell_unknowns, shell_nodes) !! [m2]
-
-    real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
-    real(wp) :: area(3)
-    integer :: i, j, a, b
-
-    by_pressure = 0.0_wp
-    do j = -1, 1, 2
-      do i = -1, 1, 2
-        call bilinear(i*shell_abscissa, j*shell_abscissa, shape, by_xi, by_eta)
-        area = cross(matmul(geometry%position, by_xi), matmul(geometry%position, by_eta))
-        do b = 1, shell_nodes
-          do a = 1, shell_nodes
-            associate (first => node_unknowns*(a - 1))
-              by_pressure(first + 1:first + 3, b) = by_pressure(first + 1:first + 3, b) &
-                - shape(a)*shape(b)*area
-            end associate
-          end do
-        end do
-      end do
-    end do
-  end subroutine shell_pressure_derivative
+    if (nodes == corners) then
+      weight = linear(along, along)*linear(across, across)
+    else
+      weight = quadratic(station_of, station_of)*quadratic(row_of, row_of)
+    end if
+  end function pressure_weights
 end module gfb_shell_load

@@ -13,12 +13,12 @@ module gfb_foil_places
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_foil_mesh, only: top_foil_mesh
   use gfb_bump_contacts, only: set_contact_laws
+  use gfb_shell_load, only: pressure_weights
   use gfb_meshed_foil, only: meshed_foil_type
   implicit none (type)
   private
   public :: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
 
-  integer, parameter :: corners = 4
   real(wp), parameter :: soft_contact = 20.0_wp !! stiffness to begin with, over a bump's
 
 contains
@@ -124,9 +124,7 @@ contains
     end do
   end function place_of
 
-  !> Weights of the nodal pressures in the forces on the top foil, [Gu2020] eq. 2.
-  !>
-  !> The pressure is that of the film's element, the displacement bilinear in each of its cells.
+  !> What the film's elements push, and the weights of their nodal pressures in the forces.
   subroutine add_pressure(film, mesh, element_nodes, yields, foil)
     type(film_mesh_type), intent(in) :: film
     type(local_mesh_type), intent(in) :: mesh
@@ -134,22 +132,12 @@ contains
     logical, intent(in) :: yields !! pressures follow the foil: film and foil in turns, or asperities
     class(meshed_foil_type), intent(inout) :: foil
 
-    ! Integrals over a line of length one: linear function, of halves where the pressure is quadratic,
-    ! times the pressure's.
-    real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
-    real(wp), parameter :: quadratic(3, 3) = reshape( &
-      [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
-    integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
-    integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3], row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
+    integer, parameter :: corners = 4 !! of a bilinear element
     integer :: i, nodes, station(size(element_nodes, 1)), row(size(element_nodes, 1))
     real(wp) :: area, unit(size(element_nodes, 1), size(element_nodes, 1))
 
     nodes = size(element_nodes, 1)
-    if (nodes == corners) then
-      unit = linear(along, along)*linear(across, across)
-    else
-      unit = quadratic(station_of, station_of)*quadratic(row_of, row_of)
-    end if
+    unit = pressure_weights(nodes)
     ! Pressures that yield to the foil couple its nodes; those of a cell are coupled anyway.
     foil%has_room = yields .and. nodes > corners
     foil%pressed = element_nodes
