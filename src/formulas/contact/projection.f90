@@ -1,4 +1,4 @@
-!> Closest point of a bilinear four-node element, and the penetration of a point into its surface.
+!> Closest point of a bilinear four-node element.
 !>
 !> $$ \mathbf{r}(\xi, \eta) = \mathbf{c} + \mathbf{a} \xi + \mathbf{b} \eta + \mathbf{w} \xi \eta $$
 !>
@@ -10,7 +10,7 @@ module gfb_projection
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: project, coordinates_by_point, penetration, penetration_derivative, master_forces
+  public :: project
 
   integer, parameter, public :: master_nodes = 4 !! nodes of an element
 
@@ -217,67 +217,6 @@ contains
       projection%tangent(:, 2) = cross(normal, projection%tangent(:, 1))
     end associate
   end subroutine add_frame
-
-  !> Derivative of the foot's coordinates by the point's position.
-  !>
-  !> $$ \mathbf{H} \, \frac{\partial (\xi, \eta)}{\partial \mathbf{R}}
-  !>    = [\mathbf{r}_{,\xi} \; \mathbf{r}_{,\eta}]^T, \qquad
-  !>    H_{12} = \mathbf{r}_{,\xi} \cdot \mathbf{r}_{,\eta}
-  !>    - (\mathbf{R} - \mathbf{r}) \cdot \mathbf{r}_{,\xi\eta} $$
-  !>
-  !> Zero for a degenerate projection.
-  pure function coordinates_by_point(corner, projection) result(derivative)
-    real(wp), intent(in) :: corner(3, master_nodes) !! positions of the nodes [m]
-    type(projection_type), intent(in) :: projection !! where a node meets its master element
-    real(wp) :: derivative(2, 3)                    !! (coordinate, direction) [1/m]
-    type(surface_type) :: surface
-    real(wp) :: slope(3, 2), hessian(2, 2)
-
-    derivative = 0.0_wp
-    if (projection%status == projection_degenerate) return
-    surface = surface_of(corner)
-    slope = slope_at(surface, projection%coordinates)
-    hessian = hessian_of(slope, surface%twist, projection%away)
-    derivative = matmul(inverse(hessian), transpose(slope))
-  end function coordinates_by_point
-
-  !> How deep a point lies in the surface, [Gu2020] eq. 8; negative above it.
-  !>
-  !> $$ \delta = d_0 - (\mathbf{R} - \mathbf{r}) \cdot \mathbf{n} $$
-  pure function penetration(projection, offset) result(depth)
-    type(projection_type), intent(in) :: projection !! where a node meets its master element
-    real(wp), intent(in) :: offset !! d_0, distance of the mid-surfaces at first touch [m]
-    real(wp) :: depth              !! [m]
-
-    depth = offset - projection%distance
-  end function penetration
-
-  !> Derivative of the penetration by the positions of the point and of the element's nodes.
-  !>
-  !> Exact: the foot's own motion lies in the tangent plane, and \( \mathbf{R} - \mathbf{r} \) is
-  !> parallel to the normal, whose change is at right angles to it. Both drop out.
-  pure subroutine penetration_derivative(projection, by_point, by_node)
-    type(projection_type), intent(in) :: projection !! where a node meets its master element
-    real(wp), intent(out) :: by_point(3)              !! [1]
-    real(wp), intent(out) :: by_node(3, master_nodes) !! (direction, node) [1]
-
-    by_point = -projection%normal
-    by_node = spread(projection%normal, 2, master_nodes)*spread(projection%shape, 1, 3)
-  end subroutine penetration_derivative
-
-  !> Forces on the element's nodes that answer a force on the slave, acting at its foot.
-  !>
-  !> $$ \mathbf{F}_a = -N_a(\xi, \eta) \, \mathbf{f} $$
-  !>
-  !> Source: [Gu2020] 2.2. The couple of the friction at the distance \( d_0 - \delta \) between
-  !> slave and foot stays with the two surfaces, as there.
-  pure function master_forces(projection, force) result(reaction)
-    type(projection_type), intent(in) :: projection !! where a node meets its master element
-    real(wp), intent(in) :: force(3)          !! on the slave [N]
-    real(wp) :: reaction(3, master_nodes)     !! [N]
-
-    reaction = -spread(force, 2, master_nodes)*spread(projection%shape, 1, 3)
-  end function master_forces
 
   !> R - r, relative to the centre: a small element far from the origin loses no digits.
   pure function away_at(surface, point, place) result(away)

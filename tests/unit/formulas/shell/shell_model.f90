@@ -4,7 +4,7 @@ module shell_model
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, &
     shell_unknowns, node_unknowns, shell_abscissa, bilinear, cross
-  use gfb_shell_director, only: shell_directors
+  use shell_director, only: shell_directors
   use gfb_shell_element, only: shell_stiffness
   implicit none (type, external)
   private

@@ -5,7 +5,7 @@ module shell_samples
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, &
     shell_unknowns, node_unknowns, cross
-  use gfb_shell_director, only: corner_normals, rotation_axes
+  use shell_director, only: corner_normals, rotation_axes
   implicit none (type, external)
   private
   public :: sample_section, sample_stand, sample_element, sample_name, flat_element, numbers, &

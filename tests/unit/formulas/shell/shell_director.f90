@@ -3,7 +3,7 @@
 !> Smooth nodes have one director that all elements around share, and rotation axes at right angles
 !> to it. At a kink each element keeps the mean normal of its own side, and the shared axes, at
 !> right angles to the mean of all sides, turn all of these directors together.
-module gfb_shell_director
+module shell_director
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
@@ -180,4 +180,4 @@ contains
     integer :: element
     element = (corner - 1)/shell_nodes + 1
   end function element
-end module gfb_shell_director
+end module shell_director
