@@ -2,6 +2,7 @@
 !> columns of elements.
 module gfb_part_chains
   use gfb_kinds, only: wp
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_film_mesh, only: film_mesh_type
   use gfb_foil_mesh, only: strip_shape_type, dividing_stations, station_positions, &
                            bump_strip_mesh, strip_substructures
@@ -11,8 +12,6 @@ module gfb_part_chains
   implicit none (type, external)
   private
   public :: film_chain, film_columns, strip_chain, column_chain, strip_columns, strip_kinds
-
-  integer, parameter :: shell_unknowns = 5 !! of a node
 
 contains
 
@@ -28,7 +27,7 @@ contains
     if (film%periodic) bound = [bound, film%radius*turn]
     bound = bound(1::film%order)
     allocate (weight(size(bound) - 1))
-    weight = real(film%order*film%rows()*merge(1 + shell_unknowns, 1, shells), wp)
+    weight = real(film%order*film%rows()*merge(1 + node_unknowns, 1, shells), wp)
     columns = chain(bound, weight, film%periodic)
   end function film_chain
 
@@ -61,7 +60,7 @@ contains
     integer, intent(in) :: rows      !! nodes of a station
     type(chain_type) :: columns
 
-    columns = chain(bound, spread(real(shell_unknowns*rows, wp), 1, size(bound) - 1), .false.)
+    columns = chain(bound, spread(real(node_unknowns*rows, wp), 1, size(bound) - 1), .false.)
   end function column_chain
 
   !> Part of every column of a bump foil from the parts of its chain.
@@ -96,7 +95,7 @@ contains
     spine = bump_strip_mesh(shape, rows(:2), half)
     piece = strip_substructures(shape, spine)
     ! Supports inside are those of the symmetry, the same for all.
-    allocate (fixed(shell_unknowns, spine%nodes()), source=.false.)
+    allocate (fixed(node_unknowns, spine%nodes()), source=.false.)
     call find_kinds(spine, fixed, piece)
     kind = piece%kind
   end function strip_kinds

@@ -12,12 +12,11 @@ module gfb_foil_plan
   use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_estimate, only: strip_memory, modes_memory
   use gfb_memory_check, only: show_memory
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
   public :: plan_foil, count_bumps
-
-  integer, parameter :: node_unknowns = 5
 
 contains
 

@@ -4,6 +4,7 @@
 !> peaks: docs/linear_solvers.md has the table. They hold within a factor of 1.5.
 module gfb_memory_estimate
   use gfb_kinds, only: wp
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_solver_case, only: linear_solver_direct, linear_solver_out_of_core, &
                              linear_solver_iterative
   implicit none (type, external)
@@ -14,7 +15,6 @@ module gfb_memory_estimate
 
   real(wp), parameter :: a_rank = 45.0e6_wp       !! a process with its libraries [B]
   real(wp), parameter :: a_film_node = 2.0e3_wp   !! one unknown, and its equation's factors [B]
-  integer, parameter :: node_unknowns = 5
 
 contains
 
