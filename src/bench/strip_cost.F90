@@ -11,7 +11,8 @@ module gfb_strip_cost
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
-  use gfb_foil_structure, only: foil_structure_type, create_foil_structure, destroy_foil_structure
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_assembly, only: create_foil_structure
   use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private

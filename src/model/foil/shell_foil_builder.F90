@@ -4,9 +4,8 @@ module gfb_shell_foil_builder
   use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: this_rank, rank_count
+  use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_model_case, only: coupling_partitioned, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type
@@ -14,35 +13,23 @@ module gfb_shell_foil_builder
   use gfb_part_chains, only: strip_columns, strip_kinds
   use gfb_mesh_dm, only: local_mesh_type, columns_window
   use gfb_matrix_rows, only: copy_row
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
+  use gfb_quad_mesh, only: quad_mesh_type, node_set
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_substructures, only: substructure_type
-  use gfb_foil_structure, only: foil_structure_type, create_foil_structure
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_assembly, only: create_foil_structure
   use gfb_foil_builder, only: shape_on_pad, section_of, plate_section, plate_fixed_edge, &
                               find_symmetry_supports
-  use gfb_contact_set, only: contact_point_type
-  use gfb_bump_contacts, only: bump_contact, line_shares, line_length, crest_name, corner_name, &
-                               contact_sleeve, contact_top
-  use gfb_master_search, only: find_masters
-  use gfb_projection, only: projection_type, project
   use gfb_shell_geometry, only: node_unknowns
   use gfb_shell_foil, only: shell_foil_type
+  use gfb_foil_ranges, only: foil_ranges_type, ranges_of
+  use gfb_shell_contacts, only: add_shell_contacts
   use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
   public :: create_shell_foil
 
-  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
-  integer, parameter :: corners = 4
-
-  !> Unknowns of the ranks, and how a structure's numbers become the foil's.
-  type :: foil_ranges_type
-    integer, allocatable :: top_end(:), bump_end(:) !! (ranks) unknowns of the ranks so far
-    integer :: top_shift = 0, bump_shift = 0 !! from this rank's own numbers, from 0, to the foil's, from 1
-  contains
-    procedure :: of_top => number_of_top
-    procedure :: of_bumps => number_of_bumps
-  end type foil_ranges_type
+  integer, parameter :: radial = 2, axial = 3 !! components of a displacement
 
 contains
 
@@ -66,12 +53,12 @@ contains
     if (allocated(error)) return
     call build_bumps(scene, film, division, scene%model%reduction == reduction_guyan, foil%bumps, error)
     if (allocated(error)) return
-    ranges = ranges_of(foil)
+    ranges = ranges_of(foil%top, foil%bumps)
     foil%owned = foil%top%part%owned_unknowns + foil%bumps%part%owned_unknowns
     call join_stiffnesses(foil, ranges)
     call set_laws(scene, foil)
     foil%contacts%rows = foil%bumps%mesh%rows
-    call add_contacts(scene, film, ranges, foil)
+    call add_shell_contacts(scene, film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
     call add_pressure(film, mesh, element_nodes, &
@@ -122,47 +109,6 @@ contains
     fixed(:, node_set(mesh, 'fixed_edge')) = .true.
     call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)
   end subroutine build_bumps
-
-  !> Numbers of both foils' unknowns, rank by rank: top foil, then bumps.
-  function ranges_of(foil) result(ranges)
-    type(shell_foil_type), intent(in) :: foil
-    type(foil_ranges_type) :: ranges
-    integer, allocatable :: both(:, :)
-    integer :: i
-    PetscErrorCode :: ierr
-
-    allocate (both(2, rank_count()))
-    call MPI_Allgather([foil%top%part%owned_unknowns, foil%bumps%part%owned_unknowns], 2, MPI_INTEGER, both, 2, MPI_INTEGER, PETSC_COMM_WORLD, ierr)
-    ranges%top_end = [(sum(both(1, :i)), i=1, size(both, 2))]
-    ranges%bump_end = [(sum(both(2, :i)), i=1, size(both, 2))]
-    ranges%top_shift = foil%bumps%first + 1
-    ranges%bump_shift = foil%top%first + foil%top%part%owned_unknowns + 1
-  end function ranges_of
-
-  !> Foil's number, from 1, of an unknown of the top foil, from 0; 0 where there is none.
-  elemental function number_of_top(self, number) result(of_foil)
-    class(foil_ranges_type), intent(in) :: self
-    integer, intent(in) :: number
-    integer :: of_foil
-    integer :: owner
-
-    of_foil = 0
-    if (number < 0) return
-    owner = findloc(self%top_end > number, .true., 1)
-    of_foil = number + 1
-    if (owner > 1) of_foil = of_foil + self%bump_end(owner - 1)
-  end function number_of_top
-
-  !> The same of an unknown of the bumps.
-  elemental function number_of_bumps(self, number) result(of_foil)
-    class(foil_ranges_type), intent(in) :: self
-    integer, intent(in) :: number
-    integer :: of_foil
-
-    of_foil = 0
-    if (number < 0) return
-    of_foil = number + 1 + self%top_end(findloc(self%bump_end > number, .true., 1))
-  end function number_of_bumps
 
   !> Foil's numbers of this rank's own rotations.
   function turning(structure, shift) result(list)
@@ -249,118 +195,6 @@ contains
       end if
     end do
   end subroutine copy_rows
-
-  !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
-  subroutine add_contacts(scene, film, ranges, foil)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(foil_ranges_type), intent(in) :: ranges
-    type(shell_foil_type), intent(inout) :: foil
-
-    type(contact_point_type), allocatable :: point(:)
-    integer :: i, found
-
-    associate (mesh => foil%bumps%mesh)
-      allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
-      found = 0
-      do i = 1, set_count(mesh, corner_name)
-        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
-      end do
-      do i = 1, scene%bump_foil%bumps
-        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
-      end do
-      foil%contacts%point = point(:found)
-    end associate
-    call find_masters_of_crests(scene, film, ranges, foil)
-  end subroutine add_contacts
-
-  !> Contacts of a line's own nodes that are not held everywhere.
-  subroutine add_line(foil, ranges, line, law, number, point, found)
-    type(shell_foil_type), intent(in) :: foil
-    type(foil_ranges_type), intent(in) :: ranges
-    integer, intent(in) :: line(:)
-    integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
-    integer, intent(in) :: number !! of the line
-    type(contact_point_type), intent(inout) :: point(:)
-    integer, intent(inout) :: found
-
-    real(wp), allocatable :: length(:)
-    integer :: i, k, slave(axial)
-
-    if (size(line) == 0) return
-    length = line_shares(foil%bumps%mesh, line)*line_length(foil%bumps%mesh, line)
-    do i = 1, size(line)
-      if (.not. foil%bumps%owns(line(i))) cycle
-      slave = [(ranges%of_bumps(foil%bumps%unknown(k, line(i))), k=1, axial)]
-      if (.not. any(slave > 0)) cycle
-      found = found + 1
-      point(found) = bump_contact(law, line(i), number, length(i))
-      point(found)%slave = slave
-    end do
-  end subroutine add_line
-
-  !> The top foil's elements above the crests.
-  subroutine find_masters_of_crests(scene, film, ranges, foil)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(foil_ranges_type), intent(in) :: ranges
-    type(shell_foil_type), intent(inout) :: foil
-
-    type(projection_type) :: foot
-    type(quad_mesh_type) :: above
-    real(wp), allocatable :: place(:, :), coordinates(:, :)
-    real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function
-    integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :), pressed(:)
-    integer :: i, k, before
-
-    crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
-    allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
-    place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
-    above = top_mesh(scene, film, stations_above(film, place(tangential, :)))
-    before = lbound(above%position, 2) - 1
-    call find_masters(place, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
-    do i = 1, size(crest)
-      nodes(:, i) = 1
-      if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)
-    end do
-    number = ranges%of_top(foil%top%numbers_at([nodes]))
-    do i = 1, size(crest)
-      if (element(i) == 0) cycle
-      associate (point => foil%contacts%point(crest(i)))
-        foot = project(above%position(:, nodes(:, i)), place(:, i))
-        ! A crest on a line of nodes has one master; the others would only fill the matrix.
-        pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
-        point%share = foot%shape(pressed)
-        point%master = number(:axial, (i - 1)*corners + pressed)
-      end associate
-    end do
-    ! A crest beyond the top foil's edge touches nothing.
-    kept = [(i, i=1, size(foil%contacts%point))]
-    kept = pack(kept, foil%contacts%point%law == contact_sleeve .or. has_master(foil%contacts%point))
-    foil%contacts%point = foil%contacts%point(kept)
-  end subroutine find_masters_of_crests
-
-  !> The stretch of the film's stations above some places, with a column to spare on both sides.
-  pure function stations_above(film, x) result(window)
-    type(film_mesh_type), intent(in) :: film
-    real(wp), intent(in) :: x(:) !! from the leading edge on [m]
-    integer :: window(2)
-    real(wp) :: station(film%stations())
-
-    window = [1, 0]
-    if (size(x) == 0) return
-    station = film%radius*(film%station_angle - film%station_angle(1))
-    window(1) = max(1, count(station <= minval(x)) - 1)
-    window(2) = min(size(station), max(2, count(station < maxval(x)) + 2))
-    window(1) = min(window(1), window(2) - 1)
-  end function stations_above
-
-  !> Whether a contact has a master of its own.
-  elemental function has_master(point) result(has)
-    type(contact_point_type), intent(in) :: point
-    logical :: has
-    has = size(point%share) > 0
-  end function has_master
 
   !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
   subroutine count_entries(foil, film)

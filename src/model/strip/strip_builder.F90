@@ -20,7 +20,8 @@ module gfb_strip_builder
   use gfb_mesh_dm, only: columns_window
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
   use gfb_substructures, only: substructure_type
-  use gfb_foil_structure, only: foil_structure_type, create_foil_structure
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_assembly, only: create_foil_structure
   use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports
   use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
                               plate_moved

@@ -21,7 +21,8 @@ module gfb_foil_builder
   use gfb_part_chains, only: strip_chain, column_chain, strip_kinds
   use gfb_mesh_dm, only: columns_window
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
-  use gfb_foil_structure, only: foil_structure_type, create_foil_structure
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
   public :: build_part, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &

@@ -12,6 +12,7 @@ module gfb_modes_study
   use gfb_scene, only: scene_type
   use gfb_modes_case, only: part_strip
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_assembly, only: assemble_mass
   use gfb_foil_builder, only: foil_plan_type, build_part
   use gfb_foil_plan, only: plan_foil
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
@@ -67,7 +68,7 @@ contains
     associate (component => self%component, modes => self%result%modes, shift => self%result%shift)
       call build_part(scene, self%plan, component, error)
       if (allocated(error)) return
-      call component%assemble_mass(mass, error)
+      call assemble_mass(component, mass, error)
       if (allocated(error)) return
       shift = plate_eigenvalue(component)
       call free_motions(component, mass, motions)

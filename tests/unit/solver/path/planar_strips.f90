@@ -7,7 +7,7 @@ module planar_strips
                            axial_rows, begins_with_corner
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_foil_structure, only: create_foil_structure
+  use gfb_foil_assembly, only: create_foil_structure
   use gfb_contact_law, only: contact_law_type, law_coulomb
   use gfb_contact_set, only: contact_point_type
   use gfb_strip_system, only: strip_system_type
