@@ -42,7 +42,7 @@ in another, and then one more step is made. Scenes without an answer must be ref
 **Traps stay on.** PETSc marks what it cannot evaluate with 1/0, so that inside of its solvers the trap of zero is put off
 and on again whenever gfb's own equations are evaluated; invalid and overflow stop the program there, too, as in MUMPS,
 BLAS and LAPACK, which need no exception. A unit test (`newton_test`) sees that traps are on in gfb's equations and after
-every way a solve can end.
+every manner in which a solve can end.
 
 **Memory.** The release build under valgrind (memcheck), on one rank: no access outside of what is allocated, nothing used
 before it is set, in gfb or in a library that was given it, and no block lost that gfb allocated. What libraries allocate

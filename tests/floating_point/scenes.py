@@ -60,7 +60,7 @@ class Scene:
 
 SWEEP = {"parameter": "load", "values": (60.0, 80.0, 100.0)}
 SCENES = [
-    Scene("rigid, shaft held, tilted", merged(RIGID, scene=HELD, operation={**PLACE, **TILT}), ranks=(1, 4), memory=True),
+    Scene("rigid, fixed shaft, tilted", merged(RIGID, scene=HELD, operation={**PLACE, **TILT}), ranks=(1, 4), memory=True),
     Scene("rigid, under a load", merged(RIGID, operation=LOAD), memory=True),
     Scene("rigid ring, whole width", merged(RIGID, operation=LOAD, bearing=RING, model={"half_width": "no"}), ranks=(1, 4)),
     Scene("rigid, upwind elements", merged(RIGID, scene=HELD, operation={**PLACE, "speed_rpm": 120000.0},
@@ -73,7 +73,7 @@ SCENES = [
                                           shaft_contact=ROUGH), FOILS, memory=True),
     Scene("springs, sweep of speed", merged(SPRINGS, operation=LOAD, sweep={
         "parameter": "speed_rpm", "values": (30000.0, 40000.0, 60000.0)}), ranks=(1, 4), memory=True),
-    Scene("springs, shaft held, sweep of tilt", merged(MEAN, operation=LOAD, sweep={
+    Scene("springs, fixed shaft, sweep of tilt", merged(MEAN, operation=LOAD, sweep={
         "parameter": "tilt_x", "values": (0.0, 1.0e-4, 2.0e-4, 3.0e-4), "hold_position": True}), ranks=(1, 4), groups=2),
     Scene("springs, film and foil in turns", merged(MEAN, scene=HELD, operation=PLACE,
                                                     model={"coupling": "partitioned"}), FOILS, memory=True),
@@ -97,7 +97,7 @@ SCENES = [
     Scene("shells, condensed", SHELL, FOILS, ranks=(1, 4), memory=True),
     Scene("shells, full order, out of core", merged(SHELL, model={"reduction": "none"}, solver={
         "linear_solver": "out_of_core"}), FOILS, memory=True),
-    Scene("shells, shaft held and tilted, stability", merged(
+    Scene("shells, fixed and tilted shaft, stability", merged(
         SHELL, scene=HELD, operation={**PLACE, **TILT, "load": None}, solver={"stability": True}), FOILS, ranks=(1, 4)),
     Scene("strip under pressure", PRESSED, FOILS, ranks=(1, 4), memory=True),
     Scene("strip between plates, loop", PLATES, FOILS, ranks=(1, 4), memory=True),

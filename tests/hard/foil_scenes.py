@@ -29,7 +29,7 @@ def off(one, other):
     return float(numpy.abs(one.eccentricity - other.eccentricity).max()/CLEARANCE)
 
 
-@scene("Loads", "springs, 1e-6, 1, 100 and 1,000 N: balance, held and free alike", case=SPRINGS, iterations=400,
+@scene("Loads", "springs, 1e-6, 1, 100 and 1,000 N: balance, fixed and free alike", case=SPRINGS, iterations=400,
        loads=(1.0e-6, 1.0, 100.0, 1000.0))
 @scene("Loads", "beams fixed at the leading edge, 1, 20, 100 and 150 N: the same", case=LEADING,
        loads=(1.0, 20.0, 100.0, 150.0), iterations=600)
@@ -74,7 +74,7 @@ def light(trial):
                f"{1.0e6*first['leading_edge_lift']:.1f} um")
 
 
-@scene("Speeds", "springs, 1,000 to 120,000 rpm, 50 N: faster is thicker, held and free alike", case=SPRINGS,
+@scene("Speeds", "springs, 1,000 to 120,000 rpm, 50 N: faster is thicker, fixed and free alike", case=SPRINGS,
        load=50.0, speeds=(1000.0, 10000.0, 60000.0, 120000.0))
 @scene("Speeds", "beams fixed at the leading edge, 10,000 to 120,000 rpm, 20 N: the same", case=LEADING, load=20.0,
        iterations=500,
@@ -90,7 +90,7 @@ def speeds(trial, case, load, speeds):
     trial.says("balance; least gaps " + ", ".join(f"{gap*1e6:.2f}" for gap in gaps) + " um")
 
 
-@scene("Speeds", "beams, 1,000 rpm, 20 N: balance, held and free alike", iterations=200)
+@scene("Speeds", "beams, 1,000 rpm, 20 N: balance, fixed and free alike", iterations=200)
 def slow_beams(trial):
     answer = trial.balanced(RESTING, operation={"load": (-20.0, 0.0), "speed_rpm": 1000.0})
     trial.way_back(RESTING, answer, 1.0e-6, operation={"speed_rpm": 1000.0})
@@ -153,7 +153,7 @@ def exponents(trial):
         trial.says(f"{exponent:g}: off by {off(base, other):.0e} C")
 
 
-@scene("Foils", "beams of 25 um to 0.5 mm, fixed at the leading edge, 5 N: balance, held and free alike", iterations=800)
+@scene("Foils", "beams of 25 um to 0.5 mm, fixed at the leading edge, 5 N: balance, fixed and free alike", iterations=800)
 def sheets(trial):
     """A stiffer foil keeps the shaft nearer."""
     places = []
@@ -183,7 +183,7 @@ def thick(trial):
     trial.says(f"the resting branch ends at {math.hypot(*fold.force):.2f} N")
 
 
-@scene("Bumps", "beams on 3 bumps: balance, held and free alike", bumps=3, case=RESTING, load=10.0,
+@scene("Bumps", "beams on 3 bumps: balance, fixed and free alike", bumps=3, case=RESTING, load=10.0,
        iterations=800)
 @scene("Bumps", "beams on 60 bumps: the same", bumps=60, case=LEADING, load=20.0, iterations=800)
 def bumps(trial, bumps, case, load):
@@ -268,7 +268,7 @@ def loose(trial):
                   bump_foil={"fixed_edge": "none", "fixed_line": None})
 
 
-@scene("Near-singular supports", "beams without friction, the strip held by half a flat alone", iterations=200)
+@scene("Near-singular supports", "beams without friction, the strip fixed by half a flat alone", iterations=200)
 def slippery(trial):
     """From two starts."""
     smooth = {"friction_top": 0.0, "friction_sleeve": 0.0}

@@ -21,12 +21,12 @@ HEAD = """# Hard cases
 Written by `tests/hard/hard_scenes.py --page docs/measured/hard_cases.md`; run by `tools/test --hard`.
 
 Scenes at the ends of what gfb computes. Each has something that must come out and that does not come from gfb: a
-closed form, an invariant of the ring, the balance of forces, a limit, a monotone change, the same by two ways (full
-and condensed, half and whole width, held and free, other units, other starts, other steps), or a refusal by name where
+closed form, an invariant of the ring, the balance of forces, a limit, a monotone change, the same by two methods (full
+and condensed, half and whole width, fixed and free, other units, other starts, other steps), or a refusal by name where
 there is no answer: a touch-down, a fold, or a scene that is refused as it is read. Besides, every run must end with
 status 0 or 2 (1 where it is refused as it is read), without NaN, and within a bound on its Newton iterations.
 
-Iterations and factorizations are those of the dearest run of a scene, the time that of all its runs.
+Iterations and factorizations are those of the most expensive run of a scene, the time that of all its runs.
 
 A rigid film with ripples is nothing a case file can ask for; `tests/unit/formulas/film/film_convergence_test.pf` has one, three and
 a half waves of a tenth of the gap without side leakage, 16 elements a wave, against Runge-Kutta's method. At a bearing

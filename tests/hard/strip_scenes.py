@@ -97,7 +97,7 @@ def hard_contact(trial):
     trial.says("differences fall by " + ", ".join(f"{ratio:.2f}" for ratio in ratios))
 
 
-@scene("Contact stiffness", "1e15 N/m^2, a penetration of 1e-12 m: the travel that 1e13 and 1e14 foretell", iterations=100)
+@scene("Contact stiffness", "1e15 N/m^2, a penetration of 1e-12 m: the travel that 1e13 and 1e14 predict", iterations=100)
 def hardest_contact(trial):
     """Newton's residual stays at the round-off of the contact forces; the differences still fall by ten a decade."""
     travel = [trial.solve(STRIP, contact={**SMOOTH, "normal_stiffness": 10.0**power})["maximum_deflection"]
@@ -129,7 +129,7 @@ def stiffness_of(trial, thickness):
     return trial.solve(case)["loading_stiffness"]
 
 
-@scene("Foils", "25 um to 0.5 mm: bending as t^3, and what stretching and shear give way as t", iterations=400)
+@scene("Foils", "25 um to 0.5 mm: compliance of bending as 1/t^3, of stretching and shear as 1/t", iterations=400)
 def thickness(trial):
     """Compliance a/t^3 + b/t: a and b of two thicknesses foretell the others'."""
     sheets = numpy.array([25.0e-6, 50.0e-6, 0.1e-3, 0.25e-3, 0.5e-3])
@@ -139,7 +139,7 @@ def thickness(trial):
     trial.that("stretching gives way, too", b > 0.0)
     worst = numpy.abs(found/wanted - 1.0).max()
     trial.below("compliance as foretold", worst, 2.0e-2)
-    trial.says(f"compliance as foretold to {worst:.0e}")
+    trial.says(f"compliance as predicted to {worst:.0e}")
 
 
 def compliance(trial, ratio):
@@ -259,7 +259,7 @@ def many(trial):
     trial.says(f"the same to {abs(each[2]/each[1] - 1.0):.0e}")
 
 
-@scene("Bumps", "one, free at both ends, no friction: nothing holds it along the plates; full and condensed")
+@scene("Bumps", "one, free at both ends, no friction: nothing fixes it along the plates; full and condensed")
 def single(trial):
     case = merged(STRIP, contact=SMOOTH, bump_foil={"bumps": 1}, strip_load={"maximum_force": 10.0})
     one, full = (trial.solve(case, model={"reduction": kind}) for kind in ("guyan", "none"))
@@ -290,7 +290,7 @@ def stretched(trial):
     trial.says(f"the same to {abs(few/many_ones - 1.0):.0e}")
 
 
-@scene("Reversals", "a strip loaded and let go in one step each: as in twenty", iterations=400)
+@scene("Reversals", "a strip loaded and unloaded in one step each: as in twenty", iterations=400)
 def one_step(trial):
     """The load turns back at every step."""
     contact = {"friction_top": 0.2, "friction_sleeve": 0.2}

@@ -1,8 +1,8 @@
 """Ten bumps of [Gu2020] as shells: full against condensed, and ways to condense.
 
 The linear strip (table 1, case 1; whole width, first corner line clamped, all corner lines held in v) goes
-from its mesh to all displacements in three ways: full; reduced with equal pieces condensed once; reduced
-with each of its 30 pieces condensed on its own. Then one piece of each kind is condensed by
+from its mesh to all displacements by three methods: full; reduced with equal substructures condensed once; reduced
+with each of its 30 substructures condensed on its own. Then one of each kind is condensed by
 MatSchurComplement with an exact inner solver, as gfb does it, and by MUMPS' own Schur complement. Last, the
 speed of the element's stiffness. CPU times of one rank; gfb_bench_condensation, which the build leaves
 beside gfb, does the work.
@@ -16,7 +16,7 @@ from gfb.run import call
 from gfb.tool import stop
 
 MESHES = ((12, 3, 50), (48, 12, 50), (24, 6, 100), (24, 6, 200))  # elements of an arc, of a flat, over the width
-WAYS = {"full": "full", "congruent": "reduced, equal pieces once", "single": "reduced, each piece"}
+WAYS = {"full": "full", "congruent": "reduced, equal substructures once", "single": "reduced, each substructure"}
 STEPS = {"set_up": "set-up", "factor": "factor", "refactor": "refactor", "solve": "solve",
          "recovery": "recovery"}
 ONCE = ("set_up", "factor", "solve", "recovery")  # from the mesh to one answer
@@ -93,12 +93,12 @@ def way_table(measured):
             "same pattern; solve: one right side; recovery: displacements of all nodes;\n"
             "once: set-up + factor + solve + recovery; over full: median of the ratios inside a run;\n"
             "difference: largest from the full strip's displacements (rotations), over the largest\n\n"
-            f"mesh            way{'':25}unknowns pieces condensed   " +
+            f"mesh            method{'':30}unknowns   super-elements   " +
             "".join(f"{words:>9}" for words in STEPS.values()) + "     once   over full   difference\n" +
-            f"{'':72}" + f"{'[s]':>9}"*(len(STEPS) + 1) + "\n")
+            f"{'':79}" + f"{'[s]':>9}"*(len(STEPS) + 1) + "\n")
     for mesh, runs in measured.items():
         for way, words in WAYS.items():
-            text += (f"{label(mesh):15} {words:27} {runs[0][f'{way}.unknowns']:8.0f}"
+            text += (f"{label(mesh):15} {words:35} {runs[0][f'{way}.unknowns']:8.0f}"
                      f"{runs[0][f'{way}.condensed']:17.0f}")
             text += " "*3 + "".join(f"{median(runs, f'{way}.{step}'):9.4f}" for step in STEPS)
             text += f"{statistics.median(once(one, way) for one in runs):9.3f}"
@@ -106,10 +106,10 @@ def way_table(measured):
                 over = ratio(runs, lambda one, way=way: once(one, way), lambda one: once(one, "full"))
                 text += f"{over:12.2f}{max(one[f'{way}.difference'] for one in runs):13.1e}"
             text += "\n"
-    text += ("\nratios to the full strip       mesh            factor refactor  solve and recovery   "
-             "set-up, each piece / equal ones once\n")
+    text += ("\nratios to the full strip              mesh            factor refactor  solve and recovery   "
+             "set-up, each substructure / equal ones once\n")
     for mesh, runs in measured.items():
-        text += (f"  reduced, equal pieces once   {label(mesh):15} "
+        text += (f"  reduced, equal substructures once   {label(mesh):15} "
                  f"{ratio(runs, *pair('factor')):6.2f}{ratio(runs, *pair('refactor')):9.2f}"
                  f"{ratio(runs, lambda one: answer(one, 'congruent'), lambda one: answer(one, 'full')):20.2f}"
                  f"{ratio(runs, lambda one: one['single.set_up'], lambda one: one['congruent.set_up']):39.2f}\n")
@@ -128,7 +128,7 @@ def answer(one, way):
 
 def complement_table(measured):
     """The two ways to form the complement."""
-    text = ("\none piece of each kind condensed, its stiffness at hand; difference over the largest entry\n\n"
+    text = ("\none substructure of each kind condensed, its stiffness at hand; difference over the largest entry\n\n"
             "mesh            kinds  largest complement   MatSchurComplement [s]   MUMPS' own [s]   ratio   "
             "difference\n")
     for mesh, runs in measured.items():
@@ -169,7 +169,7 @@ def draw(measured, path):
             left.annotate(f"{seconds:.2g} s" if seconds < 10.0 else f"{seconds:.0f} s", (place, bottom),
                           xytext=(0, 2), textcoords="offset points", ha="center", fontsize=8)
             places.append(place)
-            words.append({"full": "full", "congruent": "equal\nonce", "single": "each\npiece"}[way])
+            words.append({"full": "full", "congruent": "equal\nonce", "single": "each\nsubstructure"}[way])
             place += 1.0
         left.annotate(label(mesh), (place - 2.0, -0.17), xycoords=("data", "axes fraction"), ha="center", fontsize=9)
         place += 0.6
@@ -186,7 +186,7 @@ def draw(measured, path):
         right.bar_label(charted, fmt="%.2g", fontsize=8)
     right.set_xticks(range(len(measured)), [f"{label(mesh)}\n{5*runs[0]['complement.largest']:.0f} retained"
                                             for mesh, runs in measured.items()], fontsize=8)
-    right.set(yscale="log", ylabel="CPU time, three kinds [s]", title="one piece of each kind condensed")
+    right.set(yscale="log", ylabel="CPU time, three kinds [s]", title="one substructure of each kind condensed")
     right.margins(y=0.2)
     right.grid(axis="y", alpha=0.3)
     right.legend(fontsize=8, loc="upper left")

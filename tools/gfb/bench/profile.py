@@ -158,7 +158,7 @@ WORDS = """## What was changed, and what did not pay
 - Exact zeros stay in condensed matrices: without them PETSc's products, which go by blocks of equal rows, are 1.3 times
   slower.
 - Factors of an earlier matrix with GMRES, as strips use them, do not pay for bearings: 10 factorizations instead of 30 on
-  209 x 16 elements, but 290 iterations, each as dear as a tenth of a factorization: 1.2 times the CPU time.
+  209 x 16 elements, but 290 iterations, each as expensive as a tenth of a factorization: 1.2 times the CPU time.
 - Looser GMRES for strips (1e-2 or 3e-2 for 1e-3): 76 to 101 iterations for 100 to 106; 0.1: eight more steps of Newton's
   method. Left as it was.
 - Orderings: PORD is the best or next to it for bearings (approximate minimum fill: 1.0 to 1.3 times the operations, minimum

@@ -397,7 +397,7 @@ def page_head(measured, options):
     return f"""# What scales, and what does not
 
 ```
-tools/bench scaling --docs           # hours, most of the machine's memory; goes on with --reuse where it was stopped
+tools/bench scaling --docs           # hours, most of the machine's memory; --reuse resumes it where it was stopped
 tools/bench scaling --quick          # minutes
 ```
 {quick}
@@ -421,7 +421,7 @@ GROWTH = """## Growth
 
 Strips of ten bumps of [Gu2020] table 1, case 1, under 0.2 MPa in two steps with friction 0.1 (one step without
 friction, where the matrix is symmetric and positive), and the bearing of section 4.2 under 100 N from a cold start;
-half the width is solved. A level has about three times the unknowns of the one before, by shorter elements both ways
+half the width is solved. A level has about three times the unknowns of the one before, by shorter elements in both directions
 or, with `more bumps`, by more of 12 + 3 x 48 elements; these have no friction, because slip travels from bump to bump
 and needs more Newton iterations the more bumps there are, whatever a solver does. `unknowns, full order`: of the same
 mesh without condensation; those of film and shaft, some 7 %, are in a bearing's.

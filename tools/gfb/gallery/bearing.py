@@ -90,11 +90,11 @@ def answer_rows(results):
     rows = [["e/C", *(position_words(position(one)) for one in results)],
             ["attitude angle [deg]", *(f"{one['attitude_angle']:.1f}" for one in results)],
             ["smallest film, midplane and edges [um]", *(gaps(one) for one in results)],
-            ["place of the thinnest film at the midplane [deg]", *(f"{thinnest(one):.1f}" for one in results)],
+            ["angle of the thinnest film at the midplane [deg]", *(f"{thinnest(one):.1f}" for one in results)],
             ["largest and smallest pressure over p_a", *(pressures(one) for one in results)],
             ["largest deflection at the midplane, sag in it [um]",
              *(f"{MICRO*midplane(one, 'deflection').max():.1f}, {MICRO*sag(one):.1f}" for one in results)],
-            ["largest way towards the shaft, midplane and edges [um]",
+            ["largest displacement towards the shaft, midplane and edges [um]",
              *(f"{-MICRO*midplane(one, 'deflection').min():.1f}, "
                f"{-MICRO*one.film.fields['deflection'][:, -1].min():.1f}" for one in results)],
             ["lift of the leading edge, midplane and edges [um]", *(lifts(one, "leading") for one in results)],
@@ -102,7 +102,7 @@ def answer_rows(results):
             ["crest length without contact", *(f"{100.0*one['lifted_length']:.1f} %" for one in results)],
             ["friction torque [N mm]", *(f"{1.0e3*one['friction_torque']:.2f}" for one in results)]]
     if any("stability" in one.summary for one in results):
-        rows.append(["modes of the foils that grow at a held shaft (0: stable)",
+        rows.append(["modes of the foils that grow with a fixed shaft (0: stable)",
                      *map(stability_words, results)])
     return rows
 

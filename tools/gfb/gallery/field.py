@@ -81,7 +81,7 @@ def along_axis(result):
 
 def tell_shown(page, found, missed, draw, words):
     """Pictures of the answers."""
-    page.say("The shaft is held where it floats without tilt under 100 N at 30,000 rpm. Resting: the free leading edge "
+    page.say("The shaft is fixed where it floats without tilt under 100 N at 30,000 rpm. Resting: the free leading edge "
              "lies on the bumps; lifted: it stands off them.")
     for number, answer in enumerate(found):
         page.took(list(answer.held.values()))
@@ -95,7 +95,7 @@ def close(runs, page, found, short, heads, numbers):
     page.tell_verdicts()
     page.short = f"{found[0].name}: {short}; {page.count()}."
     page.head("What the paper leaves open, and what it does")
-    page.say("At which equilibrium the shaft is held; fixed edges, friction and mesh. [Fig. 11b](fig11b.md) has the "
+    page.say("At which equilibrium the shaft is fixed; fixed edges, friction and mesh. [Fig. 11b](fig11b.md) has the "
              "torques of more variants.")
     page.variants(f"Resting branch, phi_y = {radians(TILT)}, one thing changed", runs,
                   [(f"gu2020_fig11b_{model}", HELD) for model in MODELS],

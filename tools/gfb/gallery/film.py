@@ -67,10 +67,10 @@ def judge_fig9(page, shown):
     for words, place in (("beginning", lambda theta: theta < BEGIN), ("end", lambda theta: theta > END)):
         page.judge(f"at the {words} of the film sub-ambient pressure separates the top foil from the bumps and bends "
                    "it towards the shaft.", {name: leaves(one, place) for name, one in shown.items()},
-                   "Smallest p/p_a there and largest way towards the shaft [um]: "
+                   "Smallest p/p_a there and largest displacement towards the shaft [um]: "
                    + each(lambda one, there=place: "{:.3f}, {:.1f}".format(*suction(one, there)))
-                   + f" (Criterion: pressure below {SUCTION} p_a, way above {MICRO*OFF:.0f} um.)")
-    page.judge("the weld holds the top foil, so that a wave of pressure and film stands near the welded edge.",
+                   + f" (Criterion: pressure below {SUCTION} p_a, displacement above {MICRO*OFF:.0f} um.)")
+    page.judge("the weld restrains the top foil, so that a wave of pressure and film stands near the welded edge.",
                {name: wave(one) > WAVE for name, one in shown.items() if welded_behind(one)},
                f"Fall of the film thickness towards the trailing edge, over its largest value behind {END:.0f} "
                "degrees: "
@@ -84,7 +84,7 @@ def welded_behind(result):
 
 
 def suction(result, place):
-    """Smallest pressure over the ambient one, and largest way towards the shaft [um], where `place` says."""
+    """Smallest pressure over the ambient one, and largest displacement towards the shaft [um], where `place` says."""
     there = place(result.film.theta)
     return (result.film.fields["pressure"][there].min()/ambient(result),
             -MICRO*result.film.fields["deflection"][there].min())

@@ -46,7 +46,7 @@ def draw(runs, folder):
                 "lift of the leading edge, midplane and edges [um]", "stability", "independent",
                 "gfb less independent"],
                rows, words=3)
-    page.say("`stability`: negative eigenvalues of the foils' stiffness, shaft held, 0: stable; in brackets the stiffness, "
+    page.say("`stability`: negative eigenvalues of the foils' stiffness, shaft fixed, 0: stable; in brackets the stiffness, "
              "over p_a/C, of the mode nearest to a change (within 0.01 it is nearly neutral). "
              + ("" if any("stability" in point for *_, point in points) else
                 "This version of gfb does not compute it. ")

@@ -168,7 +168,7 @@ def draw_pressed(runs, page, case, known, load):
                f"At most {max(off_plain_known(off_plain)):.3f} um off with friction along x (criterion: "
                f"{SAME*largest:.3f} um, {100*SAME:.1f} % of the largest deflection).")
     page.judge("the mesh is fine enough, by comparison with a mesh twice as fine.", change < MESH_WITHIN,
-               f"On twice the elements every way the deflections change by up to {100.0*change:.1f} % of the largest "
+               f"On twice the elements in every direction the deflections change by up to {100.0*change:.1f} % of the largest "
                f"(criterion: {100.0*MESH_WITHIN:.0f} %; the paper names none).")
     page.tell_verdicts()
     page.short = (f"within {max(off_plain_known(off_plain)):.3f} um of the independent solution; friction lowers bump "
@@ -224,7 +224,7 @@ ANSWERS = (("maximum_deflection", "w_max_um", MICRO, "travel [um]", 3), ("loadin
 def draw_four(runs, folder):
     """Fig. 8a."""
     known = independent()["case2"]
-    page = Page("fig8a", "[Gu2020] fig. 8a: four bumps between plates, pressed and let go", folder, STRIP_FRAME)
+    page = Page("fig8a", "[Gu2020] fig. 8a: four bumps between plates, loaded and unloaded", folder, STRIP_FRAME)
     strips = [("both ends free", {}, known["four_bumps_both_ends_free"]),
               ("a flat before the first bump, its edge clamped", CLAMPED, known["four_bumps_flat_edge_clamped"])]
     return draw_loop(runs, page, "gu2020_strip_case2_four_bumps", strips)
@@ -233,7 +233,7 @@ def draw_four(runs, folder):
 def draw_six(runs, folder):
     """Fig. 8b."""
     known = independent()["case2"]
-    page = Page("fig8b", "[Gu2020] fig. 8b: six bumps between plates, pressed and let go", folder, STRIP_FRAME)
+    page = Page("fig8b", "[Gu2020] fig. 8b: six bumps between plates, loaded and unloaded", folder, STRIP_FRAME)
     strips = [("both ends free", {}, None), ("both ends free, friction 0.1", LOW,
                                             known["six_bumps_both_ends_free_friction_0.1"]),
               ("a flat before the first bump, its edge clamped", CLAMPED, None)]
@@ -269,10 +269,10 @@ def draw_loop(runs, page, case, strips):
                f"At most {100.0*worst:.2f} % off (criterion: {100.0*LOOP_WITHIN:.0f} %); the lost work depends on the "
                "friction law's regularisation, see below.")
     page.judge("friction makes a loop, and the work it loses is simulated.", base["dissipated_energy"] > 0.0,
-               f"{MILLI*base['dissipated_energy']:.3f} mJ are lost, {100.0*lost_share(base):.0f} % of the work done on "
-               "the way up.")
+               f"{MILLI*base['dissipated_energy']:.3f} mJ are lost, {100.0*lost_share(base):.0f} % of the work done "
+               "under growing load.")
     page.judge("the mesh is fine enough, by comparison with a mesh twice as fine.", max(changes) < MESH_WITHIN,
-               f"On twice the elements every way travel, stiffness and lost work change by "
+               f"On twice the elements in every direction travel, stiffness and lost work change by "
                f"{', '.join(f'{100.0*one:.1f} %' for one in changes)} (criterion: {100.0*MESH_WITHIN:.0f} %).")
     page.tell_verdicts()
     page.short = (f"travel {MICRO*base['maximum_deflection']:.1f} um, stiffness {1.0e-3*base['loading_stiffness']:.0f} "
@@ -293,7 +293,7 @@ def tell_open_loop(runs, page, case):
     both = [{"contact.friction_top": one, "contact.friction_sleeve": one} for one in FRICTIONS]
     variants = [("the file as it is", {})]
     variants += [("friction (table 1: 0.2)", one) for one in both]
-    variants += [("how the strip is held", {"bump_foil.fixed_edge": "leading", "bump_foil.fixed_line": one})
+    variants += [("how the strip is fixed", {"bump_foil.fixed_edge": "leading", "bump_foil.fixed_line": one})
                  for one in ("corner", "flat", "half_flat")]
     variants += [("the friction law, its regularisation", {"contact.friction_law": one})
                  for one in ("tanh_reset", "coulomb")]

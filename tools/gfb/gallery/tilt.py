@@ -297,7 +297,7 @@ def draw_statements(runs, folder):
             yes[answer.name] += bool(truth)
             row.append(f"**{'yes' if truth else 'no'}**: {numbers}")
         rows.append(row)
-    page.say("The shaft is held at its aligned position under 100 N at 30,000 rpm and tilted. Where no tilt is named "
+    page.say("The shaft is fixed at its aligned position under 100 N at 30,000 rpm and tilted. Where no tilt is named "
              f"it is phi_y = {radians(TILT)}. Pictures and tables: [fig. 11a](fig11a.md), [fig. 11b](fig11b.md), [fig. "
              "12](fig12.md), [fig. 13](fig13.md). Resting: the free leading edge lies on the bumps; lifted: it stands "
              "off them.")
@@ -307,7 +307,7 @@ def draw_statements(runs, folder):
         page.items(missed)
     page.short = ("yes to " + ", ".join(f"{count} of {len(STATEMENTS)} ({name})" for name, count in yes.items()) + ".")
     page.head("What the paper leaves open")
-    page.items(["Which equilibrium the shaft is held at: see [the page of positions](positions.md).",
+    page.items(["Which equilibrium the shaft is fixed at: see [the page of positions](positions.md).",
                 "Up to which tilt the curves go: here 3e-4 rad; fig. 12 has 2e-4.",
                 "How near \"nearly linear\", \"almost symmetric\" and \"relatively symmetrical\" are: the criteria "
                 "above are the gallery's.",

@@ -33,7 +33,7 @@ def draw_torques(runs, page, axis, keys):
     cases = [f"gu2020_{page.name}_{model}" for model in MODELS]
     for answer in found:
         page.took([answer.sweeps[model, axis] for model in MODELS])
-    page.say("The shaft is held where it floats without tilt under 100 N at 30,000 rpm. Resting: the free leading edge "
+    page.say("The shaft is fixed where it floats without tilt under 100 N at 30,000 rpm. Resting: the free leading edge "
              "lies on the bumps; lifted: it stands off them.")
     page.picture(draw_curves(found, axis), f"Torques against the tilt about {axis}")
     for answer in found:
@@ -126,7 +126,7 @@ def tell_stop(runs, page, axis):
 def tell_open(runs, page, axis):
     """What the paper does not say, and what it does to the torques."""
     page.head("What the paper leaves open, and what it does")
-    page.say("At which equilibrium the shaft is held; up to which tilt; and what is varied here, on the resting "
+    page.say("At which equilibrium the shaft is fixed; up to which tilt; and what is varied here, on the resting "
              f"branch, under phi_{axis} = {radians(TILT)}. Torques in N mm:")
     variants = [AS_IT_IS, ("which edge of the top foil is fixed", TOP_LEADING),
                 ("which edge of the strip is fixed", {"bump_foil.fixed_edge": "leading"}),

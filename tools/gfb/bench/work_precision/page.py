@@ -38,7 +38,7 @@ def page_head(measured, store, options):
     return f"""# Speed against error
 
 ```
-tools/bench work-precision --docs     # goes on with --reuse where it was stopped
+tools/bench work-precision --docs     # --reuse resumes it where it was stopped
 tools/bench work-precision --quick    # a minute of processor time, small meshes
 ```
 {quick}

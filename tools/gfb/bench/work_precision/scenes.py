@@ -92,8 +92,8 @@ def film_scene(quick):
     one, two = f"{last[0]} x {last[1]}", f"{last[0]//2} x {last[1]//2}"
     return Scene(
         "rigid film, eccentricity ratio 0.9",
-        "[Gu2020]'s bearing with a rigid sleeve, the shaft held at 0.9 of the clearance, 30,000 rpm, a slit. A mesh is "
-        "named by elements around x over the whole width; a biquadratic one has half as many each way on as many nodes.",
+        "[Gu2020]'s bearing with a rigid sleeve, the shaft fixed at 0.9 of the clearance, 30,000 rpm, a slit. A mesh is "
+        "named by elements around x over the whole width; a biquadratic one has half as many in each direction on as many nodes.",
         (Quantity("film force", ("force_x", "force_y")), Quantity("friction torque", ("friction_torque",)),
          Quantity("largest pressure", ("maximum_pressure",), AMBIENT)),
         entries, [(f"{mesh[0]} x {mesh[1]}", bench_film.film_case(mesh, "half", 2)) for mesh in reference], order=3.0,
