@@ -2,7 +2,7 @@
 !> Several scenes side by side: every group of ranks takes the next one that is left.
 module gfb_scene_table
   use petscsys
-  use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
@@ -10,13 +10,12 @@ module gfb_scene_table
   use gfb_results, only: add_result
   use gfb_result_table, only: of_whole_table
   use gfb_scene, only: scene_type
-  use gfb_case_file, only: history_row_type, summary_text
-  use gfb_table_file, only: table_member_type, write_table_file
+  use gfb_case_file, only: summary_text
+  use gfb_table_file, only: table_member_type, write_table_file, remember_member
   use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
   use gfb_text_file, only: write_text_file
-  use gfb_row_packing, only: pack_rows, unpack_rows
   use gfb_petsc_session, only: wall_time
-  use gfb_job_groups, only: job_type, text_type
+  use gfb_job_groups, only: job_type
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
   use gfb_group_log, only: open_group_log, close_group_log
@@ -27,7 +26,6 @@ module gfb_scene_table
   public :: run_scene_table
 
   integer, parameter :: status_unconverged = 2
-  integer, parameter :: heads = 2 !! quantities of a row that only the packing needs
 
 contains
 
@@ -39,8 +37,8 @@ contains
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status                !! exit status of the program
 
-    type(history_row_type), allocatable :: rows(:)
-    type(text_type), allocatable :: all(:)
+    type(memory_type) :: mine
+    type(memory_type), allocatable :: all(:)
     type(table_member_type), allocatable :: members(:)
     type(table_member_type) :: one
     type(error_type), allocatable :: error
@@ -52,16 +50,16 @@ contains
     call log%line(text(size(scenes))//' cases, results go to '//context%folder//', '//text(job%ranks)// &
                   ' rank(s) in '//text(job%groups)//' group(s), a log for each case as CASE.log')
     job%total = size(scenes)
-    allocate (rows(0))
     status = 0
     call job%next_member(member)
     do while (member <= size(scenes))
       call run_member(scenes(member), context, job, one)
-      rows = [rows, packed_row(one, member)]
+      call mine%visit('number', member)
+      call remember_member(mine, one)
       status = max(status, one%status)
       call job%next_member(member)
     end do
-    call job%collect(pack_rows(rows), 1, all)
+    call job%collect(mine, 1, all)
     if (job%rank == 0) then
       call read_members(all, size(scenes), members)
       call write_table(members, scenes, name, context, job, error)
@@ -113,36 +111,20 @@ contains
     call close_group_log(own%log)
   end subroutine run_member
 
-  !> A member as a row: its number and reason, and then its row of the table.
-  function packed_row(member, number) result(row)
-    type(table_member_type), intent(in) :: member
-    integer, intent(in) :: number
-    type(history_row_type) :: row
-
-    call add_quantity(row%quantity, count_quantity('member', number, ''))
-    call add_quantity(row%quantity, word_quantity(member%name, member%reason, ''))
-    call add_quantity(row%quantity, member%row%quantity)
-  end function packed_row
-
   !> The members in the order of the command line, from what the groups have sent.
   subroutine read_members(all, number, members)
-    type(text_type), intent(in) :: all(:)
-    integer, intent(in) :: number
+    type(memory_type), intent(inout) :: all(:)
+    integer, intent(in) :: number !! of members
     type(table_member_type), allocatable, intent(out) :: members(:)
-    type(history_row_type), allocatable :: rows(:)
-    integer :: i, k
+    integer :: i, member
 
     allocate (members(number))
     do i = 1, size(all)
-      call unpack_rows(all(i)%words, rows)
-      do k = 1, size(rows)
-        associate (list => rows(k)%quantity, member => members(nint(rows(k)%quantity(1)%number)))
-          member%name = list(2)%name
-          member%reason = list(2)%word
-          member%row%quantity = list(heads + 1:)
-          member%status = nint(list(heads + 1)%number)
-          member%group = nint(list(heads + 2)%number)
-        end associate
+      do while (.not. all(i)%is_used_up())
+        member = 0
+        call all(i)%visit('number', member)
+        if (member < 1 .or. member > number) error stop 'what a group of ranks has sent is no member of the table'
+        call remember_member(all(i), members(member))
       end do
     end do
   end subroutine read_members

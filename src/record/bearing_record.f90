@@ -1,6 +1,7 @@
 !> What is kept of a bearing's answers: a row of the history and the contacts, for each.
 module gfb_bearing_record
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_results, only: add_result
   use gfb_result_names, only: result_unit
@@ -11,12 +12,15 @@ module gfb_bearing_record
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type
+  use gfb_row_memory, only: remember_rows
+  use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: answer_quantities, add_counts
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
-  use gfb_tilt_response, only: tilt_response_type, row_quantities
+  use gfb_tilt_response, only: tilt_response_type, row_quantities, remember_response
   implicit none (type, external)
   private
   public :: add_row, analysis_name, sweep_name, sweep_unit
+  public :: remember_record
 
   !> Answers of a scene, in the order in which they were found.
   type, public :: bearing_record_type
@@ -80,4 +84,30 @@ contains
     character(len=:), allocatable :: unit
     unit = result_unit(sweep_name(sweep))
   end function sweep_unit
+
+  !> Packs or unpacks a record but for the contacts.
+  subroutine remember_record(memory, record)
+    type(memory_type), intent(inout) :: memory
+    type(bearing_record_type), intent(inout) :: record !! written where the memory unpacks
+    type(history_row_type), allocatable :: judged(:)
+    real(wp) :: elapsed ! since the first answer, on another clock
+
+    call memory%part('history')
+    call remember_rows(memory, record%history)
+    allocate (judged(1))
+    if (allocated(record%judged)) judged(1)%quantity = record%judged
+    call memory%part('judged')
+    call remember_rows(memory, judged)
+    call memory%part('tilted')
+    call remember_response(memory, record%tilted)
+    elapsed = wall_time() - record%begun
+    call memory%visit('elapsed', elapsed)
+    if (memory%packs .or. memory%failed) return
+    record%begun = wall_time() - elapsed
+    if (size(judged) == 1) then
+      record%judged = judged(1)%quantity
+    else
+      memory%failed = .true.
+    end if
+  end subroutine remember_record
 end module gfb_bearing_record

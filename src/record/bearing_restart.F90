@@ -2,36 +2,28 @@
 !> A sweep's restart file: the bearing at a point, its contacts, and all that was recorded.
 module gfb_bearing_restart
   use petscvec
-  use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: wall_time
   use gfb_scene, only: scene_type
   use gfb_natural_order, only: natural_order_type, bearing_order, path_order
-  use gfb_operating_point, only: operating_point_type
+  use gfb_operating_point, only: operating_point_type, remember_point
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors
   use gfb_arc_length, only: create_arc
-  use gfb_arc_memory, only: arc_memory_size, arc_numbers, recall_arc
-  use gfb_fold_way, only: fold_way_type
-  use gfb_case_file, only: history_row_type
-  use gfb_history_store, only: put_rows, read_rows
+  use gfb_arc_memory, only: remember_arc, resume_arc
+  use gfb_fold_way, only: fold_way_type, remember_way
   use gfb_result_file, only: result_file_type
   use gfb_stored_file, only: stored_file_type, close_stored_file
-  use gfb_tilt_response, only: response_numbers, recall_response
-  use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
+  use gfb_bearing_record, only: bearing_record_type, remember_record, sweep_name, sweep_unit
   use gfb_restart, only: restart_type, begin_restart_file, end_restart_file, open_restart, check_restart_file
-  use gfb_restart_fields, only: put_vector, read_vector, put_contacts, read_contacts, put_contact_record, &
-                                read_contact_record
+  use gfb_restart_fields, only: put_memory, read_memory, end_memory, put_vector, read_vector, put_contacts, &
+                                read_contacts, put_contact_record, read_contact_record
   implicit none (type)
   private
-  public :: keep_bearing, recall_bearing, recall_way
-
-  integer, parameter :: point_size = 9 !! numbers of an operating point
-  character(len=*), parameter :: point_words = &
-    'speed, load, eccentricity, tilt, pull and tension on the free edge'
+  public :: keep_bearing, recall_bearing, recall_way, remember_bearing
 
 contains
 
@@ -41,9 +33,9 @@ contains
     type(restart_type), intent(in) :: restart
     type(run_log_type), intent(in) :: log
     integer, intent(in) :: point !! of the sweep; 0: where the shaft is held
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
-    type(bearing_record_type), intent(in) :: record
+    type(bearing_record_type), intent(inout) :: record
     type(fold_way_type), intent(inout), optional :: way !! along a branch that is followed round its folds
 
     type(result_file_type) :: file
@@ -60,58 +52,46 @@ contains
     call end_restart_file(file, log, error)
   end subroutine keep_bearing
 
+  !> Packs or unpacks what is one for the whole bearing: operating point, switches, counters.
+  subroutine remember_bearing(memory, bearing, newton)
+    type(memory_type), intent(inout) :: memory
+    type(bearing_system_type), intent(inout) :: bearing !! written where the memory unpacks
+    type(newton_type), intent(inout) :: newton          !! the same
+
+    call memory%visit('held', bearing%held)
+    call memory%visit('upwind', bearing%film%flow%upwind)
+    call remember_point(memory, bearing%point)
+    call memory%visit('newton_iterations', newton%iterations)
+    call memory%visit('factorizations', newton%factorizations)
+  end subroutine remember_bearing
+
   !> State, operating point, contacts, counters.
   subroutine put_state(bearing, newton, file)
-    type(bearing_system_type), intent(in) :: bearing
-    type(newton_type), intent(in) :: newton
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
     type(result_file_type), intent(inout) :: file
+    type(memory_type) :: memory
 
-    call file%put_scalar('/step/newton_iterations', real(newton%iterations, wp), '1', 'so far')
-    call file%put_scalar('/step/factorizations', real(newton%factorizations, wp), '1', 'so far')
-    call file%group('/bearing')
-    call file%put_scalar('/bearing/held', merge(1.0_wp, 0.0_wp, bearing%held), '1', 'the shaft is held')
-    call file%put_scalar('/bearing/upwind', merge(1.0_wp, 0.0_wp, bearing%film%flow%upwind), '1', &
-                         'the film''s elements are')
-    call file%put_numbers('/bearing/point', point_numbers(bearing%point), 'SI', point_words)
+    call remember_bearing(memory, bearing, newton)
+    call put_memory(memory, '/bearing', 'operating point, switches and counters', file)
     call put_vector(bearing_order(bearing), bearing%state, '/bearing/state', &
                     'scaled unknowns: film, foil, shaft', file)
     call put_contacts(bearing%foil%contacts, bearing%foil%contacts%rows, '/bearing/contacts', file)
   end subroutine put_state
 
-  !> An operating point as plain numbers.
-  pure function point_numbers(point) result(number)
-    type(operating_point_type), intent(in) :: point
-    real(wp) :: number(point_size)
-
-    number = [point%speed, point%load, point%eccentricity, point%tilt, point%edge_pull, point%edge_tension]
-  end function point_numbers
-
-  !> Reads an operating point.
-  subroutine read_point(file, path, point)
-    type(stored_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: path
-    type(operating_point_type), intent(inout) :: point
-    real(wp), allocatable :: number(:)
-
-    number = file%numbers(path)
-    if (size(number) /= point_size) file%failed = .true.
-    if (file%failed) return
-    point = operating_point_type(number(1), number(2:3), number(4:5), number(6:7), number(8), number(9))
-  end subroutine read_point
-
   !> Where a branch has led.
   subroutine put_way(bearing, way, file)
     type(bearing_system_type), intent(in) :: bearing
-    type(fold_way_type), intent(in) :: way
+    type(fold_way_type), intent(inout) :: way
     type(result_file_type), intent(inout) :: file
     type(natural_order_type) :: order
+    type(memory_type) :: begun, arc_memory
 
     order = path_order(bearing)
-    call file%group('/branch')
-    call file%put_numbers('/branch/first', point_numbers(way%first), 'SI', point_words)
-    call file%put_numbers('/branch/kept', [real(way%kept, wp), way%kept_heading], '1', &
-                          'value whose answer was kept last, and in which sense it was passed')
-    call file%put_numbers('/branch/arc', arc_numbers(way%arc), '1', 'places, lengths and counts of the steps')
+    call remember_way(begun, way)
+    call put_memory(begun, '/branch', 'where it begins, value that was kept last', file)
+    call remember_arc(arc_memory, way%arc)
+    call put_memory(arc_memory, '/branch/arc', 'places, lengths and counts of the steps', file)
     associate (arc => way%arc)
       call put_vector(order, arc%path%state, '/branch/state', 'scaled unknowns, place', file)
       call put_vector(order, arc%previous, '/branch/previous', 'the answer before', file)
@@ -135,7 +115,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
     type(stored_file_type) :: file
     type(natural_order_type) :: order
-    real(wp), allocatable :: number(:), kept(:)
+    type(memory_type) :: memory
 
     there = .false.
     call open_restart(restart, file, error)
@@ -143,41 +123,37 @@ contains
     there = file%has('/branch')
     if (there) then
       order = path_order(bearing)
-      call read_point(file, '/branch/first', bearing%point)
-      way%first = bearing%point
+      call read_memory('/branch', file, memory)
+      call remember_way(memory, way)
+      call end_memory(memory, file)
+      bearing%point = way%first
       call create_arc(bearing, newton, last, way%arc)
-      kept = file%numbers('/branch/kept')
-      number = file%numbers('/branch/arc')
+      call read_memory('/branch/arc', file, memory)
+      call remember_arc(memory, way%arc)
+      call end_memory(memory, file)
       call read_vector(order, '/branch/state', file, way%arc%path%state)
       call read_vector(order, '/branch/previous', file, way%arc%previous)
       call read_vector(order, '/branch/earlier', file, way%arc%earlier)
       call read_vector(order, '/branch/tangent', file, way%arc%tangent)
       call read_vector(order, '/branch/previous_tangent', file, way%arc%previous_tangent)
       call read_vector(order, '/branch/earlier_tangent', file, way%arc%earlier_tangent)
-      if (size(kept) /= 2 .or. size(number) /= arc_memory_size) file%failed = .true.
     end if
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error) .or. .not. there) return
-    way%kept = nint(kept(1))
-    way%kept_heading = kept(2)
-    call recall_arc(number, way%arc)
+    call resume_arc(way%arc)
   end subroutine recall_way
 
   !> Rows and contacts of the points so far, and what is known of the last.
   subroutine put_record(bearing, record, file)
     type(bearing_system_type), intent(in) :: bearing
-    type(bearing_record_type), intent(in) :: record
+    type(bearing_record_type), intent(inout) :: record
     type(result_file_type), intent(inout) :: file
-    type(history_row_type) :: judged(1)
+    type(memory_type) :: memory
 
-    call file%put_scalar('/step/elapsed', wall_time() - record%begun, 's', 'since the first answer')
-    call put_rows(file, '/history', record%history)
-    if (allocated(record%judged)) judged(1)%quantity = record%judged
-    call put_rows(file, '/judged', judged)
-    call file%group('/record')
-    call file%put_numbers('/record/tilt_response', response_numbers(record%tilted), 'SI', &
-                          'slopes of the torque and what belongs to them')
+    call remember_record(memory, record)
+    call put_memory(memory, '/record', 'history, what else is known of the last answer, tilt response', file)
+    if (.not. allocated(record%history)) return
     if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
     call put_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, record%contacts, &
                             size(record%history), '/record/contacts', file)
@@ -226,12 +202,11 @@ contains
     type(stored_file_type), intent(inout) :: file
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
+    type(memory_type) :: memory
 
-    newton%iterations = file%count('/step/newton_iterations')
-    newton%factorizations = file%count('/step/factorizations')
-    bearing%held = file%count('/bearing/held') == 1
-    bearing%film%flow%upwind = file%count('/bearing/upwind') == 1
-    call read_point(file, '/bearing/point', bearing%point)
+    call read_memory('/bearing', file, memory)
+    call remember_bearing(memory, bearing, newton)
+    call end_memory(memory, file)
     call read_vector(bearing_order(bearing), '/bearing/state', file, bearing%state)
     call read_contacts(bearing%foil%contacts%rows, '/bearing/contacts', file, bearing%foil%contacts)
   end subroutine read_state
@@ -241,17 +216,12 @@ contains
     type(stored_file_type), intent(inout) :: file
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_record_type), intent(inout) :: record
-    type(history_row_type), allocatable :: judged(:)
-    real(wp), allocatable :: number(:)
+    type(memory_type) :: memory
 
-    record%begun = wall_time() - file%scalar('/step/elapsed')
-    call read_rows(file, '/history', record%history)
-    call read_rows(file, '/judged', judged)
-    number = file%numbers('/record/tilt_response')
-    if (size(judged) /= 1 .or. size(number) /= size(response_numbers(record%tilted))) file%failed = .true.
+    call read_memory('/record', file, memory)
+    call remember_record(memory, record)
+    call end_memory(memory, file)
     if (file%failed) return
-    record%judged = judged(1)%quantity
-    call recall_response(number, record%tilted)
     if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
     call read_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, size(record%history), &
                              '/record/contacts', file, record%contacts)

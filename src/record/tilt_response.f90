@@ -1,6 +1,7 @@
 !> What a sweep of tilt tells beside the answers: angular stiffness, and where the shaft is held.
 module gfb_tilt_response
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
@@ -10,13 +11,13 @@ module gfb_tilt_response
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, remember_answer
   use gfb_newton, only: newton_type
   use gfb_angular_stiffness, only: angular_stiffness
   implicit none (type, external)
   private
   public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response
-  public :: tilt_axis, response_numbers, recall_response
+  public :: tilt_axis, remember_response
 
   character(len=1), parameter :: axes(2) = ['x', 'y']
 
@@ -175,42 +176,25 @@ contains
     end do
   end subroutine add_slopes
 
-  !> What a sweep has told so far as plain numbers.
-  pure function response_numbers(response) result(numbers)
-    type(tilt_response_type), intent(in) :: response
-    real(wp), allocatable :: numbers(:)
+  !> Packs or unpacks what a sweep has told so far.
+  pure subroutine remember_response(memory, response)
+    type(memory_type), intent(inout) :: memory
+    type(tilt_response_type), intent(inout) :: response !! written where the memory unpacks
 
-    associate (there => response%equilibrium)
-      numbers = [merge(1.0_wp, 0.0_wp, [response%measured, response%has_secant, &
-                                        response%held, response%rubs, &
-                                        response%from_equilibrium, there%has_foils]), &
-                 real(response%axis, wp), response%tilt, reshape(response%slope, [4]), &
-                 reshape(response%first_slope, [4]), response%untilted, response%secant, &
-                 there%force(:2), there%leading_edge_lift, there%lifted_length]
-    end associate
-  end function response_numbers
-
-  !> The reverse: all that rows and summary will need.
-  pure subroutine recall_response(numbers, response)
-    real(wp), intent(in) :: numbers(:) !! as `response_numbers` gave them
-    type(tilt_response_type), intent(out) :: response
-
-    response%measured = numbers(1) > 0.5_wp
-    response%has_secant = numbers(2) > 0.5_wp
-    response%held = numbers(3) > 0.5_wp
-    response%rubs = numbers(4) > 0.5_wp
-    response%from_equilibrium = numbers(5) > 0.5_wp
-    response%equilibrium%has_foils = numbers(6) > 0.5_wp
-    response%axis = nint(numbers(7))
-    response%tilt = numbers(8)
-    response%slope = reshape(numbers(9:12), [2, 2])
-    response%first_slope = reshape(numbers(13:16), [2, 2])
-    response%untilted = numbers(17:18)
-    response%secant = numbers(19:20)
-    response%equilibrium%force(:2) = numbers(21:22)
-    response%equilibrium%leading_edge_lift = numbers(23:24)
-    response%equilibrium%lifted_length = numbers(25)
-  end subroutine recall_response
+    call memory%visit('measured', response%measured)
+    call memory%visit('axis', response%axis)
+    call memory%visit('tilt', response%tilt)
+    call memory%visit('slope', response%slope)
+    call memory%visit('first_slope', response%first_slope)
+    call memory%visit('has_secant', response%has_secant)
+    call memory%visit('untilted', response%untilted)
+    call memory%visit('secant', response%secant)
+    call memory%visit('held', response%held)
+    call memory%visit('rubs', response%rubs)
+    call memory%visit('from_equilibrium', response%from_equilibrium)
+    call memory%part('equilibrium')
+    call remember_answer(memory, response%equilibrium)
+  end subroutine remember_response
 
   !> Lines of the closing block.
   subroutine show_tilt_response(log, response)

@@ -258,6 +258,11 @@ def check_refusals(checks, folder, content):
     with h5py.File(file, "r+") as stored:
         del stored["bearing/state"]
     refused("a field is missing", 3, "the file is damaged")
+    file.write_bytes(kept)
+    with h5py.File(file, "r+") as stored:
+        data = stored["bearing/words"]
+        data[()] = data[()].replace(b"edge_height", b"edge_length")
+    refused("a component has another name", 3, "the file is damaged")
     file.write_bytes(kept[:len(kept)//2])
     refused("half a file", 3, "cannot be read")
     file.write_bytes(kept)

@@ -1,9 +1,11 @@
 !> Speed, load and position of the shaft.
 module gfb_operating_point
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   implicit none (type, external)
   private
   public :: point_between
+  public :: remember_point
 
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
@@ -38,4 +40,19 @@ contains
     point%edge_hold = first%edge_hold + fraction*(last%edge_hold - first%edge_hold)
     point%edge_height = first%edge_height + fraction*(last%edge_height - first%edge_height)
   end function point_between
+
+  !> Packs or unpacks a point.
+  pure subroutine remember_point(memory, point)
+    type(memory_type), intent(inout) :: memory
+    type(operating_point_type), intent(inout) :: point !! written where the memory unpacks
+
+    call memory%visit('speed', point%speed)
+    call memory%visit('load', point%load)
+    call memory%visit('eccentricity', point%eccentricity)
+    call memory%visit('tilt', point%tilt)
+    call memory%visit('edge_pull', point%edge_pull)
+    call memory%visit('edge_tension', point%edge_tension)
+    call memory%visit('edge_hold', point%edge_hold)
+    call memory%visit('edge_height', point%edge_height)
+  end subroutine remember_point
 end module gfb_operating_point

@@ -1,45 +1,62 @@
-!> What contacts remember from one load step to the next, as plain numbers.
+!> What contacts remember from one load step to the next: a column of numbers each.
 module gfb_contact_memory
   use gfb_kinds, only: wp
-  use gfb_contact_set, only: contact_set_type
+  use gfb_memory, only: memory_type, open_memory
+  use gfb_contact_set, only: contact_set_type, contact_point_type
   implicit none (type, external)
   private
-  public :: contact_memory, recall_contacts
-
-  integer, parameter, public :: memory_size = 24 !! numbers of a contact
+  public :: remember_contact, pack_contacts, unpack_contacts
 
 contains
 
-  !> The memory of this rank's contacts.
-  pure function contact_memory(contacts) result(memory)
+  !> Packs or unpacks the memory of a contact.
+  pure subroutine remember_contact(memory, point)
+    type(memory_type), intent(inout) :: memory
+    type(contact_point_type), intent(inout) :: point !! written where the memory unpacks
+
+    call memory%visit('shift', point%shift)
+    call memory%visit('old_slip', point%old_slip)
+    call memory%visit('old_force', point%old_force)
+    call memory%visit('place', point%place)
+    call memory%visit('anchor', point%anchor)
+    call memory%visit('force', point%force)
+    call memory%visit('derivative', point%derivative)
+  end subroutine remember_contact
+
+  !> The memory of this rank's contacts. The words are the same for all contacts and on all ranks.
+  pure subroutine pack_contacts(contacts, words, column)
     type(contact_set_type), intent(in) :: contacts
-    real(wp) :: memory(memory_size, size(contacts%point)) !! [m], [N], [N/m]
+    character(len=:), allocatable, intent(out) :: words !! that say what the numbers are
+    real(wp), allocatable, intent(out) :: column(:, :)  !! (numbers, contacts) [m], [N], [N/m]
+    type(memory_type) :: memory
+    type(contact_point_type) :: point
     integer :: i
 
+    call remember_contact(memory, point)
+    words = memory%words()
+    allocate (column(size(memory%numbers()), size(contacts%point)))
     do i = 1, size(contacts%point)
-      associate (point => contacts%point(i))
-        memory(:, i) = [point%shift, point%old_slip, point%old_force, point%place, point%anchor, &
-                        point%force, reshape(point%derivative, [size(point%derivative)])]
-      end associate
+      memory = memory_type()
+      point = contacts%point(i)
+      call remember_contact(memory, point)
+      column(:, i) = memory%numbers()
     end do
-  end function contact_memory
+  end subroutine pack_contacts
 
   !> Gives this rank's contacts their memory back.
-  pure subroutine recall_contacts(memory, contacts)
-    real(wp), intent(in) :: memory(:, :) !! (`memory_size`, contacts), as `contact_memory` gave it
+  pure subroutine unpack_contacts(words, column, contacts, failed)
+    character(len=*), intent(in) :: words    !! as `pack_contacts` gave them
+    real(wp), intent(in) :: column(:, :)     !! the same, (numbers, contacts) [m], [N], [N/m]
     type(contact_set_type), intent(inout) :: contacts
+    logical, intent(inout) :: failed         !! words or numbers do not fit
+    type(memory_type) :: memory
     integer :: i
 
     do i = 1, size(contacts%point)
-      associate (point => contacts%point(i))
-        point%shift = memory(1:2, i)
-        point%old_slip = memory(3:4, i)
-        point%old_force = memory(5:6, i)
-        point%place = memory(7:9, i)
-        point%anchor = memory(10:12, i)
-        point%force = memory(13:15, i)
-        point%derivative = reshape(memory(16:memory_size, i), shape(point%derivative))
-      end associate
+      call open_memory(column(:, i), words, memory)
+      call remember_contact(memory, contacts%point(i))
+      call memory%finish()
+      failed = failed .or. memory%failed
     end do
-  end subroutine recall_contacts
+  end subroutine unpack_contacts
 end module gfb_contact_memory

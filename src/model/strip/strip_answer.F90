@@ -3,6 +3,7 @@
 module gfb_strip_answer
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_contact_law, only: state_open, state_slip
@@ -12,6 +13,7 @@ module gfb_strip_answer
   implicit none (type)
   private
   public :: start_recorder, resume_recorder, read_answer, destroy_recorder
+  public :: remember_answer
 
   integer, parameter :: radial = 2, axial = 3
   integer, parameter :: states = state_slip - state_open + 1
@@ -155,4 +157,21 @@ contains
     PetscCallA(VecDestroy(recorder%state, ierr))
     PetscCallA(VecDestroy(recorder%change, ierr))
   end subroutine destroy_recorder
+
+  !> Packs or unpacks an answer; one that is unpacked knows its number of bumps.
+  pure subroutine remember_answer(memory, answer)
+    type(memory_type), intent(inout) :: memory
+    type(strip_answer_type), intent(inout) :: answer !! written where the memory unpacks
+
+    call memory%visit('factor', answer%factor)
+    call memory%visit('force', answer%force)
+    call memory%visit('travel', answer%travel)
+    call memory%visit('deflection', answer%deflection)
+    call memory%visit('count', answer%count)
+    call memory%visit('external_work', answer%external_work)
+    call memory%visit('strain_energy', answer%strain_energy)
+    call memory%visit('penalty_energy', answer%penalty_energy)
+    call memory%visit('friction_work', answer%friction_work)
+    call memory%visit('round_off', answer%round_off)
+  end subroutine remember_answer
 end module gfb_strip_answer

@@ -1,49 +1,42 @@
 #include "gfb_petsc.h"
-!> What an arc remembers from step to step, beside its vectors, as plain numbers.
+!> What an arc remembers from step to step, beside its vectors.
 module gfb_arc_memory
   use petscvec
-  use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_arc_length, only: arc_type
   use gfb_newton, only: forget_factors
   implicit none (type)
   private
-  public :: arc_numbers, recall_arc
-
-  integer, parameter, public :: arc_memory_size = 14
+  public :: remember_arc, resume_arc
 
 contains
 
-  !> The numbers.
-  pure function arc_numbers(arc) result(number)
-    type(arc_type), intent(in) :: arc
-    real(wp) :: number(arc_memory_size)
+  !> Packs or unpacks all but the vectors.
+  subroutine remember_arc(memory, arc)
+    type(memory_type), intent(inout) :: memory
+    type(arc_type), intent(inout) :: arc !! written where the memory unpacks
 
-    number = [arc%place, arc%place_before, arc%place_earlier, arc%heading, arc%step, arc%last_way, &
-              arc%earlier_step, arc%step_limit, real(arc%orientation, wp), real(arc%retreats, wp), &
-              real(arc%steps, wp), merge(1.0_wp, 0.0_wp, arc%turned), real(arc%newton%iterations, wp), &
-              real(arc%newton%factorizations, wp)]
-  end function arc_numbers
+    call memory%visit('place', arc%place)
+    call memory%visit('place_before', arc%place_before)
+    call memory%visit('place_earlier', arc%place_earlier)
+    call memory%visit('heading', arc%heading)
+    call memory%visit('step', arc%step)
+    call memory%visit('last_way', arc%last_way)
+    call memory%visit('earlier_step', arc%earlier_step)
+    call memory%visit('step_limit', arc%step_limit)
+    call memory%visit('orientation', arc%orientation)
+    call memory%visit('retreats', arc%retreats)
+    call memory%visit('steps', arc%steps)
+    call memory%visit('turned', arc%turned)
+    call memory%visit('newton_iterations', arc%newton%iterations)
+    call memory%visit('factorizations', arc%newton%factorizations)
+  end subroutine remember_arc
 
-  !> Goes on where an arc was; its vectors have been set. The bearing is put there.
-  subroutine recall_arc(number, arc)
-    real(wp), intent(in) :: number(arc_memory_size) !! as `arc_numbers` gave them
+  !> Puts the bearing at an arc's last answer, when vectors and memory are those of an arc before.
+  subroutine resume_arc(arc)
     type(arc_type), intent(inout) :: arc
 
-    arc%place = number(1)
-    arc%place_before = number(2)
-    arc%place_earlier = number(3)
-    arc%heading = number(4)
-    arc%step = number(5)
-    arc%last_way = number(6)
-    arc%earlier_step = number(7)
-    arc%step_limit = number(8)
-    arc%orientation = nint(number(9))
-    arc%retreats = nint(number(10))
-    arc%steps = nint(number(11))
-    arc%turned = number(12) > 0.5_wp
-    arc%newton%iterations = nint(number(13))
-    arc%newton%factorizations = nint(number(14))
     call arc%return_to()
     call forget_factors(arc%newton)
-  end subroutine recall_arc
+  end subroutine resume_arc
 end module gfb_arc_memory

@@ -1,10 +1,12 @@
 !> How far a sweep that goes round folds has come.
 module gfb_fold_way
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_arc_length, only: arc_type
-  use gfb_operating_point, only: operating_point_type
+  use gfb_operating_point, only: operating_point_type, remember_point
   implicit none (type, external)
   private
+  public :: remember_way
 
   !> The way along the branch. Keep it where it is.
   type, public :: fold_way_type
@@ -14,4 +16,17 @@ module gfb_fold_way
     integer :: kept = 1                       !! value whose answer was kept last
     real(wp) :: kept_heading = 1.0_wp         !! and in which sense it was passed
   end type fold_way_type
+
+contains
+
+  !> Packs or unpacks all but the arc; the sweep knows its last point and its values.
+  pure subroutine remember_way(memory, way)
+    type(memory_type), intent(inout) :: memory
+    type(fold_way_type), intent(inout) :: way !! written where the memory unpacks
+
+    call memory%part('first')
+    call remember_point(memory, way%first)
+    call memory%visit('kept', way%kept)
+    call memory%visit('kept_heading', way%kept_heading)
+  end subroutine remember_way
 end module gfb_fold_way

@@ -8,12 +8,14 @@
 module gfb_load_step
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_petsc_session, only: any_rank
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_strip_system, only: strip_system_type
   implicit none (type)
   private
   public :: create_load_path, take_load_step, destroy_load_path
+  public :: remember_load_path
 
   real(wp), parameter :: softening(3) = [100.0_wp, 10.0_wp, 1.0_wp] !! of the stick length in a homotopy
   integer, parameter :: most_halvings = 6
@@ -155,4 +157,18 @@ contains
     PetscCallA(VecDestroy(path%here, ierr))
     PetscCallA(VecDestroy(path%before, ierr))
   end subroutine destroy_load_path
+
+  !> Packs or unpacks all but the vectors of the last two answers.
+  pure subroutine remember_load_path(memory, path)
+    type(memory_type), intent(inout) :: memory
+    type(load_path_type), intent(inout) :: path !! written where the memory unpacks
+
+    call memory%visit('at_here', path%at_here)
+    call memory%visit('at_before', path%at_before)
+    call memory%visit('answers', path%answers)
+    call memory%visit('homotopies', path%homotopies)
+    call memory%visit('cuts', path%cuts)
+    call memory%visit('at_round_off', path%at_round_off)
+    call memory%visit('round_off', path%round_off)
+  end subroutine remember_load_path
 end module gfb_load_step

@@ -7,6 +7,7 @@
 module gfb_divided_sweep
   use petscsys
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_division, only: stretch_of
@@ -16,7 +17,6 @@ module gfb_divided_sweep
   use gfb_result_table, only: with_stretches
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
-  use gfb_row_packing, only: pack_arrays, unpack_arrays
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
   use gfb_contact_record, only: foil_contact_arrays
@@ -26,9 +26,9 @@ module gfb_divided_sweep
   use gfb_reasons, only: reason_failed
   use gfb_bearing_study, only: bearing_study_type
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
-  use gfb_job_groups, only: job_type, text_type
+  use gfb_job_groups, only: job_type
   use gfb_group_log, only: open_group_log, close_group_log
-  use gfb_sweep_stretch, only: stretch_type, stretch_words, read_stretch, merge_histories, merge_arrays, &
+  use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
                                seam_words, place_text
   implicit none (type)
   private
@@ -196,18 +196,21 @@ contains
   subroutine gather(job, writer, mine, study, stretches)
     type(job_type), intent(in) :: job
     integer, intent(in) :: writer !! the group
-    type(stretch_type), intent(in) :: mine
+    type(stretch_type), intent(inout) :: mine
     type(bearing_study_type), intent(in) :: study
     type(stretch_type), allocatable, intent(out) :: stretches(:) !! nothing in the other groups
-    type(text_type), allocatable :: points(:), contacts(:)
+    type(memory_type) :: memory
+    type(memory_type), allocatable :: sent(:)
     integer :: i
 
-    call job%collect(stretch_words(mine, study%sweep%record%tilted), writer, points)
-    call job%collect(pack_arrays(mine%contacts), writer, contacts)
-    allocate (stretches(size(points)))
+    mine%first_slope = study%sweep%record%tilted%first_slope
+    call remember_stretch(memory, mine)
+    call job%collect(memory, writer, sent)
+    allocate (stretches(size(sent)))
     do i = 1, size(stretches)
-      call read_stretch(points(i)%words, stretches(i))
-      call unpack_arrays(contacts(i)%words, stretches(i)%contacts)
+      call remember_stretch(sent(i), stretches(i))
+      call sent(i)%finish()
+      if (sent(i)%failed) error stop 'what a group of ranks has sent is no stretch of the sweep'
     end do
   end subroutine gather
 

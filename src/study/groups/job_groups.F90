@@ -8,6 +8,7 @@ module gfb_job_groups
   use petscsys
   use, intrinsic :: iso_fortran_env, only: output_unit
   use gfb_kinds, only: wp, long
+  use gfb_memory, only: memory_type, open_memory
   use gfb_text, only: text
   use gfb_division, only: stretch_of, owner_of
   use gfb_run_context, only: run_listener_type
@@ -19,11 +20,6 @@ module gfb_job_groups
   integer(MPI_ADDRESS_KIND), parameter :: places = 2
   integer, parameter :: number_bytes = storage_size(0_long)/8
   real(wp), parameter :: a_minute = 60.0_wp, an_hour = 3600.0_wp !! [s]
-
-  !> A text of any length.
-  type, public :: text_type
-    character(len=:), allocatable :: words
-  end type text_type
 
   !> The job and this rank's place in it.
   type, extends(run_listener_type), public :: job_type
@@ -181,34 +177,44 @@ contains
     call MPI_Bcast(member, 1, MPI_INTEGER, 0, PETSC_COMM_WORLD, ierr)
   end subroutine next_member
 
-  !> Brings a text of every group to all ranks of one group; waits for the last of them.
-  subroutine collect(self, words, group, all)
+  !> Brings what every group has packed to all ranks of one group; waits for the last of them.
+  subroutine collect(self, mine, group, all)
     class(job_type), intent(in) :: self
-    character(len=*), intent(in) :: words !! this group's
+    type(memory_type), intent(in) :: mine !! this group's
     integer, intent(in) :: group          !! that gets them
-    type(text_type), allocatable, intent(out) :: all(:) !! one a group; nothing in the other groups
-    integer :: other, length, ierr
+    type(memory_type), allocatable, intent(out) :: all(:) !! one a group, to unpack; none in the other groups
+    real(wp), allocatable :: numbers(:)
+    character(len=:), allocatable :: words
+    integer :: other, length(2), ierr
     integer :: status(MPI_STATUS_SIZE)
 
     allocate (all(merge(self%groups, 0, self%group == group)))
+    numbers = mine%numbers()
+    words = mine%words()
     if (self%group /= group) then
       if (.not. self%leads) return
-      call MPI_Send([len(words)], 1, MPI_INTEGER, first_rank(self, group), 0, MPI_COMM_WORLD, ierr)
-      call MPI_Send(words, len(words), MPI_CHARACTER, first_rank(self, group), 1, MPI_COMM_WORLD, ierr)
+      call MPI_Send([size(numbers), len(words)], 2, MPI_INTEGER, first_rank(self, group), 0, MPI_COMM_WORLD, ierr)
+      call MPI_Send(numbers, size(numbers), MPI_DOUBLE_PRECISION, first_rank(self, group), 1, MPI_COMM_WORLD, ierr)
+      call MPI_Send(words, len(words), MPI_CHARACTER, first_rank(self, group), 2, MPI_COMM_WORLD, ierr)
       return
     end if
+    call open_memory(numbers, words, all(group))
     do other = 1, self%groups
-      length = len(words)
-      if (other /= group .and. self%leads) then
-        call MPI_Recv(length, 1, MPI_INTEGER, first_rank(self, other), 0, MPI_COMM_WORLD, status, ierr)
-      end if
-      call MPI_Bcast(length, 1, MPI_INTEGER, 0, PETSC_COMM_WORLD, ierr)
-      allocate (character(len=length) :: all(other)%words)
-      if (other == group) all(other)%words = words
-      if (other /= group .and. self%leads) then
-        call MPI_Recv(all(other)%words, length, MPI_CHARACTER, first_rank(self, other), 1, MPI_COMM_WORLD, status, ierr)
-      end if
-      call MPI_Bcast(all(other)%words, length, MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
+      if (other == group) cycle
+      associate (source => first_rank(self, other))
+        if (self%leads) call MPI_Recv(length, 2, MPI_INTEGER, source, 0, MPI_COMM_WORLD, status, ierr)
+        call MPI_Bcast(length, 2, MPI_INTEGER, 0, PETSC_COMM_WORLD, ierr)
+        deallocate (numbers, words)
+        allocate (numbers(length(1)))
+        allocate (character(len=length(2)) :: words)
+        if (self%leads) then
+          call MPI_Recv(numbers, length(1), MPI_DOUBLE_PRECISION, source, 1, MPI_COMM_WORLD, status, ierr)
+          call MPI_Recv(words, length(2), MPI_CHARACTER, source, 2, MPI_COMM_WORLD, status, ierr)
+        end if
+      end associate
+      call MPI_Bcast(numbers, length(1), MPI_DOUBLE_PRECISION, 0, PETSC_COMM_WORLD, ierr)
+      call MPI_Bcast(words, length(2), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
+      call open_memory(numbers, words, all(other))
     end do
   end subroutine collect
 

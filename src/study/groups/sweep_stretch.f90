@@ -2,19 +2,19 @@
 module gfb_sweep_stretch
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type, number_quantity, count_quantity, word_quantity, &
-                          add_quantity
+  use gfb_memory, only: memory_type
+  use gfb_quantity, only: quantity_type
   use gfb_result_names, only: compared_names, result_unit
   use gfb_result_table, only: name_length
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
-  use gfb_row_packing, only: pack_rows, unpack_rows
-  use gfb_tilt_response, only: tilt_response_type, tilt_axis
+  use gfb_row_memory, only: remember_rows, remember_arrays
+  use gfb_tilt_response, only: tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
   implicit none (type, external)
   private
-  public :: stretch_words, read_stretch, merge_histories, merge_arrays, number_of, seam_words, &
+  public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
             place_text
 
   !> Two paths to one answer differ by less, over the clearance [1].
@@ -38,66 +38,28 @@ module gfb_sweep_stretch
 
 contains
 
-  !> A group's stretch, but for the contacts, as a text.
-  function stretch_words(stretch, tilted) result(words)
-    type(stretch_type), intent(in) :: stretch !! that this group has computed
-    type(tilt_response_type), intent(in) :: tilted !! what its sweep has told of tilt
-    character(len=:), allocatable :: words
-    character(len=:), allocatable :: detail
-    type(history_row_type) :: head(1)
-    integer :: i, k
+  !> Packs or unpacks a stretch.
+  pure subroutine remember_stretch(memory, stretch)
+    type(memory_type), intent(inout) :: memory
+    type(stretch_type), intent(inout) :: stretch !! written where the memory unpacks
 
-    allocate (head(1)%quantity(0))
-    call add('first', stretch%first)
-    call add('last', stretch%last)
-    call add('status', stretch%status)
-    call add('iterations', stretch%iterations)
-    call add('factorizations', stretch%factorizations)
-    call add('rows', size(stretch%row))
-    detail = ''
-    if (allocated(stretch%reason%detail)) detail = stretch%reason%detail
-    call add_quantity(head(1)%quantity, word_quantity('reason', detail, ''))
-    do k = 1, 2
-      do i = 1, 2
-        call add_quantity(head(1)%quantity, number_quantity('slope', tilted%first_slope(i, k), &
-          '', ''))
-      end do
-    end do
-    call add('reason code', stretch%reason%code)
-    words = pack_rows([head, stretch%row, stretch%next])
-
-  contains
-
-    !> Adds a count to the head.
-    subroutine add(name, number)
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: number
-      call add_quantity(head(1)%quantity, count_quantity(name, number, ''))
-    end subroutine add
-  end function stretch_words
-
-  !> The stretch of a text.
-  subroutine read_stretch(words, stretch)
-    character(len=*), intent(in) :: words !! as `stretch_words` made them
-    type(stretch_type), intent(out) :: stretch !! that it tells of
-    type(history_row_type), allocatable :: rows(:)
-    integer :: points
-
-    call unpack_rows(words, rows)
-    associate (head => rows(1)%quantity)
-      stretch%first = nint(head(1)%number)
-      stretch%last = nint(head(2)%number)
-      stretch%status = nint(head(3)%number)
-      stretch%iterations = nint(head(4)%number)
-      stretch%factorizations = nint(head(5)%number)
-      points = nint(head(6)%number)
-      stretch%reason%detail = head(7)%word
-      stretch%first_slope = reshape(head(8:11)%number, [2, 2])
-      stretch%reason%code = nint(head(12)%number)
-    end associate
-    stretch%row = rows(2:points + 1)
-    stretch%next = rows(points + 2:)
-  end subroutine read_stretch
+    call memory%visit('first', stretch%first)
+    call memory%visit('last', stretch%last)
+    call memory%visit('status', stretch%status)
+    call memory%visit('iterations', stretch%iterations)
+    call memory%visit('factorizations', stretch%factorizations)
+    call memory%visit('reason_code', stretch%reason%code)
+    call memory%visit('reason_at', stretch%reason%at)
+    call memory%visit('reason_of', stretch%reason%of)
+    call memory%visit('reason_detail', stretch%reason%detail)
+    call memory%part('row')
+    call remember_rows(memory, stretch%row)
+    call memory%part('next')
+    call remember_rows(memory, stretch%next)
+    call memory%part('contacts')
+    call remember_arrays(memory, stretch%contacts)
+    call memory%visit('first_slope', stretch%first_slope)
+  end subroutine remember_stretch
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
   subroutine merge_histories(scene, stretches, history)
