@@ -3,18 +3,12 @@ module gfb_run_case
   use gfb_errors, only: error_type, fail
   use gfb_c_library, only: make_folder
   use gfb_run_log, only: run_log_type
-  use gfb_partition_report, only: show_bearing_partition, show_strip_partition
   use gfb_petsc_session, only: this_rank, rank_count, any_rank
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_text_file, only: folder_is_writable
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type
-  use gfb_bearing_builder, only: bearing_plan_type
-  use gfb_bearing_plan, only: plan_bearing
-  use gfb_foil_builder, only: foil_plan_type
-  use gfb_foil_plan, only: plan_foil
-  use gfb_scene_case, only: is_bearing
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_direct_solver, only: keep_factors_on_disk
   use gfb_command_line, only: command_line_type
@@ -23,9 +17,10 @@ module gfb_run_case
   use gfb_study, only: study_type
   use gfb_run_study, only: run_study
   use gfb_studies, only: create_study
+  use gfb_check_scene, only: check_scene
   implicit none (type, external)
   private
-  public :: run_case, run_scene, check_scene, prepare_folder
+  public :: run_case, run_scene, prepare_folder
 
 contains
 
@@ -56,34 +51,6 @@ contains
       if (.not. allocated(error)) converged = study%converged
     end if
   end subroutine run_case
-
-  !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
-  !>
-  !> Fails when METIS does.
-  subroutine check_scene(scene, shares, log, error)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    integer, intent(in) :: shares !! ranks whose shares to show; 0: those of the job; negative: none
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(bearing_plan_type) :: plan
-    type(foil_plan_type) :: foil_plan
-    integer :: ranks
-
-    call log%line(version_text())
-    call log%line(scene%file//': '//scene%general%title)
-    ranks = shares
-    if (shares == 0) ranks = rank_count()
-    if (is_bearing(scene%general%analysis)) then
-      call plan_bearing(scene, log, plan)
-      if (shares >= 0) call show_bearing_partition(scene, plan, ranks, log, error)
-    else
-      call plan_foil(scene, log, foil_plan)
-      if (shares >= 0) call show_strip_partition(scene, foil_plan, ranks, log, error)
-    end if
-    if (allocated(error)) return
-    call log%line('')
-    call log%line(scene%file//' is in order')
-  end subroutine check_scene
 
   !> Computes and writes what a scene asks for.
   !>

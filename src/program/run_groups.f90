@@ -8,7 +8,8 @@ module gfb_run_groups
   use gfb_job_groups, only: job_type
   use gfb_command_line, only: command_line_type
   use gfb_run_context, only: run_context_type
-  use gfb_run_case, only: check_scene, prepare_folder
+  use gfb_check_scene, only: check_scene
+  use gfb_run_case, only: prepare_folder
   use gfb_divided_sweep, only: run_divided_sweep
   use gfb_scene_table, only: run_scene_table
   implicit none (type, external)
