@@ -11,17 +11,17 @@ module gfb_backward_error
   use gfb_matrix_rows, only: copy_row, row_length
   implicit none (type)
   private
-  public :: rounding_of
+  public :: backward_error
 
   !> Roundings of a row's sum that do not cancel each other, with those of the solution before it.
   real(wp), parameter :: roundings = 4.0_wp
 
 contains
 
-  !> The norm over all equations of what rounding may leave of the residual.
-  function rounding_of(matrix, state) result(rounding)
-    Mat, intent(in) :: matrix !! the derivative of the residual
-    Vec, intent(in) :: state
+  !> The norm over all equations of what rounding may leave of the scaled residual [1].
+  function backward_error(matrix, state) result(rounding)
+    Mat, intent(in) :: matrix !! the derivative of the residual, scaled
+    Vec, intent(in) :: state  !! scaled
     real(wp) :: rounding
 
     Mat :: magnitudes
@@ -53,5 +53,5 @@ contains
     PetscCallA(VecDestroy(sums, ierr))
     PetscCallA(VecDestroy(sizes, ierr))
     PetscCallA(MatDestroy(magnitudes, ierr))
-  end function rounding_of
+  end function backward_error
 end module gfb_backward_error

@@ -20,7 +20,7 @@ contains
 
   !> Makes a linear solver factor its matrix and do nothing else.
   subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite)
-    KSP, intent(in) :: linear
+    KSP, intent(in) :: linear              !! without a type yet
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
     logical, intent(in) :: symmetric       !! the matrix is
     logical, intent(in) :: dense_rows      !! a few of its rows are almost full
@@ -58,7 +58,7 @@ contains
 
   !> Why a solver has no factors, in words; empty where it has, or they are not MUMPS'.
   function factor_failure(linear) result(words)
-    KSP, intent(in) :: linear
+    KSP, intent(in) :: linear !! after its matrix was to be factored
     character(len=:), allocatable :: words
 
     integer, parameter :: status_place = 1 ! in MUMPS' INFOG
@@ -91,7 +91,7 @@ contains
 
   !> Sets an option of PETSc's unless the user has.
   subroutine set_option_default(name, value)
-    character(len=*), intent(in) :: name, value
+    character(len=*), intent(in) :: name, value !! with its leading '-'; as the user would type it
     PetscBool :: given
     PetscErrorCode :: ierr
 
@@ -109,7 +109,7 @@ contains
   subroutine factor_matrix(linear, matrix, sign_of_determinant)
     KSP, intent(in) :: linear !! prepared by `use_factors`
     Mat, intent(in) :: matrix
-    integer, intent(out) :: sign_of_determinant
+    integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
 
     integer, parameter :: mantissa_place = 12 ! in MUMPS' RINFOG
     character(len=80) :: package

@@ -34,7 +34,7 @@ contains
 
   !> Makes a linear solver iterate.
   subroutine use_multigrid(linear, prefix, symmetric, motions)
-    KSP, intent(in) :: linear
+    KSP, intent(in) :: linear              !! without a type yet
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'strip_'
     logical, intent(in) :: symmetric       !! the matrix is, and positive definite
     Mat, intent(in) :: motions             !! coarse unknowns to fine ones
@@ -66,15 +66,15 @@ contains
     PetscCallA(PCMGSetInterpolation(grids, 1_pint, motions, ierr))
   end subroutine use_multigrid
 
-  !> Whether the iterations came home by their true residual, and whether the coarse level serves on.
+  !> Whether the iterations converged by their true residual, and whether the coarse level serves on.
   subroutine judge_iterations(level, linear, matrix, right, solution, work, fresh, solved, ierr)
-    type(coarse_level_type), intent(inout) :: level
-    KSP, intent(in) :: linear
+    type(coarse_level_type), intent(inout) :: level !! what it has cost; brought up to date
+    KSP, intent(in) :: linear          !! after a solve
     Mat, intent(in) :: matrix          !! of the system that was solved
-    Vec, intent(in) :: right, solution
+    Vec, intent(in) :: right, solution !! of the system, scaled
     Vec, intent(in) :: work            !! overwritten
     logical, intent(in) :: fresh       !! the coarse level belongs to this matrix
-    logical, intent(out) :: solved
+    logical, intent(out) :: solved     !! the true residual is small
     PetscErrorCode, intent(out) :: ierr
     KSPConvergedReason :: reason
     PetscInt :: iterations

@@ -1,0 +1,206 @@
+#include "gfb_petsc.h"
+!> Newton's line search: how much of a step is taken.
+!>
+!> A step is halved until it can be evaluated and the residual is not larger than the largest of the
+!> last few: a residual may grow for a while, but not beyond that. Where contacts change their state
+!> along a step, the work of the forces on the structure shortens it further. A step of lagged factors
+!> that leads nowhere is dropped, and new factors follow.
+module gfb_line_search
+  use petscsnes
+  use gfb_kinds, only: wp
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_linear_solver, only: linear_solver_type, judge_linear, choose_factors
+  implicit none (type)
+  private
+  public :: take_step
+
+  integer, parameter :: memory = 5                 !! residuals that the line search remembers
+  integer, parameter :: halvings = 24              !! shortest trial is 2^-24 of a step
+  real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's [1]
+  real(wp), parameter :: blocked_length = 0.01_wp  !! of a step that goes nowhere [1]
+  integer, parameter :: most_blocked = 2           !! such steps before it is given up
+  integer, parameter :: balances = 8               !! trials of a step's length for contacts
+  integer, parameter :: patience = 12              !! steps after which contacts are taken to cycle
+  real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
+  !! beginning, before and after that [1]
+  real(wp), parameter :: at_rest = 1.0e-2_wp       !! work at a step's beginning that is none, over that at its end [1]
+  real(wp), parameter, public :: stagnation = 1.0e-6_wp !! steps this small that shrink no more are round-off [1]
+
+  !> What the steps of one solve have been.
+  type, public :: line_search_type
+    real(wp) :: length = 1.0_wp          !! share of the last step that was taken [1]
+    real(wp) :: step = huge(1.0_wp)      !! last relative step, before it was shortened [1]
+    real(wp) :: step_before = huge(1.0_wp) !! the one before [1]
+    real(wp) :: size_x = 1.0_wp          !! largest unknown, at least 1, scaled [1]
+    logical :: impossible = .false.      !! no trial along the step could be evaluated
+    integer, private :: steps = 0        !! so far
+    integer, private :: blocked = 0      !! steps in succession that were cut very short for that
+    real(wp), private :: past(memory) = 0.0_wp !! last residual norms, scaled [1]
+  end type line_search_type
+
+contains
+
+  !> Takes what can be taken of the step that SNES has found.
+  subroutine take_step(line, solver, system, search, residual_goal, ierr)
+    type(line_search_type), intent(inout) :: line
+    type(linear_solver_type), intent(inout) :: solver
+    class(nonlinear_system_type), target, intent(inout) :: system
+    SNESLineSearch, intent(in) :: search
+    real(wp), intent(in) :: residual_goal !! norm of the scaled residual that is small enough [1]
+    PetscErrorCode, intent(out) :: ierr
+
+    SNES :: snes
+    Vec :: x, f, y, trial, trial_residual
+    PetscReal :: before, after
+    logical :: found, solved
+
+    PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
+    PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
+    PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_SUCCEEDED, ierr))
+    call measure_step(line, x, f, y, before, ierr)
+    CHKERRQ(ierr)
+    if (system%slow_change) then
+      call judge_linear(solver, snes, system%jacobian, f, y, trial, solved, ierr)
+      CHKERRQ(ierr)
+      if (.not. solved) then ! again with new factors
+        line%length = 0.0_wp
+        line%impossible = .false.
+        PetscCall(SNESLineSearchComputeNorms(search, ierr))
+        if (solver%unsolved /= '') then
+          PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
+        end if
+        return
+      end if
+    end if
+    call find_length(line, snes, solver%fresh .or. system%slow_change, x, y, trial, trial_residual, found, ierr)
+    CHKERRQ(ierr)
+    if (found) then
+      call move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+      CHKERRQ(ierr)
+    else
+      line%length = 0.0_wp
+      if (solver%fresh .or. system%slow_change) then
+        PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
+      end if
+      line%impossible = line%impossible .and. solver%fresh
+    end if
+    PetscCall(VecNorm(f, NORM_2, after, ierr))
+    call choose_factors(solver, .not. (line%length < 1.0_wp .or. .not. system%settled), line%steps == 1, line%step, &
+                        line%step_before, .not. after > residual_goal, before, after)
+    PetscCall(SNESLineSearchComputeNorms(search, ierr))
+  end subroutine take_step
+
+  !> Sizes of a step and of the residual where it begins.
+  subroutine measure_step(line, x, f, y, before, ierr)
+    type(line_search_type), intent(inout) :: line
+    Vec, intent(in) :: x, f, y      !! state, residual, step
+    PetscReal, intent(out) :: before !! norm of the residual
+    PetscErrorCode, intent(out) :: ierr
+    PetscReal :: size_x, size_y
+
+    PetscCall(VecNorm(f, NORM_2, before, ierr))
+    PetscCall(VecNorm(x, NORM_INFINITY, size_x, ierr))
+    PetscCall(VecNorm(y, NORM_INFINITY, size_y, ierr))
+    line%steps = line%steps + 1
+    line%step_before = line%step
+    line%size_x = max(1.0_wp, size_x)
+    line%step = size_y/line%size_x
+    line%past = [before, line%past(:memory - 1)]
+    line%length = 1.0_wp
+    line%impossible = .true.
+  end subroutine measure_step
+
+  !> Halves a step until it can be evaluated and its residual is small enough.
+  subroutine find_length(line, snes, may_halve, x, y, trial, trial_residual, found, ierr)
+    type(line_search_type), intent(inout) :: line
+    SNES, intent(in) :: snes
+    logical, intent(in) :: may_halve         !! else the full step alone is tried
+    Vec, intent(in) :: x, y                  !! state and step
+    Vec, intent(in) :: trial, trial_residual !! are overwritten
+    logical, intent(out) :: found
+    PetscErrorCode, intent(out) :: ierr
+    PetscReal :: after
+    integer :: halving
+    logical :: left !! a trial could not be evaluated
+
+    ierr = 0
+    found = .false.
+    left = .false.
+    do halving = 0, merge(halvings, 0, may_halve)
+      PetscCall(VecWAXPY(trial, -line%length, y, x, ierr))
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
+      if (after <= huge(1.0_wp)) then ! neither infinite nor NaN
+        line%impossible = .false.
+        ! Near the end round-off makes residuals jump: a small full step is taken as it is.
+        found = after <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. &
+          (line%step <= stagnation .and. halving == 0)
+      else
+        left = .true.
+      end if
+      if (found) exit
+      line%length = 0.5_wp*line%length
+    end do
+    line%blocked = merge(line%blocked + 1, 0, left .and. line%length < blocked_length)
+    if (line%blocked >= most_blocked) then ! the method runs against where gap or pressure end
+      found = .false.
+      line%impossible = .true.
+    end if
+  end subroutine find_length
+
+  !> Takes a trial as the new state; contacts follow it.
+  subroutine move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+    type(line_search_type), intent(inout) :: line
+    class(nonlinear_system_type), target, intent(inout) :: system
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
+    Vec, intent(in) :: trial, trial_residual !! at the present length of the step
+    PetscErrorCode, intent(out) :: ierr
+    logical :: moved
+
+    ierr = 0
+    call system%settle(trial, moved)
+    if (moved) then
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      call balance_work(line, system, snes, x, f, y, trial, trial_residual, ierr)
+      CHKERRQ(ierr)
+    end if
+    PetscCall(VecCopy(trial, x, ierr))
+    PetscCall(VecCopy(trial_residual, f, ierr))
+  end subroutine move_there
+
+  !> Shortens a step along which contacts change their state, where the forces on the structure turn
+  !> against it: to where they do little work along it. Without friction and film that is a search
+  !> for the least energy, which converges from anywhere.
+  subroutine balance_work(line, system, snes, x, f, y, trial, trial_residual, ierr)
+    type(line_search_type), intent(inout) :: line
+    class(nonlinear_system_type), target, intent(inout) :: system
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x, f, y               !! state, residual, step
+    Vec, intent(in) :: trial, trial_residual !! at the present length of the step
+    PetscErrorCode, intent(out) :: ierr
+    real(wp) :: start, low, high, work_low, work
+    integer :: attempt
+    logical :: moved
+    real(wp) :: allowed
+
+    ierr = 0
+    allowed = merge(unbalanced(1), unbalanced(2), line%steps <= patience)
+    start = system%virtual_work(f, y)
+    work = system%virtual_work(trial_residual, y)
+    low = 0.0_wp
+    work_low = start
+    high = line%length
+    ! Where the step begins in equilibrium, as when only the load has moved, there is nothing to compare.
+    if (line%steps <= patience .and. start <= at_rest*abs(work)) return
+    do attempt = 1, balances
+      if (.not. start > 0.0_wp .or. work >= -allowed*start) return
+      line%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))
+      PetscCall(VecWAXPY(trial, -line%length, y, x, ierr))
+      call system%settle(trial, moved)
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      work = system%virtual_work(trial_residual, y)
+      high = line%length
+    end do
+  end subroutine balance_work
+end module gfb_line_search

@@ -1,0 +1,172 @@
+#include "gfb_petsc.h"
+!> The linear solver of Newton's method: which one a system gets, and when it factors its matrix anew.
+!>
+!> - direct: MUMPS' factors. They serve again while that makes Newton's steps shrink fast.
+!> - lagged: where matrices differ in few entries, earlier factors precondition GMRES.
+!> - iterative: multigrid, where the system knows its motions.
+module gfb_linear_solver
+  use petscsnes
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_direct_solver, only: use_factors, factor_failure
+  use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
+  use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
+  implicit none (type)
+  private
+  public :: choose_solver, begin_solve, decide_factors, keep_ready, judge_linear, choose_factors, linear_failure, &
+            forget_solver
+
+  real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
+  real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
+  real(wp), parameter :: chord_fall = 0.9_wp        !! and the residual by this [1]
+
+  !> What is known of the present factors.
+  type, public :: linear_solver_type
+    logical :: fresh = .false.                !! they belong to the present state
+    character(len=:), allocatable :: unsolved !! why a linear system was not solved, in words; else empty
+    logical, private :: iterates = .false.    !! linear systems are solved by multigrid
+    logical, private :: keep = .false.        !! use the present factors again
+    logical, private :: ready = .false.       !! they belong to an answer, and no solve has begun since
+    integer, private :: filled = 0            !! times that the matrix had been filled then
+    type(lagged_factors_type), private :: lagged !! what GMRES has cost with the present factors
+    type(coarse_level_type), private :: level !! of multigrid
+  end type linear_solver_type
+
+contains
+
+  !> Gives SNES the solver that suits a system: multigrid where it has motions, else factors.
+  subroutine choose_solver(snes, prefix, system, solver)
+    SNES, intent(in) :: snes
+    character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
+    class(nonlinear_system_type), intent(in) :: system
+    type(linear_solver_type), intent(inout) :: solver
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(snes, linear, ierr))
+    solver%keep = .false.
+    solver%iterates = system%has_motions
+    if (solver%iterates) then
+      call use_multigrid(linear, prefix, system%symmetric, system%motions)
+    else
+      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite)
+    end if
+    if (.not. system%slow_change) return
+    if (.not. solver%iterates) call use_lagged_factors(linear)
+    PetscCallA(SNESSetMaxLinearSolveFailures(snes, huge(1_pint), ierr))
+  end subroutine choose_solver
+
+  !> A solve of the nonlinear equations begins: factors that belong to its start serve once.
+  subroutine begin_solve(solver, times_filled)
+    type(linear_solver_type), intent(inout) :: solver
+    integer, intent(in) :: times_filled !! the system's matrix, so far
+
+    solver%keep = solver%ready .and. solver%filled == times_filled
+    solver%ready = .false.
+    solver%unsolved = ''
+  end subroutine begin_solve
+
+  !> The present factors belong to an answer: the next solve may use them.
+  subroutine keep_ready(solver, ready, times_filled)
+    type(linear_solver_type), intent(inout) :: solver
+    logical, intent(in) :: ready        !! the matrix could be factored
+    integer, intent(in) :: times_filled !! the system's matrix, so far
+
+    solver%ready = ready
+    solver%filled = times_filled
+  end subroutine keep_ready
+
+  !> Whether a step gets new factors, and whether the matrix is to be filled for it.
+  subroutine decide_factors(solver, snes, slow_change, fill, ierr)
+    type(linear_solver_type), intent(inout) :: solver
+    SNES, intent(in) :: snes
+    logical, intent(in) :: slow_change !! matrices differ in few entries
+    logical, intent(out) :: fill       !! a matrix that is not touched keeps its factors
+    PetscErrorCode, intent(out) :: ierr
+
+    ierr = 0
+    fill = .true.
+    if (slow_change) then
+      ! To PETSc -2 is: new factors now, -1: none until told.
+      solver%fresh = merge(solver%level%outdated, solver%lagged%outdated, solver%iterates)
+      PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, solver%fresh), ierr))
+    else
+      solver%fresh = .not. solver%keep
+      fill = solver%fresh
+    end if
+  end subroutine decide_factors
+
+  !> Whether a linear system was solved; says why where new factors could not do it.
+  subroutine judge_linear(solver, snes, matrix, right, solution, work, solved, ierr)
+    type(linear_solver_type), intent(inout) :: solver
+    SNES, intent(in) :: snes
+    Mat, intent(in) :: matrix          !! of the system that was solved, scaled
+    Vec, intent(in) :: right, solution !! scaled
+    Vec, intent(in) :: work            !! overwritten
+    logical, intent(out) :: solved
+    PetscErrorCode, intent(out) :: ierr
+    KSP :: linear
+
+    PetscCall(SNESGetKSP(snes, linear, ierr))
+    if (solver%iterates) then
+      call judge_iterations(solver%level, linear, matrix, right, solution, work, solver%fresh, solved, ierr)
+      CHKERRQ(ierr)
+      if (solver%fresh .and. .not. solved) solver%unsolved = "the linear iterations did not converge: linear_solver = 'direct' needs none"
+    else
+      call judge_factors(solver%lagged, linear, solver%fresh, solved, ierr)
+      CHKERRQ(ierr)
+      solver%unsolved = factor_failure(linear)
+      solved = solved .and. solver%unsolved == ''
+    end if
+  end subroutine judge_linear
+
+  !> Whether the present factors serve the next step too.
+  !>
+  !> Where contacts have changed, kept factors lead nowhere with steps that look small: then the
+  !> residual stays.
+  pure subroutine choose_factors(solver, full, first, step, step_before, small, before, after)
+    type(linear_solver_type), intent(inout) :: solver
+    logical, intent(in) :: full            !! the step was taken whole, and contacts are where they are linearised
+    logical, intent(in) :: first           !! it was the first of its solve
+    real(wp), intent(in) :: step           !! largest relative change of an unknown [1]
+    real(wp), intent(in) :: step_before    !! the same of the step before [1]
+    logical, intent(in) :: small           !! the residual after it is within its tolerance
+    real(wp), intent(in) :: before, after  !! norms of the scaled residual before and after it [1]
+
+    if (.not. full) then
+      solver%keep = .false.
+    else if (solver%fresh .or. first) then
+      solver%keep = step < chord_step
+    else
+      solver%keep = step < chord_contraction*step_before
+    end if
+    if (.not. small) solver%keep = solver%keep .and. after < chord_fall*before
+  end subroutine choose_factors
+
+  !> Why PETSc gave up a linear system, in words.
+  function linear_failure(snes) result(words)
+    SNES, intent(in) :: snes
+    character(len=:), allocatable :: words
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(snes, linear, ierr))
+    words = factor_failure(linear)
+    if (words == '') words = 'the matrix is singular'
+  end function linear_failure
+
+  !> Forgets all factors and what they have cost.
+  subroutine forget_solver(solver, snes)
+    type(linear_solver_type), intent(inout) :: solver
+    SNES, intent(in) :: snes
+    type(lagged_factors_type) :: none
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(snes, linear, ierr))
+    PetscCallA(KSPReset(linear, ierr))
+    solver%ready = .false.
+    solver%lagged = none
+  end subroutine forget_solver
+end module gfb_linear_solver
