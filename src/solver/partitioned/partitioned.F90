@@ -23,7 +23,8 @@ module gfb_partitioned
   use gfb_coupling_side, only: coupling_side_type, create_side
   use gfb_anderson_acceleration, only: loop_mixing_type, create_mixing, mix_loops, destroy_mixing
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing, refine
+  use gfb_cold_start, only: start_bearing
+  use gfb_smaller_start, only: refine
   implicit none (type)
   private
   public :: start_partitioned, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned

@@ -1,69 +1,63 @@
 #include "gfb_petsc.h"
-!> The first answer of a bearing with foils in contact, from nothing.
+!> The start of a bearing with foils in contact.
 !>
 !> A foil at rest lies on all its contacts with no force, so that every least film decides all of
-!> them anew, and Newton's method cycles among them. Therefore contacts begin soft, and hold what
-!> they touch: as springs both ways they leave the equations nearly linear. With a film there they
-!> are made to let go, by decades of their stiffness against opening, and then as hard as they are.
+!> them anew, and Newton's method cycles among them. A cold start uses soft two-way contact springs,
+!> which leave the equations nearly linear, then releases them and raises their stiffness to the value
+!> asked for: by decades of their stiffness against opening, and by decades of all of it.
 module gfb_contact_start
-  use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: film_forces
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_start_position, only: guess_position, find_position, let_go, solve_at
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before
+  use gfb_kept_state, only: kept_state_type
+  use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
   implicit none (type)
   private
-  public :: try_start
+  public :: try_soft_contacts
 
-  !> Eccentricities to begin with where none is given, over the free clearance; when contacts let go,
-  !> before the shaft does or after; and by how many decades of their stiffness at first. The first
-  !> start lets them go while the foil is pressed most: before, where the load is larger than the held
-  !> film's force.
-  integer, parameter :: by_load = 1, against_load = 2, after = 3, before = 4
-  real(wp), parameter :: start_eccentricity(6) = [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp, 0.9_wp, 0.25_wp]
-  integer, parameter :: let_go_when(6) = [by_load, against_load, after, after, before, before]
-  real(wp), parameter :: first_decades(6) = [1.5_wp, 1.5_wp, 0.8_wp, 1.5_wp, 1.5_wp, 1.5_wp]
-  real(wp), parameter :: growth(6) = [1.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 1.0_wp] !! of a step that succeeded
-  integer, parameter, public :: start_count = size(start_eccentricity)
-  integer, parameter, public :: plain_starts = 4    !! those that differ only in how contacts let go
+  !> Releases contacts while the foil is pressed most: before the shaft is released where the load is larger than
+  !> the film's force under the fixed shaft.
+  type(soft_contacts_type), parameter, public :: usual_contacts = soft_contacts_type(by_load, 0.5_wp, 1.5_wp, 1.0_wp)
+
   real(wp), parameter, public :: shortest_trial = 0.02_wp !! step of a start while others are left [1]
-  real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a way, with hard contacts [1]
+  real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a path, with contacts of full stiffness [1]
 
-  type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25) !! on the way
-  integer, parameter :: releasing = 1, hardening = 2 !! what is done to contacts
-  real(wp), parameter :: shortest_decades = 0.05_wp
-  real(wp), parameter :: enough = 4.0_wp             !! decades of letting go that are all where steps do not grow
-  real(wp), parameter :: least_adhesion = -8.0_wp    !! decades at which it is none
+  type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25) !! with soft contacts
+  integer, parameter :: releasing = 1, stiffening = 2 !! what is done to contacts
+  real(wp), parameter :: shortest_decades = 0.05_wp    !! of a step, before it is given up [1]
+  real(wp), parameter :: enough = 4.0_wp             !! decades of the release that are all where steps do not grow
+  real(wp), parameter :: least_adhesion = -8.0_wp    !! decades of the stiffness against opening at which it is none [1]
 
 contains
 
-  !> One of the starts.
-  subroutine try_start(scene, target, settings, attempt, bearing, newton, report)
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    integer, intent(in) :: attempt !! from 1 to `start_count`
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
+  !> Soft two-way contacts first, then those of the scene.
+  recursive subroutine try_soft_contacts(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(soft_contacts_type), intent(in) :: soft  !! how they are released
     type(path_report_type), intent(out) :: report
+    logical, intent(out) :: ends                  !! the shaft touches down
+    type(path_settings_type) :: settings
 
-    call guess_position(bearing, scene, target, start_eccentricity(attempt))
-    call find_from(bearing, newton, target, settings, attempt, report)
-  end subroutine try_start
+    settings = problem%settings
+    if (problem%others_left) settings%smallest_step = max(settings%smallest_step, shortest_trial)
+    call guess_position(problem%bearing, problem%scene, problem%target, soft%eccentricity)
+    call find_from(problem%bearing, problem%newton, problem%target, settings, soft, report)
+    ends = report%touched
+  end subroutine try_soft_contacts
 
-  !> The way to the target with contacts that are soft and hold what they touch; what it reached is
-  !> made to let go, and hard, and goes on from there.
-  subroutine find_from(bearing, newton, target, settings, attempt, report)
+  !> The path to the target with soft two-way contacts; at the point it reached they are released and
+  !> stiffened, and the path goes on from there.
+  subroutine find_from(bearing, newton, target, settings, contacts, report)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: target
     type(path_settings_type), intent(in) :: settings
-    integer, intent(in) :: attempt
+    type(soft_contacts_type), intent(in) :: contacts
     type(path_report_type), intent(out) :: report
     type(path_settings_type) :: soft
     type(newton_settings_type) :: wanted
@@ -80,15 +74,17 @@ contains
     call bearing%foil%set_adhesion(1.0_wp)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
-    early = let_go_when(attempt) == before
-    if (let_go_when(attempt) <= against_load) early = norm2(target%load) > norm2(force(1:2)) .eqv. let_go_when(attempt) == by_load
-    if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, attempt, report)
-    if (report%converged .and. bearing%floats) call let_go(bearing, newton, target, soft, report)
-    if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, attempt, report)
+    early = contacts%release == before
+    if (contacts%release == by_load .or. contacts%release == against_load) then
+      early = norm2(target%load) > norm2(force(1:2)) .eqv. contacts%release == by_load
+    end if
+    if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
+    if (report%converged .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
+    if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     call bearing%foil%set_adhesion(0.0_wp)
     real_contacts = .false.
     if (report%converged .or. .not. report%held) then
-      call lead_contacts(bearing, newton, hardening, attempt, report, real_contacts)
+      call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
     end if
     newton%settings = wanted
     if (report%converged) then
@@ -101,65 +97,63 @@ contains
     call bearing%foil%set_hardness(1.0_wp)
   end subroutine find_from
 
-  !> Makes contacts let go, or as hard as the scene has them, at the bearing's present point and by
+  !> Releases contacts, or raises their stiffness to the scene's, at the bearing's present point and by
   !> decades. A report of success becomes one of failure where that does not succeed.
-  subroutine lead_contacts(bearing, newton, change, attempt, report, arrived)
+  subroutine lead_contacts(bearing, newton, change, contacts, report, arrived)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
-    integer, intent(in) :: change !! `releasing` or `hardening`
-    integer, intent(in) :: attempt
+    integer, intent(in) :: change !! `releasing` or `stiffening`
+    type(soft_contacts_type), intent(in) :: contacts
     type(path_report_type), intent(inout) :: report
     logical, intent(out), optional :: arrived
     type(newton_report_type) :: solved
-    real(wp) :: gone, way, step, trial
-    Vec :: here
-    PetscErrorCode :: ierr
+    type(kept_state_type) :: last
+    real(wp) :: gone, total, step, trial ! decades
 
-    way = least_adhesion
-    if (change == hardening) way = log10(bearing%foil%softest())
-    way = -way
-    step = first_decades(attempt)
+    total = least_adhesion
+    if (change == stiffening) total = log10(bearing%foil%softest())
+    total = -total
+    step = contacts%first_decades
     gone = 0.0_wp
-    PetscCallA(VecDuplicate(bearing%state, here, ierr))
-    PetscCallA(VecCopy(bearing%state, here, ierr))
-    do while (gone < way .and. step >= shortest_decades)
+    call last%keep(bearing)
+    do while (gone < total .and. step >= shortest_decades)
       trial = gone + step
-      if (trial >= way .or. (change == releasing .and. trial >= enough .and. growth(attempt) <= 1.0_wp)) trial = way
-      call set_contacts(bearing, newton, change, trial, way)
+      if (trial >= total .or. (change == releasing .and. trial >= enough .and. contacts%growth <= 1.0_wp)) trial = total
+      call set_contacts(bearing, newton, change, trial, total)
       call solve_newton(newton, solved)
       if (solved%converged) then
         gone = trial
-        step = growth(attempt)*step
-        PetscCallA(VecCopy(bearing%state, here, ierr))
+        step = contacts%growth*step
+        call last%keep(bearing)
       else
-        PetscCallA(VecCopy(here, bearing%state, ierr))
+        call last%put_back(bearing)
         step = 0.5_wp*step
       end if
     end do
-    PetscCallA(VecDestroy(here, ierr))
-    if (present(arrived)) arrived = gone >= way
-    if (gone >= way .or. .not. report%converged) return
+    call last%destroy()
+    if (present(arrived)) arrived = gone >= total
+    if (gone >= total .or. .not. report%converged) return
     report%converged = .false.
     report%reason = solved%reason
     report%held = .true. ! not a state of this scene
   end subroutine lead_contacts
 
-  !> Contacts on their way, so many decades from how they began.
-  subroutine set_contacts(bearing, newton, change, gone, way)
+  !> Contacts between soft two-way ones and the scene's, so many decades from where they began.
+  subroutine set_contacts(bearing, newton, change, gone, total)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(in) :: newton
-    integer, intent(in) :: change    !! `releasing` or `hardening`
-    real(wp), intent(in) :: gone, way !! decades
+    integer, intent(in) :: change      !! `releasing` or `stiffening`
+    real(wp), intent(in) :: gone, total !! decades
     real(wp) :: factor
 
     if (change == releasing) then
-      factor = merge(0.0_wp, 10.0_wp**(-gone), gone >= way)
+      factor = merge(0.0_wp, 10.0_wp**(-gone), gone >= total)
       call bearing%foil%set_adhesion(factor)
-      call newton%log%detail('contacts hold less: '//text(factor, 3)//' of their stiffness')
+      call newton%log%detail('two-way contacts: '//text(factor, 3)//' of their stiffness against opening')
     else
-      factor = merge(1.0_wp, 10.0_wp**(gone - way), gone >= way)
+      factor = merge(1.0_wp, 10.0_wp**(gone - total), gone >= total)
       call bearing%foil%set_hardness(factor)
-      call newton%log%detail('contacts harder: '//text(factor, 3)//' of their stiffness')
+      call newton%log%detail('contacts: '//text(factor, 3)//' of their stiffness')
     end if
   end subroutine set_contacts
 end module gfb_contact_start

@@ -1,26 +1,25 @@
 #include "gfb_petsc.h"
-!> A bearing's answer by way of a held edge.
+!> The start of a bearing whose free edge is held at one height after the other.
 !>
 !> The film's suction may draw the free edge of the top foil off its bumps: an unstable motion that
 !> hides what equilibria there are from Newton's method. With the edge held at a height the rest has
 !> an answer, and the force that holds it tells more: where it changes its sense from one height to
 !> the next there is an equilibrium between, and where it never does the edge stays nowhere.
 module gfb_edge_start
-  use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
-  use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: edge_lift, edge_room
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_position, only: solve_at
-  use gfb_contact_start, only: try_start, shortest_trial
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type
+  use gfb_contact_start, only: try_soft_contacts, usual_contacts, shortest_trial
   implicit none (type)
   private
-  public :: search_heights, has_free_edge
+  public :: try_held_edge, has_free_edge
 
   real(wp), parameter :: lowest = -0.05_wp       !! height of the edge, over the clearance [1]
   real(wp), parameter :: next_height = 0.1_wp    !! above the one before, the same [1]
@@ -32,7 +31,7 @@ module gfb_edge_start
   integer, parameter :: most_failures = 2        !! one after the other, then it is given up
   integer, parameter :: patience = 2             !! times the iterations of a solve with the edge held
   real(wp), parameter :: small_step = 2.0e-3_wp  !! of the height, for the slope of the force; also near enough [1]
-  integer, parameter :: most_trials = 6          !! on the way to where there is none
+  integer, parameter :: most_trials = 6          !! to find where there is none
   real(wp), parameter :: least_fall = 0.5_wp     !! of the force from trial to trial, to go on
   integer, parameter :: hasty_iterations = 15    !! of a trial
   real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
@@ -43,87 +42,83 @@ contains
   function has_free_edge(bearing) result(has)
     type(bearing_system_type), intent(in) :: bearing
     logical :: has
+
     has = any_rank(size(bearing%edge%unknown) > 0)
   end function has_free_edge
 
-  !> Holds the edge higher and higher, and lets it go where it may stay.
+  !> Holds the edge higher and higher, and releases it where it may stay.
   !>
-  !> Where it stays nowhere `shown` is true, and the report says what was measured; the state is then of
+  !> Where it stays nowhere `ends` is true, and the report says what was measured; the state is then of
   !> no use.
-  subroutine search_heights(scene, target, settings, bearing, newton, report, shown)
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
+  recursive subroutine try_held_edge(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
     type(path_report_type), intent(out) :: report
-    logical, intent(out) :: shown !! it is drawn up at all heights below the shaft
+    logical, intent(out) :: ends !! the edge is drawn up at all heights below the shaft: there is no answer
     real(wp) :: height, highest, least, room
     integer :: number, failures
     logical :: reached !! the shaft is near
 
-    call newton%log%line('the free edge of the top foil is held, higher and higher')
+    call problem%newton%log%line('the free edge of the top foil is held, higher and higher')
     least = huge(least)
-    shown = .true.
+    ends = .true.
     reached = .false.
     failures = 0
     highest = 0.0_wp
     room = huge(room)
     do number = 1, most_heights
-      height = max(lowest, (number - 2 + max(0, number - near_heights))*next_height)*bearing%film%clearance
-      call hold_at(scene, target, settings, height, bearing, newton, report)
+      height = max(lowest, (number - 2 + max(0, number - near_heights))*next_height)*problem%bearing%film%clearance
+      call hold_at(problem, height, report)
       if (report%converged) then
         failures = 0
         highest = height
-        room = edge_room(bearing)
-        call newton%log%line('  at '//text(height*micrometres, 4)//' um by '//text(edge_force(bearing), 4)//' N')
-        call let_edge_go(target, settings, bearing, newton, least, report)
+        room = edge_room(problem%bearing)
+        call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um by '//text(edge_force(problem%bearing), 4)//' N')
+        call release_edge(problem%target, problem%settings, problem%bearing, problem%newton, least, report)
         if (report%converged) return
-        reached = room < near_shaft*bearing%film%clearance
+        reached = room < near_shaft*problem%bearing%film%clearance
         if (reached) exit
       else
-        call newton%log%line('  at '//text(height*micrometres, 4)//' um: '//report%reason)
+        call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um: '//report%reason)
         failures = failures + 1
-        shown = .false.
+        ends = .false.
         if (failures >= most_failures) exit
       end if
     end do
     report%converged = .false.
     report%touched = .false.
-    shown = shown .and. reached .and. least > 0.0_wp
-    if (shown) report%reason = 'the film draws the free edge of the top foil to the shaft: held at '// &
+    ends = ends .and. reached .and. least > 0.0_wp
+    if (ends) report%reason = 'the film draws the free edge of the top foil to the shaft: held at '// &
       text(number)//' heights up to '//text(highest*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
       ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
-  end subroutine search_heights
+  end subroutine try_held_edge
 
   !> An answer with the edge held at a height.
-  subroutine hold_at(scene, target, settings, height, bearing, newton, report)
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    real(wp), intent(in) :: height !! of the edge above its place at rest [m]
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
+  recursive subroutine hold_at(problem, height, report)
+    type(start_problem_type), intent(in) :: problem
+    real(wp), intent(in) :: height !! of the edge above its height at rest [m]
     type(path_report_type), intent(out) :: report
-    type(path_settings_type) :: quick
-    type(operating_point_type) :: held
+    type(start_problem_type) :: held
     integer :: allowed
+    logical :: ends
 
-    quick = settings
-    quick%look_for_folds = .false.
-    quick%smallest_step = shortest_trial
-    quick%maximum_steps = min(settings%maximum_steps, most_steps)
-    held = target
-    held%edge_hold = hold_share*bearing%force_scale()/bearing%film%clearance
-    held%edge_height = height
-    allowed = newton%settings%maximum_iterations
-    newton%settings%maximum_iterations = patience*allowed
-    call try_start(scene, held, quick, 1, bearing, newton, report)
-    newton%settings%maximum_iterations = allowed
+    held = problem
+    held%others_left = .false.
+    held%settings%look_for_folds = .false.
+    held%settings%smallest_step = shortest_trial
+    held%settings%maximum_steps = min(problem%settings%maximum_steps, most_steps)
+    held%target%edge_hold = hold_share*problem%bearing%force_scale()/problem%bearing%film%clearance
+    held%target%edge_height = height
+    associate (settings => problem%newton%settings)
+      allowed = settings%maximum_iterations
+      settings%maximum_iterations = patience*allowed
+      call try_soft_contacts(held, usual_contacts, report, ends)
+      settings%maximum_iterations = allowed
+    end associate
   end subroutine hold_at
 
-  !> Goes to the height near by where no force is needed, and lets the edge go there.
-  subroutine let_edge_go(target, settings, bearing, newton, least, report)
+  !> Goes to the height near by where no force is needed, and releases the edge there.
+  subroutine release_edge(target, settings, bearing, newton, least, report)
     type(operating_point_type), intent(in) :: target
     type(path_settings_type), intent(in) :: settings
     type(bearing_system_type), intent(inout) :: bearing
@@ -131,7 +126,7 @@ contains
     real(wp), intent(inout) :: least !! force that presses the edge down, of all heights so far [N]
     type(path_report_type), intent(out) :: report
     type(operating_point_type) :: held
-    real(wp) :: force, force_before, step, way
+    real(wp) :: force, force_before, step, rise
     integer :: trial, allowed
 
     allowed = newton%settings%maximum_iterations
@@ -140,11 +135,11 @@ contains
     force = edge_force(bearing)
     least = min(least, -force)
     step = small_step*bearing%film%clearance
-    way = 0.0_wp
+    rise = 0.0_wp
     do trial = 1, most_trials
       force_before = force
       held%edge_height = held%edge_height + step
-      way = way + step
+      rise = rise + step
       call solve_at(bearing, newton, held, .false., settings, report)
       if (.not. report%converged) exit
       force = edge_force(bearing)
@@ -153,14 +148,14 @@ contains
       report%converged = .false.
       if (trial > 1 .and. abs(force) > least_fall*abs(force_before)) exit
       step = step*force/(force_before - force)
-      if (.not. abs(way + step) <= next_height*bearing%film%clearance) exit ! there is none near by
+      if (.not. abs(rise + step) <= next_height*bearing%film%clearance) exit ! there is none near by
       if (abs(step) <= small_step*bearing%film%clearance) then
         call solve_at(bearing, newton, target, .false., settings, report)
         if (report%converged) exit
       end if
     end do
     newton%settings%maximum_iterations = allowed
-  end subroutine let_edge_go
+  end subroutine release_edge
 
   !> Force that holds the edge, towards the shaft [N].
   function edge_force(bearing) result(force)

@@ -9,16 +9,16 @@ module gfb_full_width_start
   use gfb_bearing_system, only: bearing_system_type, film_values
   implicit none (type, external)
   private
-  public :: widen
+  public :: take_full_width
 
 contains
 
   !> Makes the answer on half the width, and its mirror, the state on the whole width.
-  subroutine widen(half, whole)
-    type(bearing_system_type), intent(in) :: half
-    type(bearing_system_type), intent(inout) :: whole
+  subroutine take_full_width(half, whole)
+    type(bearing_system_type), intent(in) :: half     !! with its answer
+    type(bearing_system_type), intent(inout) :: whole !! gets a start value
     real(wp) :: narrow(half%local_size()), unknown(whole%local_size())
-    type(foil_surface_type), allocatable :: narrow_surface(:), wide_surface(:)
+    type(foil_surface_type), allocatable :: half_surface(:), full_surface(:)
     integer :: i
 
     call half%get_unknowns(narrow)
@@ -29,18 +29,18 @@ contains
       where (.not. mesh%owned) unknown(:nodes) = 0.0_wp
     end associate
     if (whole%floats) unknown(whole%first_shaft + 1:) = merge(half%eccentricity(), 0.0_wp, whole%last_rank)
-    narrow_surface = half%foil%surfaces()
-    wide_surface = whole%foil%surfaces()
-    do i = 1, size(wide_surface)
-      call widen_surface(half%foil, narrow_surface(i), narrow, whole%foil, wide_surface(i), i, unknown)
+    half_surface = half%foil%surfaces()
+    full_surface = whole%foil%surfaces()
+    do i = 1, size(full_surface)
+      call mirror_surface(half%foil, half_surface(i), narrow, whole%foil, full_surface(i), i, unknown)
     end do
     call whole%add_up(unknown, whole%state)
-  end subroutine widen
+  end subroutine take_full_width
 
   !> The owned unknowns of one surface; what turns its sense in the mirror is negative where z is.
-  subroutine widen_surface(half, narrow_surface, narrow, whole, wide_surface, surface, unknown)
+  subroutine mirror_surface(half, half_surface, narrow, whole, full_surface, surface, unknown)
     class(foil_model_type), intent(in) :: half, whole
-    type(foil_surface_type), intent(in) :: narrow_surface, wide_surface
+    type(foil_surface_type), intent(in) :: half_surface, full_surface
     real(wp), intent(in) :: narrow(:)      !! half's local unknowns of the bearing, in SI
     integer, intent(in) :: surface         !! which of the foils' surfaces it is
     real(wp), intent(inout) :: unknown(:)  !! whole's
@@ -48,7 +48,7 @@ contains
     real(wp), allocatable :: value(:, :)
     integer :: i, k, number, rows
 
-    own = pack(narrow_surface%part%mesh_node, narrow_surface%part%owned)
+    own = pack(half_surface%part%mesh_node, half_surface%part%owned)
     allocate (value(node_unknowns, size(own)), source=0.0_wp)
     do i = 1, size(own)
       do k = 1, node_unknowns
@@ -56,9 +56,9 @@ contains
         if (number > 0) value(k, i) = narrow(half%first + number)
       end do
     end do
-    wanted = pack(wide_surface%part%mesh_node, wide_surface%part%owned)
-    rows = wide_surface%mesh%rows
-    value = fetch_entries(narrow_surface%mesh%nodes(), own, value, [(mirrored(wanted(i), rows), i=1, size(wanted))])
+    wanted = pack(full_surface%part%mesh_node, full_surface%part%owned)
+    rows = full_surface%mesh%rows
+    value = fetch_entries(half_surface%mesh%nodes(), own, value, [(mirrored(wanted(i), rows), i=1, size(wanted))])
     do i = 1, size(wanted)
       if (modulo(wanted(i) - 1, rows) < rows/2) value([axial, about_tangent], i) = -value([axial, about_tangent], i)
       do k = 1, node_unknowns
@@ -66,7 +66,7 @@ contains
         if (number > 0) unknown(whole%first + number) = value(k, i)
       end do
     end do
-  end subroutine widen_surface
+  end subroutine mirror_surface
 
   !> The half's node that is a node of the whole, or its mirror; numbers run along stations of rows.
   pure function mirrored(node, rows) result(number)

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Where a search for an answer begins: a held shaft, brought from rest to speed, and let go.
+!> Where a search for an answer begins: a fixed shaft, brought from rest to speed, and released.
 module gfb_start_position
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
@@ -12,21 +12,21 @@ module gfb_start_position
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
-  public :: guess_position, find_position, let_go, solve_at
+  public :: guess_position, find_position, release_shaft, solve_at
 
   real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
-  real(wp), parameter :: room_at_rest = 0.75_wp  !! way to begin with, over the clearance [1]
+  real(wp), parameter :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
 
 contains
 
   !> Newton's method at a point, as a path of one step.
   subroutine solve_at(bearing, newton, target, held, settings, report)
     type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    logical, intent(in) :: held !! the shaft is kept at the point's position
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target   !! asked for
+    logical, intent(in) :: held !! the shaft is fixed at the point's position
     type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! of a path of one step
     type(newton_report_type) :: solved
 
     bearing%point = target
@@ -42,11 +42,11 @@ contains
     report%steps = 1
   end subroutine solve_at
 
-  !> A held position at rest, brought to speed.
+  !> A fixed position at rest, brought to speed.
   subroutine find_position(bearing, newton, target, settings, report)
     type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target   !! asked for
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
 
@@ -59,7 +59,7 @@ contains
     wanted%eccentricity = bearing%eccentricity()
     free = free_position(bearing, wanted)
     call put_at_rest(bearing, free)
-    call newton%log%detail('held position, from rest to speed')
+    call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
     report%held = .true.
     if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
@@ -70,25 +70,25 @@ contains
     end if
   end subroutine find_position
 
-  !> Lets the shaft go where it is held, and moves the load from the film's reaction to its target.
-  subroutine let_go(bearing, newton, target, settings, report)
+  !> Releases the shaft where it is fixed, and moves the load from the film's reaction to its target.
+  subroutine release_shaft(bearing, newton, target, settings, report)
     type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target   !! asked for
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
-    real(wp) :: force(film_forces), way
+    real(wp) :: force(film_forces), change
 
     force = bearing%reaction()
     bearing%held = .false.
     bearing%point%load = force(1:2)
-    call newton%log%detail('shaft let go, load from the reaction to its target')
-    way = norm2(target%load - force(1:2))
-    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(way, tiny(1.0_wp)), settings, report)
-  end subroutine let_go
+    call newton%log%detail('shaft released, load from the reaction to its target')
+    change = norm2(target%load - force(1:2))
+    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(change, tiny(1.0_wp)), settings, report)
+  end subroutine release_shaft
 
   !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one
-  !> on the way to it.
+  !> between it and the centred one.
   function free_position(bearing, wanted) result(free)
     type(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: wanted
@@ -105,7 +105,7 @@ contains
     end associate
   end function free_position
 
-  !> Puts the bearing at rest at a held position: ambient pressure everywhere, exactly.
+  !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly.
   subroutine put_at_rest(bearing, held)
     type(bearing_system_type), intent(inout) :: bearing
     type(operating_point_type), intent(in) :: held
@@ -153,7 +153,7 @@ contains
     integer, parameter :: halvings = 40
     type(operating_point_type) :: there
     real(wp) :: undeflected(size(bearing%film%angle)), gap(size(undeflected)), direction(2)
-    real(wp) :: near, far, way, force(film_forces), smallest(1)
+    real(wp) :: near, far, middle, force(film_forces), smallest(1)
     integer :: i
 
     there = target
@@ -162,15 +162,15 @@ contains
     near = 0.0_wp
     far = bearing%film%clearance
     do i = 1, halvings
-      way = 0.5_wp*(near + far)
-      there%eccentricity = way*direction
+      middle = 0.5_wp*(near + far)
+      there%eccentricity = middle*direction
       gap = bearing%film%gap(there, undeflected)
       smallest = largest_over_ranks([-minval(gap)])
       force = sum_over_ranks(bearing%film%force(bearing%film%ambient_pressure + contact_pressure(bearing%contact, gap)))
       if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load) < norm2(target%load)**2) then
-        near = way
+        near = middle
       else
-        far = way
+        far = middle
       end if
     end do
     eccentricity = near*direction

@@ -12,7 +12,8 @@ module gfb_branches_study
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
-  use gfb_contact_start, only: try_start, start_count
+  use gfb_start_problem, only: start_problem_type, cold_start_type, never
+  use gfb_start_list, only: cold_starts
   use gfb_branch_search, only: branch_search_type, find_branches, destroy_branches
   use gfb_bearing_plan, only: plan_bearing
   use gfb_reasons, only: reason_no_equilibrium
@@ -100,21 +101,25 @@ contains
   !> From the answers of all other starts that are new.
   subroutine search_from_starts(self, scene, settings, log)
     class(branches_study_type), target, intent(inout) :: self
-    type(scene_type), intent(in) :: scene
+    type(scene_type), target, intent(in) :: scene
     type(path_settings_type), intent(in) :: settings !! of the first start
     type(run_log_type), intent(in) :: log
-    type(operating_point_type) :: target
     type(path_settings_type) :: quick
     type(path_report_type) :: report
-    integer :: attempt
+    type(start_problem_type) :: problem
+    type(cold_start_type), allocatable :: starts(:)
+    logical :: ends
+    integer :: i
 
-    target = operating_point(scene%operation)
     quick = settings
     quick%look_for_folds = .false.
     quick%smallest_step = max(quick%smallest_step, 0.01_wp)
-    do attempt = 1, start_count
-      call log%line('start '//text(attempt)//' of '//text(start_count)//':')
-      call try_start(scene, target, quick, attempt, self%bearing, self%newton, report)
+    problem = start_problem_type(scene, operating_point(scene%operation), quick, self%bearing, self%newton)
+    starts = cold_starts()
+    do i = 1, size(starts)
+      if (starts(i)%soft%release == never) cycle ! the others follow from these
+      call log%line('start "'//trim(starts(i)%name)//'":')
+      call starts(i)%try(problem, starts(i)%soft, report, ends)
       if (report%converged) then
         call find_branches(self%bearing, self%newton, self%search)
       else

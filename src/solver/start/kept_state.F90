@@ -1,0 +1,59 @@
+#include "gfb_petsc.h"
+!> The state of a bearing, kept to be put back: what a start may change and has to leave as it was.
+module gfb_kept_state
+  use petscvec
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+
+  !> Unknowns, operating point, and whether the shaft is fixed.
+  type, public :: kept_state_type
+    type(operating_point_type) :: point
+    logical :: held = .false.            !! the shaft is fixed at the point's position
+    Vec, private :: state                !! scaled
+    logical, private :: created = .false.
+  contains
+    procedure :: keep
+    procedure :: put_back
+    procedure :: destroy
+  end type kept_state_type
+
+contains
+
+  !> Keeps the bearing's present state, in place of what was kept before.
+  subroutine keep(self, bearing)
+    class(kept_state_type), intent(inout) :: self
+    type(bearing_system_type), intent(in) :: bearing
+    PetscErrorCode :: ierr
+
+    if (.not. self%created) then
+      PetscCallA(VecDuplicate(bearing%state, self%state, ierr))
+      self%created = .true.
+    end if
+    PetscCallA(VecCopy(bearing%state, self%state, ierr))
+    self%point = bearing%point
+    self%held = bearing%held
+  end subroutine keep
+
+  !> Makes what was kept the bearing's present state again.
+  subroutine put_back(self, bearing)
+    class(kept_state_type), intent(in) :: self
+    type(bearing_system_type), intent(inout) :: bearing !! that whose state was kept
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%state, bearing%state, ierr))
+    bearing%point = self%point
+    bearing%held = self%held
+  end subroutine put_back
+
+  !> Frees what PETSc holds; may be called without anything kept.
+  subroutine destroy(self)
+    class(kept_state_type), intent(inout) :: self
+    PetscErrorCode :: ierr
+
+    if (.not. self%created) return
+    PetscCallA(VecDestroy(self%state, ierr))
+    self%created = .false.
+  end subroutine destroy
+end module gfb_kept_state

@@ -1,0 +1,103 @@
+#include "gfb_petsc.h"
+!> The start of a bearing whose foil touches nothing but the film: at a fixed position from rest to
+!> speed, and then with the shaft released.
+module gfb_rigid_start
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type
+  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type
+  use gfb_kept_state, only: kept_state_type
+  use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
+  implicit none (type)
+  private
+  public :: try_from_rest
+
+  real(wp), parameter :: eccentricity = 0.5_wp  !! where none is given, over the free clearance [1]
+  integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
+  real(wp), parameter :: coarse_peclet = 5.0_wp !! of a cell that is too large for Galerkin [1]
+
+contains
+
+  !> At rest the film is at ambient pressure wherever the shaft is: from there to speed, and to the load.
+  recursive subroutine try_from_rest(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(soft_contacts_type), intent(in) :: soft  !! none
+    type(path_report_type), intent(out) :: report
+    logical, intent(out) :: ends                  !! never
+
+    ends = .false.
+    associate (bearing => problem%bearing, newton => problem%newton)
+      call guess_position(bearing, problem%scene, problem%target, eccentricity)
+      call find_rigid_position(bearing, newton, problem%target, problem%settings, report)
+      if (report%converged .and. bearing%floats) then
+        call release_shaft(bearing, newton, problem%target, problem%settings, report)
+      end if
+    end associate
+  end subroutine try_from_rest
+
+  !> A fixed position. Where Galerkin fails it is tried from the answer of SUPG; if that does not help, and
+  !> its cells are large, no path leads to an answer.
+  subroutine find_rigid_position(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(out) :: report
+    type(path_settings_type) :: quick
+    type(path_report_type) :: other
+    type(kept_state_type) :: start, failed
+    real(wp) :: position(2), peclet
+
+    position = bearing%eccentricity()
+    call start%keep(bearing)
+    quick = settings
+    if (.not. bearing%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
+    call find_position(bearing, newton, target, quick, report)
+    if (.not. (report%converged .or. bearing%film%flow%upwind)) then
+      call failed%keep(bearing)
+      call start%put_back(bearing)
+      call find_by_upwinding(bearing, newton, target, position, settings, peclet, other)
+      if (other%converged) then
+        report = other
+      else if (peclet > coarse_peclet) then
+        report%reason = "Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
+          text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
+        call failed%put_back(bearing)
+      else
+        call start%put_back(bearing)
+        call find_position(bearing, newton, target, settings, report)
+      end if
+    end if
+    call failed%destroy()
+    call start%destroy()
+  end subroutine find_rigid_position
+
+  !> A fixed position by SUPG, and Galerkin's from there.
+  subroutine find_by_upwinding(bearing, newton, target, eccentricity, settings, peclet, report)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: eccentricity(2) !! where the shaft is fixed [m]
+    type(path_settings_type), intent(in) :: settings
+    real(wp), intent(out) :: peclet         !! largest cell Peclet number of SUPG's answer, 0 without one [1]
+    type(path_report_type), intent(out) :: report
+    type(operating_point_type) :: wanted
+    type(bearing_answer_type) :: answer
+
+    bearing%film%flow%upwind = .true.
+    call find_position(bearing, newton, target, settings, report)
+    bearing%film%flow%upwind = .false.
+    peclet = 0.0_wp
+    if (.not. report%converged) return
+    answer = bearing_answer(bearing)
+    peclet = answer%maximum_peclet
+    wanted = target
+    wanted%eccentricity = eccentricity
+    call solve_at(bearing, newton, wanted, .true., settings, report)
+    report%held = .true.
+  end subroutine find_by_upwinding
+end module gfb_rigid_start

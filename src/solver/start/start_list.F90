@@ -1,0 +1,222 @@
+#include "gfb_petsc.h"
+!> The list of cold starts: which are tried, and in what order.
+module gfb_start_list
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_continuation, only: path_report_type, follow_path
+  use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, against_load, after, before
+  use gfb_kept_state, only: kept_state_type
+  use gfb_smaller_start, only: try_smaller_answer, try_smaller_position
+  use gfb_rigid_start, only: try_from_rest
+  use gfb_contact_start, only: try_soft_contacts, usual_contacts
+  use gfb_edge_start, only: try_held_edge, has_free_edge
+  implicit none (type)
+  private
+  public :: cold_starts, try_starts
+
+  real(wp), parameter :: slow = 0.5_wp       !! speed of a slower shaft, over the one asked for [1]
+  real(wp), parameter :: first_step = 0.25_wp !! from there, of the path to the speed asked for [1]
+
+  !> The last state of the start that came nearest to an answer.
+  type :: nearest_type
+    logical :: known = .false.
+    type(path_report_type) :: report
+    type(kept_state_type) :: kept
+  end type nearest_type
+
+contains
+
+  !> All starts, the cheapest and most successful first.
+  function cold_starts() result(starts)
+    type(cold_start_type), allocatable :: starts(:)
+
+    starts = [ &
+      cold_start_type("the smaller system's answer", has_smaller, try_smaller_answer), &
+      cold_start_type("the smaller system's position, with the shaft fixed", floats_with_smaller, try_smaller_position), &
+      cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
+      cold_start_type('soft contacts, released early under a load', has_contacts, try_soft_contacts, &
+                      usual_contacts, .true.), &
+      cold_start_type('the free edge held at heights', floats_with_free_edge, try_held_edge), &
+      cold_start_type('soft contacts, released late under a load', has_contacts, try_soft_contacts, &
+                      soft_contacts_type(against_load, 0.5_wp, 1.5_wp, 1.0_wp), .true.), &
+      cold_start_type('soft contacts, released after the shaft in short steps', has_contacts, try_soft_contacts, &
+                      soft_contacts_type(after, 0.5_wp, 0.8_wp, 1.0_wp), .true.), &
+      cold_start_type('soft contacts, released after the shaft in growing steps', has_contacts, try_soft_contacts, &
+                      soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp), .true.), &
+      cold_start_type('soft contacts, released before the shaft near the foil', floats_on_contacts, try_soft_contacts, &
+                      soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp), .true.), &
+      cold_start_type('soft contacts, released before the shaft near the middle', is_nowhere, try_soft_contacts, &
+                      soft_contacts_type(before, 0.25_wp, 1.5_wp, 1.0_wp), .true.), &
+      cold_start_type('the free edge held at heights, under a fixed shaft', fixed_with_free_edge, try_held_edge), &
+      cold_start_type('half the speed first', can_be_slower, try_half_speed, counts=.true.)]
+  end function cold_starts
+
+  !> Tries the starts that apply, one after the other, until one leads to the target.
+  !>
+  !> Without an answer the state is the one nearest to the target of those that count.
+  recursive subroutine try_starts(problem, report)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(out) :: report
+    type(cold_start_type), allocatable :: starts(:)
+    type(nearest_type) :: nearest
+    integer, allocatable :: list(:)
+    logical :: ends, shown !! shown: there is no answer
+    integer :: i
+
+    starts = cold_starts()
+    list = applying(starts, problem)
+    problem%from_smaller = .false.
+    shown = .false.
+    do i = 1, size(list)
+      associate (start => starts(list(i)))
+        problem%others_left = any(starts(list(i + 1:))%soft%release /= never)
+        call problem%newton%log%detail('start: '//trim(start%name))
+        call start%try(problem, start%soft, report, ends)
+        if (start%counts) call keep_nearest(problem, report, nearest)
+        shown = ends .and. .not. start%counts
+        if (shown) nearest%report%reason = report%reason
+        if (report%converged .or. ends) exit
+        if (i < size(list)) call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('// &
+          report%reason//'); the next: "'//trim(starts(list(i + 1))%name)//'"')
+      end associate
+    end do
+    if (.not. report%converged .and. nearest%known) then
+      report = nearest%report
+      if (.not. (shown .or. problem%slowed .or. report%touched .or. report%folded) .and. problem%bearing%floats) then
+        report%reason = text(count(starts(list)%soft%release /= never))// &
+          ' starts failed, and one with half the speed; from the nearest state they reached: '//report%reason
+      end if
+      call nearest%kept%put_back(problem%bearing)
+    end if
+    call nearest%kept%destroy()
+  end subroutine try_starts
+
+  !> Numbers of the starts that apply to a problem.
+  function applying(starts, problem) result(list)
+    type(cold_start_type), intent(in) :: starts(:)
+    type(start_problem_type), intent(in) :: problem
+    integer, allocatable :: list(:)
+    integer :: i
+
+    allocate (list(0))
+    do i = 1, size(starts)
+      if (starts(i)%applies(problem)) list = [list, i]
+    end do
+  end function applying
+
+  !> Keeps a state if it is the nearest to the target so far: an equilibrium rather than a fixed
+  !> position, at the speed asked for, and the load's.
+  subroutine keep_nearest(problem, report, nearest)
+    type(start_problem_type), intent(in) :: problem
+    type(path_report_type), intent(in) :: report
+    type(nearest_type), intent(inout) :: nearest
+
+    if (nearest%known) then
+      if (distance(report, problem%target) >= distance(nearest%report, problem%target)) return
+    end if
+    nearest%known = .true.
+    nearest%report = report
+    call nearest%kept%keep(problem%bearing)
+    nearest%kept%held = report%held .and. problem%bearing%floats
+  end subroutine keep_nearest
+
+  !> Loads and speeds that are missing, fixed positions last [1].
+  pure function distance(report, target)
+    type(path_report_type), intent(in) :: report
+    type(operating_point_type), intent(in) :: target
+    real(wp) :: distance
+
+    distance = norm2(report%reached%load - target%load)/max(norm2(target%load), tiny(1.0_wp)) + &
+      abs(report%reached%speed - target%speed)/max(abs(target%speed), tiny(1.0_wp))
+    if (report%held) distance = huge(1.0_wp)
+  end function distance
+
+  !> A slower shaft first, by all starts that apply to it, then faster.
+  recursive subroutine try_half_speed(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(soft_contacts_type), intent(in) :: soft !! none
+    type(path_report_type), intent(out) :: report
+    logical, intent(out) :: ends
+    type(start_problem_type) :: slower
+
+    ends = .false.
+    slower = problem
+    slower%slowed = .true.
+    slower%smaller => null()
+    slower%target%speed = slow*problem%target%speed
+    call try_starts(slower, report)
+    if (report%converged) then
+      call follow_path(problem%bearing, problem%newton, problem%target, first_step, problem%settings, report)
+    else
+      report%held = .true. ! not a state of this scene
+    end if
+  end subroutine try_half_speed
+
+  !> A coarser mesh, or half the width, has an answer.
+  function has_smaller(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = associated(problem%smaller)
+  end function has_smaller
+
+  !> It has, and the shaft finds its own position.
+  function floats_with_smaller(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = has_smaller(problem) .and. problem%bearing%floats
+  end function floats_with_smaller
+
+  !> The foil touches nothing but the film: it is rigid, or an elastic foundation.
+  function has_no_contacts(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = .not. has_contacts(problem)
+  end function has_no_contacts
+
+  !> Top foil, bumps and sleeve touch each other.
+  function has_contacts(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = problem%bearing%foil%has_contacts()
+  end function has_contacts
+
+  !> They do, and the shaft finds its own position.
+  function floats_on_contacts(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = has_contacts(problem) .and. problem%bearing%floats
+  end function floats_on_contacts
+
+  !> The shaft finds its own position on contacts, and the scene has no start value of it.
+  function is_nowhere(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = floats_on_contacts(problem) .and. .not. problem%scene%operation%eccentricity_given
+  end function is_nowhere
+
+  !> The top foil has an edge that nothing holds, and the shaft finds its own position.
+  function floats_with_free_edge(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = .false.
+    if (floats_on_contacts(problem) .and. .not. problem%slowed) applies = has_free_edge(problem%bearing)
+  end function floats_with_free_edge
+
+  !> The top foil has an edge that nothing holds, and the shaft is fixed.
+  function fixed_with_free_edge(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = .false.
+    if (problem%bearing%floats .or. problem%slowed) return
+    if (has_contacts(problem)) applies = has_free_edge(problem%bearing)
+  end function fixed_with_free_edge
+
+  !> The shaft finds its own position on contacts, and has its full speed.
+  function can_be_slower(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = floats_on_contacts(problem) .and. .not. problem%slowed
+  end function can_be_slower
+end module gfb_start_list

@@ -1,0 +1,66 @@
+#include "gfb_petsc.h"
+!> What a cold start is, and what it is tried on.
+module gfb_start_problem
+  use gfb_kinds, only: wp
+  use gfb_scene, only: scene_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_continuation, only: path_settings_type, path_report_type
+  implicit none (type)
+  private
+
+  integer, parameter, public :: never = 0        !! no soft contacts
+  integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
+  integer, parameter, public :: against_load = 2 !! the other way round
+  integer, parameter, public :: after = 3        !! after the shaft
+  integer, parameter, public :: before = 4       !! before it
+
+  !> How a start uses soft two-way contact springs.
+  type, public :: soft_contacts_type
+    integer :: release = never          !! when they are released
+    real(wp) :: eccentricity = 0.0_wp   !! of the shaft where none is given, over the free clearance [1]
+    real(wp) :: first_decades = 0.0_wp  !! of their stiffness, in the first step [1]
+    real(wp) :: growth = 1.0_wp         !! of a step that succeeded [1]
+  end type soft_contacts_type
+
+  !> A bearing that is to be brought to an operating point from nothing.
+  type, public :: start_problem_type
+    type(scene_type), pointer :: scene => null()
+    type(operating_point_type) :: target                       !! asked for
+    type(path_settings_type) :: settings
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null()             !! its solver
+    type(bearing_system_type), pointer :: smaller => null()    !! the answer on a coarser mesh or half the width, if there is one
+    logical :: slowed = .false.          !! the target is at half the speed of another problem
+    logical :: others_left = .false.     !! other starts with soft contacts follow
+    logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
+  end type start_problem_type
+
+  !> A way to begin: a row of the list of starts.
+  type, public :: cold_start_type
+    character(len=64) :: name = ''       !! as the log has it
+    procedure(applies_to), pointer, nopass :: applies => null()
+    procedure(try_start), pointer, nopass :: try => null()
+    type(soft_contacts_type) :: soft     !! where it uses them
+    logical :: counts = .false.          !! where it fails, its last state may be the nearest to an answer
+  end type cold_start_type
+
+  abstract interface
+    !> Whether a start can be tried on a problem.
+    function applies_to(problem) result(applies)
+      import :: start_problem_type
+      type(start_problem_type), intent(in) :: problem
+      logical :: applies
+    end function applies_to
+
+    !> Tries to bring the problem's bearing to its target.
+    recursive subroutine try_start(problem, soft, report, ends)
+      import :: start_problem_type, soft_contacts_type, path_report_type
+      type(start_problem_type), intent(inout) :: problem
+      type(soft_contacts_type), intent(in) :: soft !! of the start's row
+      type(path_report_type), intent(out) :: report
+      logical, intent(out) :: ends !! no other start can help: its report stands
+    end subroutine try_start
+  end interface
+end module gfb_start_problem
