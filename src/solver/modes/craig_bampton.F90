@@ -28,8 +28,8 @@ module gfb_craig_bampton
     integer :: retained = 0 !! unknowns
     integer :: modes = 0
     logical :: mine = .false. !! this rank computed it, for all
-    real(wp), allocatable :: stiffness(:, :)
-    real(wp), allocatable :: mass(:, :)
+    real(wp), allocatable :: stiffness(:, :) !! [N/m] between displacements
+    real(wp), allocatable :: mass(:, :)      !! [kg] between displacements
     real(wp), allocatable :: eigenvalue(:) !! of the fixed-interface modes, where they were computed [1/s2]
   end type craig_bampton_type
 
@@ -40,9 +40,9 @@ contains
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine craig_bampton(foil, modes_kept, kinds, error)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! with its substructures
     integer, intent(in) :: modes_kept !! fixed-interface modes of every super-element
-    type(craig_bampton_type), allocatable, intent(out) :: kinds(:)
+    type(craig_bampton_type), allocatable, intent(out) :: kinds(:) !! one a kind of substructure
     type(error_type), allocatable, intent(out) :: error
     integer, allocatable :: maker(:)
     logical, allocatable :: has(:, :)
@@ -133,7 +133,7 @@ contains
     PetscCallA(MatDestroy(mass, ierr))
   end subroutine reduce_piece
 
-  !> Modes of the interior with all retained unknowns held.
+  !> Modes of the interior with all retained unknowns fixed.
   subroutine interior_modes(super, mass, wanted, modes)
     type(super_element_type), intent(in) :: super
     Mat, intent(in) :: mass

@@ -4,7 +4,7 @@
 !> $$ K \phi = \omega^2 M \phi, \qquad \phi_i^T M \phi_j = \delta_{ij} $$
 !>
 !> Krylov-Schur on the shifted inverse \( (K + s M)^{-1} M \), which MUMPS factorizes once. A
-!> positive s makes it definite for a structure that is not held.
+!> positive s makes it definite for a structure that moves freely.
 module gfb_eigenmodes
   use slepceps
   use gfb_kinds, only: wp
@@ -29,10 +29,10 @@ contains
   !> for what is at right angles to them.
   subroutine lowest_modes(communicator, stiffness, mass, shift, wanted, modes, known)
     integer, intent(in) :: communicator !! MPI's, of the matrices
-    Mat, intent(in) :: stiffness, mass
+    Mat, intent(in) :: stiffness, mass  !! K and M
     real(wp), intent(in) :: shift       !! s, not negative [1/s2]
     integer, intent(in) :: wanted       !! modes asked for
-    type(modes_type), intent(out) :: modes
+    type(modes_type), intent(out) :: modes !! of unit modal mass, in rising order
     type(modes_type), intent(in), optional :: known !! motions without strain, of unit modal mass
 
     type(modes_type) :: rigid

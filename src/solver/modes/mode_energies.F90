@@ -10,100 +10,37 @@
 !>    b_{ij} = \phi_i^T M \phi_j, \qquad A q = \omega^2 B q, $$
 !>
 !> leaves of a frequency's relative error what is of its square. Motions without strain are known
-!> beforehand: rigid ones that no support holds.
+!> beforehand (`free_motions.F90`).
 module gfb_mode_energies
   use petscksp
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
-  use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type
   use gfb_strain_energy, only: strain_products
-  use gfb_rigid_modes, only: node_motions, rigid_motion_count
   use gfb_eigenmodes, only: modes_type
+  use gfb_ritz_method, only: mass_products, solve_symmetric, combine
   implicit none (type)
   private
-  public :: free_motions, sharpen_modes
+  public :: sharpen_modes
 
-  integer, parameter :: space = 3
-  !> Squared part of a motion that supports hold, over the largest, that is none: round-off.
-  real(wp), parameter :: unheld = 1.0e-12_wp
   real(wp), parameter, public :: exact = 1.0e-5_wp !! round-off of eigenvalues whose square is no matter
   real(wp), parameter :: settled = 1.0e-7_wp       !! change of an eigenvalue in a round that ends the corrections
   integer, parameter :: rounds = 8                 !! of corrections, at most
   real(wp), parameter :: dependent = 1.0e-3_wp     !! what is left of a correction that others make up, relative
 
-  interface
-    !> LAPACK: eigenvalues and vectors of a symmetric matrix over a positive definite one.
-    subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
-      import :: wp
-      implicit none (type, external)
-      integer, intent(in) :: itype, n, lda, ldb, lwork
-      character(len=1), intent(in) :: jobz, uplo
-      real(wp), intent(inout) :: a(lda, n), b(ldb, n)
-      real(wp), intent(out) :: w(n), work(lwork)
-      integer, intent(out) :: info
-    end subroutine dsygv
-  end interface
-
 contains
-
-  !> Rigid motions of a structure that its supports leave free, at right angles in the mass and of
-  !> unit modal mass; their eigenvalues are zero.
-  subroutine free_motions(foil, mass, motions)
-    type(foil_structure_type), intent(in) :: foil
-    Mat, intent(in) :: mass
-    type(modes_type), intent(out) :: motions
-
-    real(wp) :: held(rigid_motion_count, rigid_motion_count), unit(rigid_motion_count, rigid_motion_count)
-    real(wp) :: size_of(rigid_motion_count), middle(space), length
-    Vec :: plain(rigid_motion_count)
-    PetscErrorCode :: ierr
-    integer :: i, free
-
-    call place_of(foil, middle, length)
-    held = supports_against(foil, middle, length)
-    unit = 0.0_wp
-    do i = 1, rigid_motion_count
-      unit(i, i) = 1.0_wp
-    end do
-    call solve_symmetric(held, unit, size_of)
-    free = count(size_of <= unheld*max(1.0_wp, maxval(size_of)))
-    allocate (motions%shape(free))
-    allocate (motions%eigenvalue(free), source=0.0_wp)
-    do i = 1, free
-      PetscCallA(MatCreateVecs(mass, motions%shape(i), PETSC_NULL_VEC, ierr))
-      call fill_motion(foil, middle, length, held(:, i), motions%shape(i))
-    end do
-    if (free == 0) return
-    unit(:free, :free) = products(motions%shape, mass)
-    held = 0.0_wp
-    do i = 1, free
-      held(i, i) = 1.0_wp
-    end do
-    call solve_symmetric(held(:free, :free), unit(:free, :free), size_of(:free))
-    do i = 1, free
-      PetscCallA(VecDuplicate(motions%shape(1), plain(i), ierr))
-      PetscCallA(VecCopy(motions%shape(i), plain(i), ierr))
-    end do
-    call combine(held(:free, :free), plain(:free), motions%shape)
-    do i = 1, free
-      PetscCallA(VecDestroy(plain(i), ierr))
-    end do
-  end subroutine free_motions
 
   !> Replaces modes by Ritz's, whose stiffness comes from strains.
   !>
-  !> Where the matrix had lost digits, what the modes' own forces leave unbalanced shows the way to
+  !> Where the matrix had lost digits, what the modes' own forces leave unbalanced leads to
   !> better ones: \( (K + s M)^{-1} (f(\phi) - \omega^2 M \phi) \) joins them, and what the round before
   !> has changed (Davidson's method with the memory of LOBPCG), until that changes no eigenvalue. Fails
   !> where an element is clockwise or degenerate.
   subroutine sharpen_modes(foil, mass, rigid, modes, lost, left, error)
     type(foil_structure_type), intent(in) :: foil
-    Mat, intent(in) :: mass
+    Mat, intent(in) :: mass                 !! of its free unknowns
     real(wp), intent(in) :: rigid           !! eigenvalues below it are those of motions without strain [1/s2]
-    type(modes_type), intent(inout) :: modes
+    type(modes_type), intent(inout) :: modes !! in rising order
     real(wp), intent(out) :: lost           !! largest relative error of the matrix' eigenvalues [1]
     real(wp), intent(out) :: left           !! largest relative change of an eigenvalue in the last round [1]
     type(error_type), allocatable, intent(out) :: error
@@ -167,7 +104,7 @@ contains
     allocate (energy(used, used), modal_mass(used, used), eigenvalue(used))
     call strain_products(foil, basis(:used), energy, error, image(:used))
     if (.not. allocated(error)) then
-      modal_mass = products(basis(:used), mass)
+      modal_mass = mass_products(basis(:used), mass)
       call solve_symmetric(energy, modal_mass, eigenvalue)
       associate (now => eigenvalue(:modes_found))
         change = maxval(abs(modes%eigenvalue - now)/max(now, rigid), mask=now > rigid)
@@ -292,123 +229,4 @@ contains
     PetscCallA(MatDestroy(shifted, ierr)) ! the solver holds it
   end subroutine factor_shifted
 
-  !> Middle and length of a structure.
-  subroutine place_of(foil, middle, length)
-    type(foil_structure_type), intent(in) :: foil
-    real(wp), intent(out) :: middle(space) !! [m]
-    real(wp), intent(out) :: length        !! [m]
-    real(wp) :: ends(2*space)
-
-    associate (mine => foil%mesh%position(:, foil%part%mesh_node))
-      ends(:space) = maxval(mine, 2)
-      ends(space + 1:) = maxval(-mine, 2)
-    end associate
-    ends = largest_over_ranks(ends)
-    middle = 0.5_wp*(ends(:space) - ends(space + 1:))
-    length = maxval(ends(:space) + ends(space + 1:))
-  end subroutine place_of
-
-  !> Sum over all supports of the products of the rigid motions that they hold, without unit: turns
-  !> are those that move the structure's end by a unit.
-  function supports_against(foil, middle, length) result(held)
-    type(foil_structure_type), intent(in) :: foil
-    real(wp), intent(in) :: middle(space), length !! [m]
-    real(wp) :: held(rigid_motion_count, rigid_motion_count)
-    real(wp) :: motion(node_unknowns, rigid_motion_count)
-    integer :: i, component
-
-    held = 0.0_wp
-    do i = 1, size(foil%part%mesh_node)
-      if (.not. foil%part%owned(i)) cycle
-      motion = node_motions(foil%mesh, foil%part%mesh_node(i), middle)
-      motion(:, space + 1:) = motion(:, space + 1:)/length
-      motion(space + 1:, :) = motion(space + 1:, :)*length
-      do component = 1, node_unknowns
-        if (foil%free(component, foil%part%mesh_node(i))) cycle
-        held = held + spread(motion(component, :), 1, rigid_motion_count)* &
-          spread(motion(component, :), 2, rigid_motion_count)
-      end do
-    end do
-    held = reshape(sum_over_ranks(reshape(held, [size(held)])), shape(held))
-  end function supports_against
-
-  !> Unknowns of a rigid motion.
-  subroutine fill_motion(foil, middle, length, weight, shape)
-    type(foil_structure_type), intent(in) :: foil
-    real(wp), intent(in) :: middle(space), length      !! [m]
-    real(wp), intent(in) :: weight(rigid_motion_count) !! of displacements, and of turns over the length
-    Vec, intent(in) :: shape
-    real(wp) :: value(node_unknowns)
-    PetscErrorCode :: ierr
-    integer :: i, component, number
-
-    PetscCallA(VecSet(shape, 0.0_wp, ierr))
-    do i = 1, size(foil%part%mesh_node)
-      if (.not. foil%part%owned(i)) cycle
-      value = matmul(node_motions(foil%mesh, foil%part%mesh_node(i), middle), &
-                     [weight(:space), weight(space + 1:)/length])
-      do component = 1, node_unknowns
-        number = foil%unknown(component, foil%part%mesh_node(i))
-        if (number < 0) cycle
-        PetscCallA(VecSetValue(shape, int(number, pint), value(component), INSERT_VALUES, ierr))
-      end do
-    end do
-    PetscCallA(VecAssemblyBegin(shape, ierr))
-    PetscCallA(VecAssemblyEnd(shape, ierr))
-  end subroutine fill_motion
-
-  !> Products of vectors in the mass.
-  function products(shape, mass) result(modal_mass)
-    Vec, intent(in) :: shape(:)
-    Mat, intent(in) :: mass
-    real(wp) :: modal_mass(size(shape), size(shape))
-    PetscScalar :: product
-    Vec :: momentum
-    PetscErrorCode :: ierr
-    integer :: i, k
-
-    PetscCallA(VecDuplicate(shape(1), momentum, ierr))
-    do k = 1, size(shape)
-      PetscCallA(MatMult(mass, shape(k), momentum, ierr))
-      do i = 1, k
-        PetscCallA(VecDot(shape(i), momentum, product, ierr))
-        modal_mass(i, k) = product
-        modal_mass(k, i) = product
-      end do
-    end do
-    PetscCallA(VecDestroy(momentum, ierr))
-  end function products
-
-  !> Eigenvalues, in rising order, and vectors of a symmetric matrix over a positive definite one.
-  subroutine solve_symmetric(matrix, over, eigenvalue)
-    real(wp), intent(inout) :: matrix(:, :) !! (n, n), out: the vectors
-    real(wp), intent(inout) :: over(:, :)   !! (n, n), overwritten
-    real(wp), intent(out) :: eigenvalue(:)  !! (n)
-    real(wp) :: vectors(size(eigenvalue), size(eigenvalue)), below(size(eigenvalue), size(eigenvalue))
-    real(wp) :: work(8*size(eigenvalue))
-    integer :: info, n
-
-    n = size(eigenvalue)
-    vectors = matrix
-    below = over
-    call dsygv(1, 'V', 'U', n, vectors, n, below, n, eigenvalue, work, size(work), info)
-    if (info /= 0) error stop 'modes that are not independent'
-    matrix = vectors
-  end subroutine solve_symmetric
-
-  !> Sums of vectors.
-  subroutine combine(weight, old, new)
-    real(wp), intent(in) :: weight(:, :) !! (old, new)
-    Vec, intent(in) :: old(:)
-    Vec, intent(in) :: new(:)            !! others than the old
-    PetscErrorCode :: ierr
-    integer :: i, k
-
-    do k = 1, size(new)
-      PetscCallA(VecSet(new(k), 0.0_wp, ierr))
-      do i = 1, size(old)
-        PetscCallA(VecAXPY(new(k), weight(i, k), old(i), ierr))
-      end do
-    end do
-  end subroutine combine
 end module gfb_mode_energies

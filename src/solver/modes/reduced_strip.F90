@@ -32,9 +32,9 @@ contains
   !> Lowest eigenvalues of the strip put together from its super-elements [1/s2].
   function assembled_eigenvalues(foil, kinds, shift, wanted) result(eigenvalue)
     type(foil_structure_type), intent(in) :: foil
-    type(craig_bampton_type), intent(in) :: kinds(:)
-    real(wp), intent(in) :: shift !! [1/s2]
-    integer, intent(in) :: wanted
+    type(craig_bampton_type), intent(in) :: kinds(:) !! of its substructures
+    real(wp), intent(in) :: shift !! of the stiffness by the mass, not negative [1/s2]
+    integer, intent(in) :: wanted !! eigenvalues asked for
     real(wp), allocatable :: eigenvalue(:)
 
     type(numbering_type) :: numbering
@@ -112,7 +112,7 @@ contains
     end do
   end subroutine number_those
 
-  !> Which unknowns of a station no support holds.
+  !> Which unknowns of a station no support fixes.
   pure function free_on_line(foil, station) result(free)
     type(foil_structure_type), intent(in) :: foil
     integer, intent(in) :: station

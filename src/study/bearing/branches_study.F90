@@ -2,11 +2,9 @@
 module gfb_branches_study
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_text, only: text
   use gfb_quantity, only: quantity_type
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, operating_point
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton

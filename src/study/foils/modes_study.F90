@@ -16,7 +16,8 @@ module gfb_modes_study
   use gfb_foil_builder, only: foil_plan_type, build_part
   use gfb_foil_plan, only: plan_foil
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
-  use gfb_mode_energies, only: free_motions, sharpen_modes
+  use gfb_free_motions, only: free_motions
+  use gfb_mode_energies, only: sharpen_modes
   use gfb_craig_bampton, only: craig_bampton_type, craig_bampton
   use gfb_reduced_strip, only: assembled_eigenvalues
   use gfb_case_file, only: case_array_type, fill_array
