@@ -4,22 +4,22 @@
 !> A fictitious force lifts the edge. The answers with that force form a curve, followed by its own
 !> length; wherever the force is zero on it, the bearing is in equilibrium by itself. The corners of a
 !> foil of shells lift first. To find those equilibria too whose edge is lifted all along, a fictitious
-!> string keeps the edge straight, and is let go where the force is zero.
+!> string keeps the edge straight, and is released where the force is zero.
 module gfb_branch_search
-  use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: edge_lift
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
+  use gfb_kept_state, only: kept_state_type
+  use gfb_branch_list, only: branch_search_type, take_branch, destroy_branches
   implicit none (type)
   private
-  public :: find_branches, seek_branch, take_branch, destroy_branches
+  public :: find_branches, seek_branch
 
   integer, parameter :: most_steps = 600        !! along one curve
   integer, parameter :: steps_a_line = 100      !! of progress
@@ -27,30 +27,10 @@ module gfb_branch_search
   integer, parameter :: decades = 4             !! of its tension, before it is none
   real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
   real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
-  real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
-  real(wp), parameter :: home_range = 0.35_wp   !! change of the mean lift when a string is let go, over the clearance [1]
+  real(wp), parameter :: release_range = 0.35_wp   !! change of the mean lift when a string is released, over the clearance [1]
   real(wp), parameter :: same_lift = 0.01_wp   !! a lift this near to the one asked for is it, over the clearance [1]
-  real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and way [1]
+  real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and change of the lift [1]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
-
-  !> An equilibrium.
-  type, public :: branch_type
-    Vec :: state
-    type(bearing_answer_type) :: answer
-  end type branch_type
-
-  !> What is looked for, and what was found; the first is where the search began.
-  type, public :: branch_search_type
-    logical :: given(2) = .false.    !! lifts asked for at the midplane, at the bearing's ends
-    real(wp) :: wanted(2) = 0.0_wp   !! them [m]
-    real(wp) :: close_enough = 0.0_wp !! to them [m]
-    real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
-    type(branch_type), allocatable :: branch(:)
-  contains
-    procedure :: nearest_branch
-    procedure :: is_found
-    procedure, private :: collect
-  end type branch_search_type
 
 contains
 
@@ -58,8 +38,8 @@ contains
   subroutine seek_branch(given, wanted, bearing, newton)
     logical, intent(in) :: given(2)   !! lifts asked for at the midplane, at the bearing's ends
     real(wp), intent(in) :: wanted(2) !! them [m]
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
+    type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium; that may be another one after
+    type(newton_type), target, intent(inout) :: newton          !! its solver
     type(branch_search_type) :: search
     real(wp) :: lift, mean
 
@@ -81,9 +61,9 @@ contains
   !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
   !> lifts have been looked at; from one that is known already it does not look again.
   subroutine find_branches(bearing, newton, search)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(branch_search_type), intent(inout) :: search
+    type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium, and in the same one after
+    type(newton_type), target, intent(inout) :: newton          !! its solver
+    type(branch_search_type), intent(inout) :: search           !! what is asked for and known; what is found joins it
     type(operating_point_type) :: free, straight
     type(path_settings_type) :: settings
     type(path_report_type) :: report
@@ -117,20 +97,17 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point, free !! where the curve begins; without a string
     type(branch_search_type), intent(inout) :: search
-    Vec :: start
+    type(kept_state_type) :: start
     real(wp) :: sense
-    PetscErrorCode :: ierr
 
     sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - edge_lift(bearing))
-    PetscCallA(VecDuplicate(bearing%state, start, ierr))
-    PetscCallA(VecCopy(bearing%state, start, ierr))
+    call start%keep(bearing)
     call pull_edge(bearing, newton, point, free, sense, search)
     if (.not. any(search%given)) then
-      PetscCallA(VecCopy(start, bearing%state, ierr))
-      bearing%point = point
+      call start%put_back(bearing)
       call pull_edge(bearing, newton, point, free, -sense, search)
     end if
-    PetscCallA(VecDestroy(start, ierr))
+    call start%destroy()
   end subroutine pull_both_ways
 
   !> Goes along the curve of answers with a pulled edge, and collects the equilibria on it.
@@ -159,28 +136,28 @@ contains
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
-      if (.not. worth_it(search, lift, bearing%film%clearance)) cycle
-      call come_home(arc, bearing, newton, point, free, here)
+      if (.not. is_worth_it(search, lift, bearing%film%clearance)) cycle
+      call find_equilibrium(arc, bearing, newton, point, free, here)
       if (here) call search%collect(bearing, newton)
     end do
     call end_arc(arc, newton)
   end subroutine pull_edge
 
-  !> Whether an edge that is lifted so much in the mean may come home to the lift asked for.
-  pure function worth_it(search, lift, clearance) result(worth)
+  !> Whether an edge that is lifted so much in the mean may lead to the lift asked for.
+  pure function is_worth_it(search, lift, clearance) result(worth)
     type(branch_search_type), intent(in) :: search
     real(wp), intent(in) :: lift, clearance !! [m]
     logical :: worth
 
     worth = .not. any(search%given)
     if (.not. worth) then
-      worth = abs(lift - sum(search%wanted, mask=search%given)/real(count(search%given), wp)) <= home_range*clearance
+      worth = abs(lift - sum(search%wanted, mask=search%given)/real(count(search%given), wp)) <= release_range*clearance
     end if
-  end function worth_it
+  end function is_worth_it
 
-  !> Newton's method without the force, from the line between the two answers beside that place; then
+  !> Newton's method without the force, from the line between the two answers on both sides of no force; then
   !> without the string.
-  subroutine come_home(arc, bearing, newton, point, free, here)
+  subroutine find_equilibrium(arc, bearing, newton, point, free, here)
     type(arc_type), intent(inout) :: arc
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
@@ -188,11 +165,11 @@ contains
     logical, intent(out) :: here
     call arc%between(arc%place_before/(arc%place_before - arc%place))
     call solve_there(bearing, newton, point, here)
-    if (here .and. abs(point%edge_tension) > 0.0_wp) call let_string_go(bearing, newton, free, here)
-  end subroutine come_home
+    if (here .and. abs(point%edge_tension) > 0.0_wp) call release_string(bearing, newton, free, here)
+  end subroutine find_equilibrium
 
   !> From an equilibrium of a straight edge to one of a free edge, by decades of the string's tension.
-  subroutine let_string_go(bearing, newton, free, here)
+  subroutine release_string(bearing, newton, free, here)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: free
@@ -211,7 +188,7 @@ contains
       call newton%log%detail('string of '//text(looser%edge_tension, 4)//' N, free edge at '// &
                              text(edge_lift(bearing)*micrometres, 4)//' um')
     end do
-  end subroutine let_string_go
+  end subroutine release_string
 
   !> Along a branch to a point, round its folds and corners.
   subroutine lead_to(bearing, newton, point, here)
@@ -247,104 +224,4 @@ contains
     call solve_newton(newton, solved)
     here = solved%converged
   end subroutine solve_there
-
-  !> Keeps the bearing's present answer unless it is known.
-  subroutine collect(self, bearing, newton)
-    class(branch_search_type), intent(inout) :: self
-    type(bearing_system_type), intent(in) :: bearing
-    type(newton_type), intent(in) :: newton
-    type(branch_type) :: new
-    real(wp) :: difference
-    Vec :: work
-    integer :: i
-    logical :: known
-    PetscErrorCode :: ierr
-
-    if (.not. allocated(self%branch)) allocate (self%branch(0))
-    PetscCallA(VecDuplicate(bearing%state, work, ierr))
-    known = .false.
-    do i = 1, size(self%branch)
-      PetscCallA(VecWAXPY(work, -1.0_wp, self%branch(i)%state, bearing%state, ierr))
-      PetscCallA(VecNorm(work, NORM_INFINITY, difference, ierr))
-      known = known .or. difference < same_state
-    end do
-    if (known) then
-      PetscCallA(VecDestroy(work, ierr))
-      return
-    end if
-    PetscCallA(VecCopy(bearing%state, work, ierr))
-    new%state = work
-    new%answer = bearing_answer(bearing)
-    self%branch = [self%branch, new]
-    associate (answer => new%answer, clearance => bearing%film%clearance)
-      call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
-                           text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
-                           '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
-                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)')
-    end associate
-  end subroutine collect
-
-  !> Two lifts [um].
-  pure function lifts(value) result(words)
-    real(wp), intent(in) :: value(2) !! [m]
-    character(len=:), allocatable :: words
-    words = '('//text(value(1)*micrometres, 3)//', '//text(value(2)*micrometres, 3)//')'
-  end function lifts
-
-  !> The equilibrium whose leading edge is lifted most nearly as asked for.
-  pure function nearest_branch(self) result(number)
-    class(branch_search_type), intent(in) :: self
-    integer :: number
-    integer :: i
-
-    number = minloc([(distance(self, i), i=1, size(self%branch))], 1)
-  end function nearest_branch
-
-  !> Whether one that was asked for has been found.
-  pure function is_found(self) result(found)
-    class(branch_search_type), intent(in) :: self
-    logical :: found
-
-    found = .false.
-    if (any(self%given)) found = distance(self, self%nearest_branch()) <= self%close_enough
-  end function is_found
-
-  !> How far an equilibrium's lifts are from those asked for [m].
-  pure function distance(search, number)
-    type(branch_search_type), intent(in) :: search
-    integer, intent(in) :: number
-    real(wp) :: distance
-    distance = maxval(abs(search%branch(number)%answer%leading_edge_lift - search%wanted), mask=search%given)
-  end function distance
-
-  !> Puts the bearing on a branch.
-  subroutine take_branch(bearing, point, branch)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(operating_point_type), intent(in) :: point !! of the branches
-    type(branch_type), intent(in) :: branch
-    integer, parameter :: settlings = 2 !! what slides the other way sticks first
-    integer :: pass
-    logical :: moved
-    PetscErrorCode :: ierr
-
-    bearing%point = point
-    PetscCallA(VecCopy(branch%state, bearing%state, ierr))
-    do pass = 1, settlings
-      call bearing%begin_step()
-      call bearing%settle(bearing%state, moved)
-    end do
-  end subroutine take_branch
-
-  !> Frees what PETSc holds.
-  subroutine destroy_branches(search)
-    type(branch_search_type), intent(inout) :: search
-    integer :: i
-    PetscErrorCode :: ierr
-
-    if (.not. allocated(search%branch)) return
-    do i = 1, size(search%branch)
-      PetscCallA(VecDestroy(search%branch(i)%state, ierr))
-    end do
-    deallocate (search%branch)
-  end subroutine destroy_branches
 end module gfb_branch_search

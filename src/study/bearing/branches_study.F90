@@ -12,7 +12,8 @@ module gfb_branches_study
   use gfb_cold_start, only: start_bearing
   use gfb_start_problem, only: start_problem_type, cold_start_type, never
   use gfb_start_list, only: cold_starts
-  use gfb_branch_search, only: branch_search_type, find_branches, destroy_branches
+  use gfb_branch_list, only: branch_search_type, destroy_branches
+  use gfb_branch_search, only: find_branches
   use gfb_bearing_plan, only: plan_bearing
   use gfb_reasons, only: reason_no_equilibrium
   use gfb_run_context, only: run_context_type

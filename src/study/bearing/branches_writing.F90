@@ -12,7 +12,7 @@ module gfb_branches_writing
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: operating_point
   use gfb_newton, only: newton_type
-  use gfb_branch_search, only: branch_search_type, take_branch
+  use gfb_branch_list, only: branch_search_type, take_branch
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set

@@ -1,0 +1,138 @@
+#include "gfb_petsc.h"
+!> The equilibria of a bearing that a search has found, and which of them is asked for.
+module gfb_branch_list
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type
+  implicit none (type)
+  private
+  public :: take_branch, destroy_branches
+
+  real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
+  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+  !> An equilibrium.
+  type, public :: branch_type
+    Vec :: state                 !! scaled
+    type(bearing_answer_type) :: answer
+  end type branch_type
+
+  !> What is looked for, and what was found; the first is where the search began.
+  type, public :: branch_search_type
+    logical :: given(2) = .false.    !! lifts asked for at the midplane, at the bearing's ends
+    real(wp) :: wanted(2) = 0.0_wp   !! them [m]
+    real(wp) :: close_enough = 0.0_wp !! to them [m]
+    real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
+    type(branch_type), allocatable :: branch(:)
+  contains
+    procedure :: nearest_branch
+    procedure :: is_found
+    procedure :: collect
+  end type branch_search_type
+
+contains
+
+  !> Keeps the bearing's present answer unless it is known.
+  subroutine collect(self, bearing, newton)
+    class(branch_search_type), intent(inout) :: self
+    type(bearing_system_type), intent(in) :: bearing !! in equilibrium
+    type(newton_type), intent(in) :: newton          !! its solver, whose log tells of a new one
+    type(branch_type) :: new
+    real(wp) :: difference
+    Vec :: work
+    integer :: i
+    logical :: known
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(self%branch)) allocate (self%branch(0))
+    PetscCallA(VecDuplicate(bearing%state, work, ierr))
+    known = .false.
+    do i = 1, size(self%branch)
+      PetscCallA(VecWAXPY(work, -1.0_wp, self%branch(i)%state, bearing%state, ierr))
+      PetscCallA(VecNorm(work, NORM_INFINITY, difference, ierr))
+      known = known .or. difference < same_state
+    end do
+    if (known) then
+      PetscCallA(VecDestroy(work, ierr))
+      return
+    end if
+    PetscCallA(VecCopy(bearing%state, work, ierr))
+    new%state = work
+    new%answer = bearing_answer(bearing)
+    self%branch = [self%branch, new]
+    associate (answer => new%answer, clearance => bearing%film%clearance)
+      call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
+                           text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
+                           '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
+                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)')
+    end associate
+  end subroutine collect
+
+  !> Two lifts [um].
+  pure function lifts(value) result(words)
+    real(wp), intent(in) :: value(2) !! [m]
+    character(len=:), allocatable :: words
+    words = '('//text(value(1)*micrometres, 3)//', '//text(value(2)*micrometres, 3)//')'
+  end function lifts
+
+  !> The equilibrium whose leading edge is lifted most nearly as asked for.
+  pure function nearest_branch(self) result(number)
+    class(branch_search_type), intent(in) :: self
+    integer :: number
+    integer :: i
+
+    number = minloc([(distance(self, i), i=1, size(self%branch))], 1)
+  end function nearest_branch
+
+  !> Whether one that was asked for has been found.
+  pure function is_found(self) result(found)
+    class(branch_search_type), intent(in) :: self
+    logical :: found
+
+    found = .false.
+    if (any(self%given)) found = distance(self, self%nearest_branch()) <= self%close_enough
+  end function is_found
+
+  !> How far an equilibrium's lifts are from those asked for [m].
+  pure function distance(search, number)
+    type(branch_search_type), intent(in) :: search
+    integer, intent(in) :: number
+    real(wp) :: distance
+    distance = maxval(abs(search%branch(number)%answer%leading_edge_lift - search%wanted), mask=search%given)
+  end function distance
+
+  !> Puts the bearing on a branch.
+  subroutine take_branch(bearing, point, branch)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(operating_point_type), intent(in) :: point !! of the branches
+    type(branch_type), intent(in) :: branch         !! one that was found on this bearing
+    integer, parameter :: settlings = 2 !! what slides the other way sticks first
+    integer :: pass
+    logical :: moved
+    PetscErrorCode :: ierr
+
+    bearing%point = point
+    PetscCallA(VecCopy(branch%state, bearing%state, ierr))
+    do pass = 1, settlings
+      call bearing%begin_step()
+      call bearing%settle(bearing%state, moved)
+    end do
+  end subroutine take_branch
+
+  !> Frees what PETSc holds.
+  subroutine destroy_branches(search)
+    type(branch_search_type), intent(inout) :: search !! is empty then
+    integer :: i
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(search%branch)) return
+    do i = 1, size(search%branch)
+      PetscCallA(VecDestroy(search%branch(i)%state, ierr))
+    end do
+    deallocate (search%branch)
+  end subroutine destroy_branches
+end module gfb_branch_list
