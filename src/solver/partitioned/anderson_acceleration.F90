@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
-!> Anderson's mixing of the loops of a fixed-point iteration.
+!> Anderson acceleration of a fixed-point iteration.
 !>
-!> Each loop holds a vector and asks for a change of it. What the last loops held is mixed so that
+!> Each loop takes a vector and asks for a change of it. The vectors of the last loops are combined so that
 !> together they ask for the least change, measured in rows that the caller chooses; a share of what
 !> is left is added. That is a secant method for several directions at once.
 module gfb_anderson_acceleration
@@ -10,87 +10,87 @@ module gfb_anderson_acceleration
   use gfb_petsc_session, only: sum_over_ranks
   implicit none (type)
   private
-  public :: create_mixing, mix_loops, destroy_mixing
+  public :: create_anderson, accelerate, destroy_anderson
 
-  integer, parameter :: depth = 15               !! loops that are mixed
+  integer, parameter :: depth = 15               !! loops that are combined
   real(wp), parameter :: damping = 0.7_wp        !! share of the change that is left that is added [1]
   real(wp), parameter :: independent = 1.0e-6_wp !! what is left of a loop that still counts [1]
 
-  !> What the last loops held and asked for.
-  type, public :: loop_mixing_type
+  !> What the last loops took and asked for.
+  type, public :: anderson_type
     integer, private :: loops = 0 !! since the beginning
-    Vec, private :: held, change  !! of the last loop
-    Vec, private :: way(depth)    !! from loop to loop, the newest first: of what was held,
+    Vec, private :: iterate, change  !! of the last loop
+    Vec, private :: step(depth)   !! from loop to loop, the newest first: of the vector,
     Vec, private :: turn(depth)   !! and of the change
-    real(wp), allocatable, private :: asked(:)     !! change of the last loop, in the rows that are measured
+    real(wp), allocatable, private :: asked(:)     !! change of the last loop, in the rows that are measured, in their unit
     real(wp), allocatable, private :: column(:, :) !! turns in them
-  end type loop_mixing_type
+  end type anderson_type
 
 contains
 
   !> Room for the loops of a vector.
-  subroutine create_mixing(vector, rows, mixing)
-    Vec, intent(in) :: vector   !! of the kind that is held
+  subroutine create_anderson(vector, rows, anderson)
+    Vec, intent(in) :: vector   !! of the kind that is iterated
     integer, intent(in) :: rows !! of this rank, in which changes are measured
-    type(loop_mixing_type), intent(out) :: mixing
+    type(anderson_type), intent(out) :: anderson !! without a loop yet
     PetscErrorCode :: ierr
     integer :: i
 
-    PetscCallA(VecDuplicate(vector, mixing%held, ierr))
-    PetscCallA(VecDuplicate(vector, mixing%change, ierr))
+    PetscCallA(VecDuplicate(vector, anderson%iterate, ierr))
+    PetscCallA(VecDuplicate(vector, anderson%change, ierr))
     do i = 1, depth
-      PetscCallA(VecDuplicate(vector, mixing%way(i), ierr))
-      PetscCallA(VecDuplicate(vector, mixing%turn(i), ierr))
+      PetscCallA(VecDuplicate(vector, anderson%step(i), ierr))
+      PetscCallA(VecDuplicate(vector, anderson%turn(i), ierr))
     end do
-    allocate (mixing%asked(rows), source=0.0_wp)
-    allocate (mixing%column(rows, depth), source=0.0_wp)
-  end subroutine create_mixing
+    allocate (anderson%asked(rows), source=0.0_wp)
+    allocate (anderson%column(rows, depth), source=0.0_wp)
+  end subroutine create_anderson
 
-  !> From what a loop held to what the next one holds.
-  subroutine mix_loops(mixing, first, held, change, asked)
-    type(loop_mixing_type), intent(inout) :: mixing
+  !> From the vector of a loop to that of the next one.
+  subroutine accelerate(anderson, first, iterate, change, asked)
+    type(anderson_type), intent(inout) :: anderson !! remembers this loop
     logical, intent(in) :: first         !! loops before this one do not count
-    Vec, intent(in) :: held              !! is replaced
+    Vec, intent(in) :: iterate           !! of this loop; that of the next one replaces it
     Vec, intent(in) :: change            !! that the loop asked for
-    real(wp), intent(in) :: asked(:)     !! the same in this rank's rows that are measured
+    real(wp), intent(in) :: asked(:)     !! the same in this rank's rows that are measured, in their unit
 
     real(wp) :: share(depth)
     PetscErrorCode :: ierr
     integer :: i, kept
 
-    if (first) mixing%loops = 0
-    if (.not. first) call remember(mixing, held, change, asked)
-    PetscCallA(VecCopy(held, mixing%held, ierr))
-    PetscCallA(VecCopy(change, mixing%change, ierr))
-    mixing%asked = asked
-    kept = min(depth, mixing%loops)
-    mixing%loops = mixing%loops + 1
-    call least_change(mixing%column(:, :kept), asked, share(:kept))
-    PetscCallA(VecAXPY(held, damping, change, ierr))
+    if (first) anderson%loops = 0
+    if (.not. first) call remember(anderson, iterate, change, asked)
+    PetscCallA(VecCopy(iterate, anderson%iterate, ierr))
+    PetscCallA(VecCopy(change, anderson%change, ierr))
+    anderson%asked = asked
+    kept = min(depth, anderson%loops)
+    anderson%loops = anderson%loops + 1
+    call least_change(anderson%column(:, :kept), asked, share(:kept))
+    PetscCallA(VecAXPY(iterate, damping, change, ierr))
     do i = 1, kept
-      PetscCallA(VecAXPY(held, -share(i), mixing%way(i), ierr))
-      PetscCallA(VecAXPY(held, -share(i)*damping, mixing%turn(i), ierr))
+      PetscCallA(VecAXPY(iterate, -share(i), anderson%step(i), ierr))
+      PetscCallA(VecAXPY(iterate, -share(i)*damping, anderson%turn(i), ierr))
     end do
-  end subroutine mix_loops
+  end subroutine accelerate
 
   !> Keeps what the last loop taught, in place of the oldest one.
-  subroutine remember(mixing, held, change, asked)
-    type(loop_mixing_type), intent(inout) :: mixing
-    Vec, intent(in) :: held, change
+  subroutine remember(anderson, iterate, change, asked)
+    type(anderson_type), intent(inout) :: anderson
+    Vec, intent(in) :: iterate, change
     real(wp), intent(in) :: asked(:)
-    Vec :: way, turn
+    Vec :: step, turn
     PetscErrorCode :: ierr
 
-    way = mixing%way(depth)
-    turn = mixing%turn(depth)
-    mixing%way(2:) = mixing%way(:depth - 1)
-    mixing%turn(2:) = mixing%turn(:depth - 1)
-    mixing%column(:, 2:) = mixing%column(:, :depth - 1)
-    PetscCallA(VecWAXPY(way, -1.0_wp, mixing%held, held, ierr))
-    PetscCallA(VecWAXPY(turn, -1.0_wp, mixing%change, change, ierr))
-    mixing%way(1) = way
-    mixing%turn(1) = turn
-    mixing%column(:, 1) = asked - mixing%asked
+    step = anderson%step(depth)
+    turn = anderson%turn(depth)
+    anderson%step(2:) = anderson%step(:depth - 1)
+    anderson%turn(2:) = anderson%turn(:depth - 1)
+    anderson%column(:, 2:) = anderson%column(:, :depth - 1)
+    PetscCallA(VecWAXPY(step, -1.0_wp, anderson%iterate, iterate, ierr))
+    PetscCallA(VecWAXPY(turn, -1.0_wp, anderson%change, change, ierr))
+    anderson%step(1) = step
+    anderson%turn(1) = turn
+    anderson%column(:, 1) = asked - anderson%asked
   end subroutine remember
 
   !> Shares of columns that leave the least of a vector, by Gram and Schmidt; columns that say
@@ -139,16 +139,16 @@ contains
   end function product_of
 
   !> Frees what PETSc holds.
-  subroutine destroy_mixing(mixing)
-    type(loop_mixing_type), intent(inout) :: mixing
+  subroutine destroy_anderson(anderson)
+    type(anderson_type), intent(inout) :: anderson
     PetscErrorCode :: ierr
     integer :: i
 
-    PetscCallA(VecDestroy(mixing%held, ierr))
-    PetscCallA(VecDestroy(mixing%change, ierr))
+    PetscCallA(VecDestroy(anderson%iterate, ierr))
+    PetscCallA(VecDestroy(anderson%change, ierr))
     do i = 1, depth
-      PetscCallA(VecDestroy(mixing%way(i), ierr))
-      PetscCallA(VecDestroy(mixing%turn(i), ierr))
+      PetscCallA(VecDestroy(anderson%step(i), ierr))
+      PetscCallA(VecDestroy(anderson%turn(i), ierr))
     end do
-  end subroutine destroy_mixing
+  end subroutine destroy_anderson
 end module gfb_anderson_acceleration

@@ -1,13 +1,13 @@
 #include "gfb_petsc.h"
-!> The equations of one side of a bearing, film and shaft or the foil, with the other side held.
+!> The equations of one side of a bearing, film and shaft or the foil, with the other side fixed.
 !>
 !> They are the coupled bearing's own: its residual with the other side's unknowns where they are in
-!> the bearing's state, and its matrix, of both of which the side takes its part.
+!> the bearing's state, and its matrix, of both of which the side takes its share.
 !>
 !> Under constant pressures a foil that has lifted off flaps away by many clearances, which no film
-!> would let it do. So the held film is the gas in the gap rather than its pressure: where the foil
+!> would let it do. So the fixed film is the gas in the gap rather than its pressure: where the foil
 !> moves, p h stays, to first order, as in a very fast bearing. Where the foil comes to rest the
-!> pressures are those that were held, so the answer of the loops is the same.
+!> pressures are those that were kept, so the answer of the loops is the same.
 module gfb_coupling_side
   use petscmat
   use gfb_kinds, only: wp
@@ -18,8 +18,8 @@ module gfb_coupling_side
   private
   public :: create_side
 
-  real(wp), parameter :: gas_share = 1.0_wp !! of the gas in the gap that is held as the foil moves [1]
-  real(wp), parameter :: room = 1.0e3_wp !! clearance while the film is not asked, over its own
+  real(wp), parameter :: gas_share = 1.0_wp !! of the gas in the gap that is kept as the foil moves [1]
+  real(wp), parameter :: room = 1.0e3_wp !! clearance while the film is not asked, over its own [1]
 
   !> One side; keep it and the bearing where they are.
   type, extends(nonlinear_system_type), public :: coupling_side_type
@@ -29,8 +29,8 @@ module gfb_coupling_side
     Vec, private :: whole, whole_residual !! of the bearing, at a state of the side
     Vec, private :: whole_step
     IS, private :: film_part              !! the pressures among the bearing's unknowns
-    Vec, private :: held                  !! the foil where the film was held
-    Vec, private :: moved, pressure       !! way of the foil from there; pressures, scaled
+    Vec, private :: held                  !! the foil where the film was fixed
+    Vec, private :: moved, pressure       !! displacement of the foil from there; pressures, scaled
     Mat, private :: yielding              !! pressures by the foil's unknowns, scaled
     Mat, private :: felt, stiffening      !! the foil's equations by the pressures; product of both
     logical, private :: multiplied = .false.
@@ -42,7 +42,7 @@ module gfb_coupling_side
     procedure :: virtual_work => work_on_side
     procedure :: take => take_side
     procedure :: give => give_side
-    procedure :: hold_film
+    procedure :: fix_film
     procedure :: destroy => destroy_side
   end type coupling_side_type
 
@@ -52,7 +52,7 @@ contains
   subroutine create_side(bearing, of_foil, side)
     type(bearing_system_type), target, intent(in) :: bearing !! with a matrix that was filled once
     logical, intent(in) :: of_foil !! the foil's side; else that of film and shaft
-    type(coupling_side_type), intent(inout) :: side
+    type(coupling_side_type), intent(inout) :: side !! is created
 
     PetscInt :: first, last, start, behind, i
     PetscInt, allocatable :: number(:)
@@ -96,9 +96,9 @@ contains
     PetscCallA(MatCreateSubMatrix(side%bearing%jacobian, side%part, side%film_part, MAT_INITIAL_MATRIX, side%felt, ierr))
   end subroutine create_yielding
 
-  !> Holds the film of the bearing's present state: its pressures where the foil stays, and the gas
+  !> Fixes the film of the bearing's present state: its pressures where the foil stays, and the gas
   !> in the gap where it moves.
-  subroutine hold_film(self)
+  subroutine fix_film(self)
     class(coupling_side_type), intent(inout) :: self
 
     real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%mesh%mesh_node)), rate
@@ -122,7 +122,7 @@ contains
     end associate
     PetscCallA(MatAssemblyBegin(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
-  end subroutine hold_film
+  end subroutine fix_film
 
   !> Takes the side's state from the bearing's.
   subroutine take_side(self)
@@ -153,8 +153,8 @@ contains
     PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_FORWARD, self%pressure, ierr))
   end subroutine complete
 
-  !> Residual of the side's equations. A foil under held pressures may close the film on its way,
-  !> whose equations nobody asks then: they are given room.
+  !> Residual of the side's equations. A foil under fixed pressures may close the film before it
+  !> converges, whose equations nobody asks then: they are given room.
   subroutine evaluate_side(self, state, residual, valid)
     class(coupling_side_type), intent(inout) :: self
     Vec, intent(in) :: state
@@ -201,7 +201,7 @@ contains
     PetscCallA(MatAXPY(self%jacobian, 1.0_wp, self%stiffening, SUBSET_NONZERO_PATTERN, ierr))
   end subroutine stiffen
 
-  !> Contacts follow the foil; under a held foil they stay.
+  !> Contacts follow the foil; under a fixed foil they stay.
   subroutine settle_side(self, state, moved)
     class(coupling_side_type), intent(inout) :: self
     Vec, intent(in) :: state

@@ -1,11 +1,11 @@
 #include "gfb_petsc.h"
 !> Film and foil in turns, as in [Gu2020] Fig. 6b, for comparison with solving them together.
 !>
-!> A loop solves the film, and the shaft's position where it floats, with the foil held, and then
-!> the foil with the film held. It has come home when the foil's answer is the deflection that the
-!> film was solved with. The loops are mixed by Anderson's method. They start from the film of a
+!> A loop solves the film, and the shaft's position where it floats, with the foil fixed, and then
+!> the foil with the film fixed. It has converged when the foil's answer is the deflection that the
+!> film was solved with. Anderson acceleration shortens the loops. They start from the film of a
 !> rigid foil with the foil at rest, or along a sweep from the neighbour's answer; nothing else
-!> helps them on their way.
+!> helps them.
 module gfb_partitioned
   use petscvec
   use gfb_kinds, only: wp
@@ -21,7 +21,7 @@ module gfb_partitioned
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
                         solve_newton, forget_factors, destroy_newton
   use gfb_coupling_side, only: coupling_side_type, create_side
-  use gfb_anderson_acceleration, only: loop_mixing_type, create_mixing, mix_loops, destroy_mixing
+  use gfb_anderson_acceleration, only: anderson_type, create_anderson, accelerate, destroy_anderson
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
   use gfb_smaller_start, only: refine
@@ -29,10 +29,10 @@ module gfb_partitioned
   private
   public :: start_partitioned, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
 
-  integer, parameter :: most_loops = 200
+  integer, parameter :: most_loops = 200         !! of film and foil
   integer, parameter :: foil_patience = 5        !! iterations of the foil over those of a solve
-  integer, parameter :: halvings = 8             !! of a way to where the film has no answer
-  real(wp), parameter :: longest_way = 0.3_wp    !! of a loop's deflection, over the clearance [1]
+  integer, parameter :: halvings = 8             !! of a displacement to where the film has no answer
+  real(wp), parameter :: longest_displacement = 0.3_wp    !! in a loop, over the clearance [1]
 
   !> Both sides, their solvers and what the loops remember. Keep it where it is.
   type, public :: partitioned_type
@@ -41,11 +41,11 @@ module gfb_partitioned
     type(coupling_side_type), private :: film, foil
     type(run_log_type), private :: log
     logical, private :: created = .false.
-    type(loop_mixing_type), private :: mixing
-    Vec, private :: held                       !! foil that the film was solved with
+    type(anderson_type), private :: anderson
+    Vec, private :: kept                       !! foil that the film was solved with
     Vec, private :: answer                     !! foil under that film
     Vec, private :: change                     !! from the one to the other
-    Vec, private :: film_before, held_before   !! one loop ago
+    Vec, private :: film_before, kept_before   !! one loop ago
     real(wp), allocatable, private :: asked(:) !! change as deflection of this rank's film nodes [m]
   end type partitioned_type
 
@@ -57,14 +57,14 @@ contains
   subroutine start_partitioned(scene, plan, target, newton_settings, path_settings, log, bearing, newton, &
                                sides, report, error)
     type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    type(operating_point_type), intent(in) :: target
+    type(bearing_plan_type), intent(in) :: plan      !! its meshes
+    type(operating_point_type), intent(in) :: target !! the scene's, or the first of its sweep
     type(newton_settings_type), intent(in) :: newton_settings
     type(path_settings_type), intent(in) :: path_settings
     type(run_log_type), intent(in) :: log
-    type(bearing_system_type), target, intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
     type(newton_type), target, intent(inout) :: newton !! of the coupled equations: only counts here
-    type(partitioned_type), target, intent(inout) :: sides
+    type(partitioned_type), target, intent(inout) :: sides !! are created
     type(path_report_type), intent(out) :: report
     type(error_type), allocatable, intent(out) :: error
 
@@ -120,12 +120,12 @@ contains
     call create_newton(sides%foil_newton, sides%foil, 'foil_', foil_settings, log)
     sides%log = log
     PetscCallA(VecDuplicate(sides%film%state, sides%film_before, ierr))
-    PetscCallA(VecDuplicate(sides%foil%state, sides%held, ierr))
+    PetscCallA(VecDuplicate(sides%foil%state, sides%kept, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%answer, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%change, ierr))
-    PetscCallA(VecDuplicate(sides%foil%state, sides%held_before, ierr))
+    PetscCallA(VecDuplicate(sides%foil%state, sides%kept_before, ierr))
     allocate (sides%asked(count(bearing%mesh%owned)), source=0.0_wp)
-    call create_mixing(sides%foil%state, size(sides%asked), sides%mixing)
+    call create_anderson(sides%foil%state, size(sides%asked), sides%anderson)
     sides%created = .true.
   end subroutine create_partitioned
 
@@ -169,7 +169,7 @@ contains
              sides%foil_newton%iterations, sides%foil_newton%factorizations]
   end function counts
 
-  !> Film, foil, mixing, until both stand still.
+  !> Film, foil, acceleration, until neither changes.
   subroutine repeat_loops(bearing, sides, converged, reason)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(partitioned_type), target, intent(inout) :: sides
@@ -183,22 +183,22 @@ contains
 
     call sides%film%take()
     call sides%foil%take()
-    PetscCallA(VecCopy(sides%foil%state, sides%held, ierr))
+    PetscCallA(VecCopy(sides%foil%state, sides%kept, ierr))
     PetscCallA(VecCopy(sides%foil%state, sides%answer, ierr))
-    PetscCallA(VecCopy(sides%held, sides%held_before, ierr))
+    PetscCallA(VecCopy(sides%kept, sides%kept_before, ierr))
     PetscCallA(VecCopy(sides%film%state, sides%film_before, ierr))
     converged = .false.
-    reason = 'film and foil do not stand still after '//text(most_loops)//' loops'
+    reason = 'film and foil still change after '//text(most_loops)//' loops'
     do loop = 1, most_loops
       sides%loops = sides%loops + 1
       call solve_film(bearing, sides, loop > 1, solved)
       if (.not. solved%converged) then
-        reason = 'the film above the held foil in loop '//text(loop)//': '//solved%reason
+        reason = 'the film above the fixed foil in loop '//text(loop)//': '//solved%reason
         exit
       end if
       call solve_foil(bearing, sides, solved)
       if (.not. solved%converged) then
-        reason = 'the foil under the held film in loop '//text(loop)//': '//solved%reason
+        reason = 'the foil under the fixed film in loop '//text(loop)//': '//solved%reason
         exit
       end if
       size_of_change = largest(sides%asked)/bearing%film%clearance
@@ -208,16 +208,16 @@ contains
         reason = 'converged'
         return
       end if
-      PetscCallA(VecCopy(sides%held, sides%held_before, ierr))
+      PetscCallA(VecCopy(sides%kept, sides%kept_before, ierr))
       PetscCallA(VecCopy(sides%film%state, sides%film_before, ierr))
       call choose_next(bearing, sides, loop == 1)
     end do
-    call put_foil(sides, sides%held_before)
+    call put_foil(sides, sides%kept_before)
     PetscCallA(VecCopy(sides%film_before, sides%film%state, ierr))
     call sides%film%give()
   end subroutine repeat_loops
 
-  !> Film and shaft above the held foil; where they have no answer, the foil goes part of its way.
+  !> Film and shaft above the fixed foil; where they have no answer, the foil is displaced by less.
   subroutine solve_film(bearing, sides, may_shorten, solved)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(partitioned_type), target, intent(inout) :: sides
@@ -228,18 +228,18 @@ contains
 
     do halving = 0, merge(halvings, 0, may_shorten)
       if (halving > 0) then
-        call sides%log%detail('half the way of the foil: '//solved%reason)
-        PetscCallA(VecAXPBY(sides%held, 0.5_wp, 0.5_wp, sides%held_before, ierr))
+        call sides%log%detail('half the displacement of the foil: '//solved%reason)
+        PetscCallA(VecAXPBY(sides%kept, 0.5_wp, 0.5_wp, sides%kept_before, ierr))
         PetscCallA(VecCopy(sides%film_before, sides%film%state, ierr))
       end if
-      call put_foil(sides, sides%held)
+      call put_foil(sides, sides%kept)
       call solve_newton(sides%film_newton, solved)
       if (solved%converged) exit
     end do
     if (solved%converged) call sides%film%give()
   end subroutine solve_film
 
-  !> The foil under the held film, and its change from what was held.
+  !> The foil under the fixed film, and its change from what the film was solved with.
   subroutine solve_foil(bearing, sides, solved)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(partitioned_type), target, intent(inout) :: sides
@@ -248,11 +248,11 @@ contains
     PetscErrorCode :: ierr
 
     before = deflection(bearing)
-    call sides%foil%hold_film()
+    call sides%foil%fix_film()
     call solve_newton(sides%foil_newton, solved)
     if (.not. solved%converged) return
     PetscCallA(VecCopy(sides%foil%state, sides%answer, ierr))
-    PetscCallA(VecWAXPY(sides%change, -1.0_wp, sides%held, sides%answer, ierr))
+    PetscCallA(VecWAXPY(sides%change, -1.0_wp, sides%kept, sides%answer, ierr))
     call sides%foil%give()
     sides%asked = deflection(bearing) - before
   end subroutine solve_foil
@@ -282,16 +282,16 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! with the foil's answer
     type(partitioned_type), intent(inout) :: sides
     logical, intent(in) :: first !! of these loops
-    real(wp) :: way(size(sides%asked)), stretch
+    real(wp) :: displacement(size(sides%asked)), stretch
     PetscErrorCode :: ierr
 
-    call mix_loops(sides%mixing, first, sides%held, sides%change, sides%asked)
-    way = sides%asked - deflection(bearing)
-    call put_foil(sides, sides%held)
-    way = way + deflection(bearing)
-    stretch = longest_way*bearing%film%clearance/max(largest(way), tiny(1.0_wp))
+    call accelerate(sides%anderson, first, sides%kept, sides%change, sides%asked)
+    displacement = sides%asked - deflection(bearing)
+    call put_foil(sides, sides%kept)
+    displacement = displacement + deflection(bearing)
+    stretch = longest_displacement*bearing%film%clearance/max(largest(displacement), tiny(1.0_wp))
     if (stretch < 1.0_wp) then
-      PetscCallA(VecAXPBY(sides%held, 1.0_wp - stretch, stretch, sides%held_before, ierr))
+      PetscCallA(VecAXPBY(sides%kept, 1.0_wp - stretch, stretch, sides%kept_before, ierr))
     end if
   end subroutine choose_next
 
@@ -338,11 +338,11 @@ contains
     call sides%film%destroy()
     call sides%foil%destroy()
     PetscCallA(VecDestroy(sides%film_before, ierr))
-    PetscCallA(VecDestroy(sides%held, ierr))
+    PetscCallA(VecDestroy(sides%kept, ierr))
     PetscCallA(VecDestroy(sides%answer, ierr))
     PetscCallA(VecDestroy(sides%change, ierr))
-    PetscCallA(VecDestroy(sides%held_before, ierr))
-    call destroy_mixing(sides%mixing)
+    PetscCallA(VecDestroy(sides%kept_before, ierr))
+    call destroy_anderson(sides%anderson)
     sides%created = .false.
   end subroutine destroy_partitioned
 end module gfb_partitioned
