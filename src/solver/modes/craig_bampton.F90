@@ -43,7 +43,7 @@ contains
     type(foil_structure_type), intent(in) :: foil !! with its substructures
     integer, intent(in) :: modes_kept !! fixed-interface modes of every super-element
     type(craig_bampton_type), allocatable, intent(out) :: kinds(:) !! one a kind of substructure
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
     integer, allocatable :: maker(:)
     logical, allocatable :: has(:, :)
     integer :: i

@@ -128,7 +128,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_modes(modes)
-    type(modes_type), intent(inout) :: modes
+    type(modes_type), intent(inout) :: modes !! are freed
     PetscErrorCode :: ierr
     integer :: i
 

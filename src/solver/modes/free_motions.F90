@@ -23,7 +23,7 @@ contains
   !> Rigid motions of a structure that its supports leave free, at right angles in the mass and of
   !> unit modal mass; their eigenvalues are zero.
   subroutine free_motions(foil, mass, motions)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! the structure
     Mat, intent(in) :: mass                 !! of the structure's free unknowns
     type(modes_type), intent(out) :: motions !! none where the supports leave none
 

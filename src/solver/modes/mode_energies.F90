@@ -37,13 +37,13 @@ contains
   !> has changed (Davidson's method with the memory of LOBPCG), until that changes no eigenvalue. Fails
   !> where an element is clockwise or degenerate.
   subroutine sharpen_modes(foil, mass, rigid, modes, lost, left, error)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! the structure
     Mat, intent(in) :: mass                 !! of its free unknowns
     real(wp), intent(in) :: rigid           !! eigenvalues below it are those of motions without strain [1/s2]
     type(modes_type), intent(inout) :: modes !! in rising order
     real(wp), intent(out) :: lost           !! largest relative error of the matrix' eigenvalues [1]
     real(wp), intent(out) :: left           !! largest relative change of an eigenvalue in the last round [1]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
     Vec :: force(size(modes%shape)), moved(size(modes%shape))
     KSP :: solver
     PetscErrorCode :: ierr

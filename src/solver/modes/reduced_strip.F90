@@ -31,7 +31,7 @@ contains
 
   !> Lowest eigenvalues of the strip put together from its super-elements [1/s2].
   function assembled_eigenvalues(foil, kinds, shift, wanted) result(eigenvalue)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! the structure
     type(craig_bampton_type), intent(in) :: kinds(:) !! of its substructures
     real(wp), intent(in) :: shift !! of the stiffness by the mass, not negative [1/s2]
     integer, intent(in) :: wanted !! eigenvalues asked for

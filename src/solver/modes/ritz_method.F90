@@ -27,7 +27,7 @@ contains
   !> Products of vectors in the mass.
   function mass_products(shape, mass) result(modal_mass)
     Vec, intent(in) :: shape(:) !! n vectors
-    Mat, intent(in) :: mass
+    Mat, intent(in) :: mass !! M
     real(wp) :: modal_mass(size(shape), size(shape))
     PetscScalar :: product
     Vec :: momentum
@@ -66,7 +66,7 @@ contains
   !> Sums of vectors.
   subroutine combine(weight, old, new)
     real(wp), intent(in) :: weight(:, :) !! (old, new) [1]
-    Vec, intent(in) :: old(:)
+    Vec, intent(in) :: old(:) !! vectors that are summed
     Vec, intent(in) :: new(:)            !! others than the old
     PetscErrorCode :: ierr
     integer :: i, k

@@ -108,7 +108,7 @@ contains
   !> other ranks, leave it as it is.
   subroutine factor_matrix(linear, matrix, sign_of_determinant)
     KSP, intent(in) :: linear !! prepared by `use_factors`
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! to be factored, scaled
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
 
     integer, parameter :: mantissa_place = 12 ! in MUMPS' RINFOG

@@ -42,7 +42,7 @@ contains
     KSP, intent(in) :: linear    !! after a solve
     logical, intent(in) :: fresh !! they belong to the present matrix
     logical, intent(out) :: solved !! GMRES reached its tolerance
-    PetscErrorCode, intent(out) :: ierr
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
     KSPConvergedReason :: reason
     PetscInt :: iterations
 

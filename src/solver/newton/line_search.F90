@@ -42,12 +42,12 @@ contains
 
   !> Takes what can be taken of the step that SNES has found.
   subroutine take_step(line, solver, system, search, residual_goal, ierr)
-    type(line_search_type), intent(inout) :: line
-    type(linear_solver_type), intent(inout) :: solver
-    class(nonlinear_system_type), target, intent(inout) :: system
-    SNESLineSearch, intent(in) :: search
+    type(line_search_type), intent(inout) :: line !! what the steps have been
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    class(nonlinear_system_type), target, intent(inout) :: system !! the equations
+    SNESLineSearch, intent(in) :: search !! SNES' line search
     real(wp), intent(in) :: residual_goal !! norm of the scaled residual that is small enough [1]
-    PetscErrorCode, intent(out) :: ierr
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
 
     SNES :: snes
     Vec :: x, f, y, trial, trial_residual

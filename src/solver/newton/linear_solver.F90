@@ -37,10 +37,10 @@ contains
 
   !> Gives SNES the solver that suits a system: multigrid where it has motions, else factors.
   subroutine choose_solver(snes, prefix, system, solver)
-    SNES, intent(in) :: snes
+    SNES, intent(in) :: snes !! whose linear solver it is
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
-    class(nonlinear_system_type), intent(in) :: system
-    type(linear_solver_type), intent(inout) :: solver
+    class(nonlinear_system_type), intent(in) :: system !! the equations
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
     KSP :: linear
     PetscErrorCode :: ierr
 
@@ -59,7 +59,7 @@ contains
 
   !> A solve of the nonlinear equations begins: factors that belong to its start serve once.
   subroutine begin_solve(solver, times_filled)
-    type(linear_solver_type), intent(inout) :: solver
+    type(linear_solver_type), intent(inout) :: solver !! its kept factors serve once
     integer, intent(in) :: times_filled !! the system's matrix, so far
 
     solver%keep = solver%ready .and. solver%filled == times_filled
@@ -69,7 +69,7 @@ contains
 
   !> The present factors belong to an answer: the next solve may use them.
   subroutine keep_ready(solver, ready, times_filled)
-    type(linear_solver_type), intent(inout) :: solver
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
     logical, intent(in) :: ready        !! the matrix could be factored
     integer, intent(in) :: times_filled !! the system's matrix, so far
 
@@ -79,11 +79,11 @@ contains
 
   !> Whether a step gets new factors, and whether the matrix is to be filled for it.
   subroutine decide_factors(solver, snes, slow_change, fill, ierr)
-    type(linear_solver_type), intent(inout) :: solver
-    SNES, intent(in) :: snes
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    SNES, intent(in) :: snes !! whose linear solver it is
     logical, intent(in) :: slow_change !! matrices differ in few entries
     logical, intent(out) :: fill       !! a matrix that is not touched keeps its factors
-    PetscErrorCode, intent(out) :: ierr
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
 
     ierr = 0
     fill = .true.
@@ -99,13 +99,13 @@ contains
 
   !> Whether a linear system was solved; says why where new factors could not do it.
   subroutine judge_linear(solver, snes, matrix, right, solution, work, solved, ierr)
-    type(linear_solver_type), intent(inout) :: solver
-    SNES, intent(in) :: snes
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    SNES, intent(in) :: snes !! whose linear solver it is
     Mat, intent(in) :: matrix          !! of the system that was solved, scaled
     Vec, intent(in) :: right, solution !! scaled
     Vec, intent(in) :: work            !! overwritten
-    logical, intent(out) :: solved
-    PetscErrorCode, intent(out) :: ierr
+    logical, intent(out) :: solved !! its solution serves a step
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
     KSP :: linear
 
     PetscCall(SNESGetKSP(snes, linear, ierr))
@@ -126,7 +126,7 @@ contains
   !> Where contacts have changed, kept factors lead nowhere with steps that look small: then the
   !> residual stays.
   pure subroutine choose_factors(solver, full, first, step, step_before, small, before, after)
-    type(linear_solver_type), intent(inout) :: solver
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
     logical, intent(in) :: full            !! the step was taken whole, and contacts are where they are linearised
     logical, intent(in) :: first           !! it was the first of its solve
     real(wp), intent(in) :: step           !! largest relative change of an unknown [1]
@@ -146,7 +146,7 @@ contains
 
   !> Why PETSc gave up a linear system, in words.
   function linear_failure(snes) result(words)
-    SNES, intent(in) :: snes
+    SNES, intent(in) :: snes !! whose linear solver it is
     character(len=:), allocatable :: words
     KSP :: linear
     PetscErrorCode :: ierr
@@ -158,8 +158,8 @@ contains
 
   !> Forgets all factors and what they have cost.
   subroutine forget_solver(solver, snes)
-    type(linear_solver_type), intent(inout) :: solver
-    SNES, intent(in) :: snes
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    SNES, intent(in) :: snes !! whose linear solver it is
     type(lagged_factors_type) :: none
     KSP :: linear
     PetscErrorCode :: ierr

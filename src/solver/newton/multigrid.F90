@@ -75,7 +75,7 @@ contains
     Vec, intent(in) :: work            !! overwritten
     logical, intent(in) :: fresh       !! the coarse level belongs to this matrix
     logical, intent(out) :: solved     !! the true residual is small
-    PetscErrorCode, intent(out) :: ierr
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
     KSPConvergedReason :: reason
     PetscInt :: iterations
     PetscReal :: wanted, left

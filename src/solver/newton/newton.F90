@@ -63,8 +63,8 @@ contains
     type(newton_type), target, intent(inout) :: newton !! must not have been created, or be destroyed
     class(nonlinear_system_type), target, intent(in) :: system !! with its state and its matrix
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
-    type(newton_settings_type), intent(in) :: settings
-    type(run_log_type), intent(in) :: log
+    type(newton_settings_type), intent(in) :: settings !! when to stop
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
 
     SNESLineSearch :: search
     PetscInt :: unknowns
@@ -92,7 +92,7 @@ contains
 
   !> Solves from the system's present state; on failure the state is where it stopped.
   subroutine solve_newton(newton, report)
-    type(newton_type), target, intent(inout) :: newton
+    type(newton_type), target, intent(inout) :: newton !! the solver
     type(newton_report_type), intent(out) :: report !! how it ended
 
     SNESConvergedReason :: reason
@@ -128,7 +128,7 @@ contains
   !>
   !> Takes a factorization.
   subroutine find_determinant_sign(newton, sign_of_determinant)
-    type(newton_type), intent(inout) :: newton
+    type(newton_type), intent(inout) :: newton !! the solver
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
     KSP :: linear
     PetscErrorCode :: ierr
@@ -144,7 +144,7 @@ contains
 
   !> Solves a linear system with the factors that `find_determinant_sign` made.
   subroutine solve_with_factors(newton, right, solution)
-    type(newton_type), intent(in) :: newton
+    type(newton_type), intent(in) :: newton !! the solver
     Vec, intent(in) :: right    !! scaled
     Vec, intent(in) :: solution !! scaled; is overwritten
     KSP :: linear
@@ -157,7 +157,7 @@ contains
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
   !> on the system's state alone, and so does a run that goes on from that state.
   subroutine forget_factors(newton)
-    type(newton_type), intent(inout) :: newton
+    type(newton_type), intent(inout) :: newton !! the solver
 
     call forget_solver(newton%linear, newton%snes)
   end subroutine forget_factors
@@ -280,7 +280,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_newton(newton)
-    type(newton_type), intent(inout) :: newton
+    type(newton_type), intent(inout) :: newton !! may be one that was never created
     PetscErrorCode :: ierr
 
     if (.not. newton%created) return

@@ -48,7 +48,7 @@ contains
 
   !> A line of the table of iterations.
   subroutine show_iteration(log, iteration, residual, step, length, new_factors)
-    type(run_log_type), intent(in) :: log
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
     integer, intent(in) :: iteration  !! 0: the start, whose line has no step
     real(wp), intent(in) :: residual  !! root mean square of the scaled residual [1]
     real(wp), intent(in) :: step      !! largest change of an unknown by the full step, relative [1]

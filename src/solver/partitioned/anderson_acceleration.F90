@@ -140,7 +140,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine destroy_anderson(anderson)
-    type(anderson_type), intent(inout) :: anderson
+    type(anderson_type), intent(inout) :: anderson !! is freed
     PetscErrorCode :: ierr
     integer :: i
 

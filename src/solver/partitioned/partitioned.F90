@@ -56,17 +56,17 @@ contains
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_partitioned(scene, plan, target, newton_settings, path_settings, log, bearing, newton, &
                                sides, report, error)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan      !! its meshes
     type(operating_point_type), intent(in) :: target !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings
-    type(path_settings_type), intent(in) :: path_settings
-    type(run_log_type), intent(in) :: log
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
     type(bearing_system_type), target, intent(inout) :: bearing !! is built
     type(newton_type), target, intent(inout) :: newton !! of the coupled equations: only counts here
     type(partitioned_type), target, intent(inout) :: sides !! are created
-    type(path_report_type), intent(out) :: report
-    type(error_type), allocatable, intent(out) :: error
+    type(path_report_type), intent(out) :: report !! how it ended
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
 
     type(bearing_system_type), target :: rigid
     type(newton_type), target :: rigid_newton
@@ -104,10 +104,10 @@ contains
 
   !> Cuts a bearing into its two sides.
   subroutine create_partitioned(bearing, settings, log, sides)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_settings_type), intent(in) :: settings
-    type(run_log_type), intent(in) :: log
-    type(partitioned_type), target, intent(inout) :: sides
+    type(bearing_system_type), target, intent(inout) :: bearing !! with a state
+    type(newton_settings_type), intent(in) :: settings !! when Newton's method stops
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(partitioned_type), target, intent(inout) :: sides !! are created
     type(newton_settings_type) :: foil_settings
     PetscErrorCode :: ierr
 
@@ -132,12 +132,12 @@ contains
   !> Brings the bearing to a point by loops from its present state. On return the state is the
   !> answer, or the last film there was on the foil that it was solved with.
   subroutine follow_partitioned(bearing, newton, target, settings, sides, report)
-    type(bearing_system_type), target, intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing !! the bearing, in its present state
     type(newton_type), intent(inout) :: newton !! of the coupled equations: only counts here
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(partitioned_type), target, intent(inout) :: sides
-    type(path_report_type), intent(out) :: report
+    type(operating_point_type), intent(in) :: target !! the operating point asked for
+    type(path_settings_type), intent(in) :: settings !! limits
+    type(partitioned_type), target, intent(inout) :: sides !! film and foil
+    type(path_report_type), intent(out) :: report !! how it ended
     integer :: spent(5)
 
     spent = counts(sides)
@@ -320,7 +320,7 @@ contains
 
   !> Forgets the factors of both sides; may be called without ever having been created.
   subroutine forget_partitioned(sides)
-    type(partitioned_type), intent(inout) :: sides
+    type(partitioned_type), intent(inout) :: sides !! may be ones that were never created
 
     if (.not. sides%created) return
     call forget_factors(sides%film_newton)
@@ -329,7 +329,7 @@ contains
 
   !> Frees what PETSc holds; may be called without ever having been created.
   subroutine destroy_partitioned(sides)
-    type(partitioned_type), intent(inout) :: sides
+    type(partitioned_type), intent(inout) :: sides !! may be ones that were never created
     PetscErrorCode :: ierr
 
     if (.not. sides%created) return

@@ -107,7 +107,7 @@ contains
 
   !> Puts the bearing on a branch.
   subroutine take_branch(bearing, point, branch)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! is put on the branch
     type(operating_point_type), intent(in) :: point !! of the branches
     type(branch_type), intent(in) :: branch         !! one that was found on this bearing
     integer, parameter :: settlings = 2 !! what slides the other way sticks first

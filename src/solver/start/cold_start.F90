@@ -34,16 +34,16 @@ contains
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   recursive subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, &
                                      bearing, newton, report, error)
-    type(scene_type), target, intent(in) :: scene
+    type(scene_type), target, intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings
-    type(path_settings_type), intent(in) :: path_settings
-    type(run_log_type), intent(in) :: log
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
     type(bearing_system_type), target, intent(inout) :: bearing !! is built
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
 
     type(bearing_system_type), target :: coarse
     type(newton_type), target :: coarse_newton

@@ -37,9 +37,9 @@ contains
 
   !> Soft two-way contacts first, then those of the scene.
   recursive subroutine try_soft_contacts(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! how they are released
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! the shaft touches down
     type(path_settings_type) :: settings
 

@@ -40,7 +40,7 @@ contains
 
   !> Whether the top foil has an edge that nothing holds.
   function has_free_edge(bearing) result(has)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
     logical :: has
 
     has = any_rank(size(bearing%edge%unknown) > 0)
@@ -51,9 +51,9 @@ contains
   !> Where it stays nowhere `ends` is true, and the report says what was measured; the state is then of
   !> no use.
   recursive subroutine try_held_edge(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends !! the edge is drawn up at all heights below the shaft: there is no answer
     real(wp) :: height, highest, least, room
     integer :: number, failures

@@ -24,9 +24,9 @@ contains
 
   !> At rest the film is at ambient pressure wherever the shaft is: from there to speed, and to the load.
   recursive subroutine try_from_rest(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! none
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! never
 
     ends = .false.

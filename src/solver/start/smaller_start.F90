@@ -19,9 +19,9 @@ contains
 
   !> Newton's method at the target, from the smaller system's answer.
   recursive subroutine try_smaller_answer(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! none
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! never
 
     ends = .false.
@@ -32,9 +32,9 @@ contains
 
   !> The shaft is fixed where the smaller system's is, and then released.
   recursive subroutine try_smaller_position(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! none
-    type(path_report_type), intent(out) :: report
+    type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! never
     type(operating_point_type) :: fixed
 

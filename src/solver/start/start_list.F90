@@ -57,8 +57,8 @@ contains
   !>
   !> Without an answer the state is the one nearest to the target of those that count.
   recursive subroutine try_starts(problem, report)
-    type(start_problem_type), intent(inout) :: problem
-    type(path_report_type), intent(out) :: report
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
+    type(path_report_type), intent(out) :: report !! how it ended
     type(cold_start_type), allocatable :: starts(:)
     type(nearest_type) :: nearest
     integer, allocatable :: list(:)

@@ -21,11 +21,11 @@ contains
 
   !> Newton's method at a point, as a path of one step.
   subroutine solve_at(bearing, newton, target, held, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! the bearing, in its present state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
     logical, intent(in) :: held !! the shaft is fixed at the point's position
-    type(path_settings_type), intent(in) :: settings
+    type(path_settings_type), intent(in) :: settings !! limits
     type(path_report_type), intent(out) :: report !! of a path of one step
     type(newton_report_type) :: solved
 
@@ -44,11 +44,11 @@ contains
 
   !> A fixed position at rest, brought to speed.
   subroutine find_position(bearing, newton, target, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! with the position as its eccentricity
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
+    type(path_settings_type), intent(in) :: settings !! limits
+    type(path_report_type), intent(out) :: report !! how it ended
 
     type(path_settings_type) :: to_position
     type(operating_point_type) :: wanted, free
@@ -72,11 +72,11 @@ contains
 
   !> Releases the shaft where it is fixed, and moves the load from the film's reaction to its target.
   subroutine release_shaft(bearing, newton, target, settings, report)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! with an answer at a fixed position
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
+    type(path_settings_type), intent(in) :: settings !! limits
+    type(path_report_type), intent(out) :: report !! how it ended
     real(wp) :: force(film_forces), change
 
     force = bearing%reaction()
@@ -122,9 +122,9 @@ contains
 
   !> A position to begin with: the scene's, or halfway to where a film would carry the load.
   subroutine guess_position(bearing, scene, target, eccentricity)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(scene_type), intent(in) :: scene
-    type(operating_point_type), intent(in) :: target
+    type(bearing_system_type), intent(inout) :: bearing !! gets the position, and all else zero
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(operating_point_type), intent(in) :: target !! the operating point asked for
     real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
     real(wp) :: direction, free, unknown(bearing%local_size())
 
