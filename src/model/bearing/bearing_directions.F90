@@ -56,8 +56,7 @@ contains
     PetscErrorCode :: ierr
 
     call bearing%get_unknowns(here)
-    call bearing%exchange%get(other, ahead)
-    ahead = ahead*bearing%unknown_scale
+    call bearing%get_unknowns(ahead, other)
     first = -largest_over_ranks([-bearing%foil%next_contact_change(here, ahead)])
     way = first(1)
     rate = 0.0_wp

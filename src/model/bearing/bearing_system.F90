@@ -72,7 +72,7 @@ module gfb_bearing_system
     procedure :: smallest_gap
     procedure :: reaction
     procedure :: force_scale
-    procedure, private :: equation_scale
+    procedure :: equation_scale
     procedure :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -252,8 +252,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     nodes = size(gap)
     shaft = self%first_shaft
-    call self%exchange%get(state, unknown)
-    unknown = unknown*self%unknown_scale
+    call self%get_unknowns(unknown, state)
     gap = self%gap(unknown, asked)
     value = 0.0_wp
     point = self%position(unknown, asked)
@@ -313,8 +312,7 @@ contains
 
     self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
-    call self%exchange%get(state, unknown)
-    unknown = unknown*self%unknown_scale
+    call self%get_unknowns(unknown, state)
     gap = self%gap(unknown, point)
     if (self%foil%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
@@ -501,11 +499,17 @@ contains
     found = pack(fetch_entries(bearing%whole%nodes(), pack(bearing%mesh%mesh_node, bearing%mesh%owned), own, wanted), .true.)
   end function film_values
 
-  !> Local unknowns at the present state, in SI.
-  subroutine get_unknowns(self, unknown)
+  !> Local unknowns at a state, in SI.
+  subroutine get_unknowns(self, unknown, state)
     class(bearing_system_type), intent(in) :: self
     real(wp), intent(out) :: unknown(:)
-    call self%exchange%get(self%state, unknown)
+    Vec, intent(in), optional :: state !! scaled; default: the present one
+
+    if (present(state)) then
+      call self%exchange%get(state, unknown)
+    else
+      call self%exchange%get(self%state, unknown)
+    end if
     unknown = unknown*self%unknown_scale
   end subroutine get_unknowns
 

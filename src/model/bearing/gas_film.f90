@@ -46,6 +46,7 @@ module gfb_gas_film
     procedure :: is_open
     procedure :: add_residual => film_residual
     procedure :: element_jacobian => film_element_jacobian
+    procedure :: add_shaft_column => film_shaft_column
     procedure :: force => film_node_force
     procedure :: force_without_suction
     procedure :: drag => film_drag
@@ -278,6 +279,27 @@ contains
       end do
     end associate
   end subroutine film_element_jacobian
+
+  !> Adds the derivatives of the film's equations by one of the shaft's coordinates.
+  pure subroutine film_shaft_column(self, pressure, gap, point, coordinate, column)
+    class(gas_film_type), intent(in) :: self
+    real(wp), intent(in) :: pressure(:)  !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)       !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point
+    integer, intent(in) :: coordinate    !! of `shaft_motion`
+    real(wp), intent(inout) :: column(:) !! at the nodes [Pa m2/s], [Pa m3/s]
+    real(wp), dimension(size(self%shape, 1), size(self%shape, 1)) :: by_pressure, by_gap
+    real(wp) :: by_shaft(size(self%shape, 1), shaft_coordinates)
+    integer :: element
+
+    do element = 1, size(self%element_nodes, 2)
+      call self%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, by_shaft)
+      associate (nodes => self%element_nodes(:, element))
+        column(nodes) = column(nodes) + by_shaft(:, coordinate)
+      end associate
+    end do
+    where (self%fixed) column(:size(self%fixed)) = 0.0_wp
+  end subroutine film_shaft_column
 
   !> This rank's share of force and torque of the whole bearing [N], [N m].
   pure function film_node_force(self, pressure) result(force)

@@ -12,18 +12,15 @@ module gfb_angular_stiffness
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_load, only: film_forces
   use gfb_solid_contact, only: contact_pressure_rate
-  use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_shaft_columns, only: shaft_column
   use gfb_newton, only: newton_type
   use gfb_direct_solver, only: use_factors
   implicit none (type)
   private
   public :: angular_stiffness
 
-  !> Change of the gap in the differences after the tilt, over the smallest gap [1]. The film's
-  !> residual is a cubic in the gap, for which they are exact; with SUPG their error goes with the
-  !> fourth power of this.
-  real(wp), parameter :: reach = 1.0e-3_wp
+  integer, parameter :: tilts = 2 !! the shaft's coordinates before its tilts
 
 contains
 
@@ -50,7 +47,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, change, ierr))
     PetscCallA(VecDuplicate(bearing%state, response, ierr))
     do axis = 1, 2
-      call differentiate(bearing, axis, change)
+      call shaft_column(bearing, tilts + axis, change)
       PetscCallA(KSPSolve(linear, change, response, ierr))
       PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
       if (GFB_REASON(reason) > 0) stiffness(:, axis) = -torque_of(bearing, axis, response)
@@ -83,56 +80,19 @@ contains
     PetscCallA(KSPSetFromOptions(linear, ierr))
   end subroutine create_solver
 
-  !> Derivative of the residual by a tilt at the present state: differences over two and four steps.
-  subroutine differentiate(bearing, axis, change)
-    type(bearing_system_type), intent(inout) :: bearing
-    integer, intent(in) :: axis !! 1 about x, 2 about y
-    Vec, intent(in) :: change   !! per radian
-
-    integer, parameter :: steps(4) = [-2, -1, 1, 2]
-    real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
-    type(operating_point_type) :: here
-    Vec :: residual
-    PetscErrorCode :: ierr
-    real(wp) :: step
-    logical :: valid
-    integer :: i
-
-    here = bearing%point
-    associate (z => bearing%whole%row_axial)
-      step = reach*bearing%smallest_gap()/max(z(size(z)), -z(1))
-    end associate
-    PetscCallA(VecDuplicate(change, residual, ierr))
-    PetscCallA(VecSet(change, 0.0_wp, ierr))
-    do i = 1, size(steps)
-      bearing%point%tilt(axis) = here%tilt(axis) + real(steps(i), wp)*step
-      call bearing%evaluate(bearing%state, residual, valid)
-      PetscCallA(VecAXPY(change, weight(i)/step, residual, ierr))
-    end do
-    bearing%point = here
-    PetscCallA(VecDestroy(residual, ierr))
-  end subroutine differentiate
-
   !> Torque of the pressures in a change of the state against a tilt [N m].
   function torque_of(bearing, axis, response) result(torque)
-    type(bearing_system_type), intent(inout) :: bearing !! its state is kept
-    integer, intent(in) :: axis !! of the tilt
-    Vec, intent(in) :: response
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: axis    !! of the tilt
+    Vec, intent(in) :: response    !! the change, scaled
     real(wp) :: torque(2)
-    Vec :: state
-    real(wp) :: unknown(bearing%local_size()), here(bearing%local_size()), force(film_forces)
-    PetscErrorCode :: ierr
+    real(wp) :: change(bearing%local_size()), here(bearing%local_size()), force(film_forces)
 
     call bearing%get_unknowns(here)
-    PetscCallA(VecDuplicate(bearing%state, state, ierr))
-    PetscCallA(VecCopy(bearing%state, state, ierr))
-    PetscCallA(VecCopy(response, bearing%state, ierr))
-    call bearing%get_unknowns(unknown)
-    PetscCallA(VecCopy(state, bearing%state, ierr))
-    PetscCallA(VecDestroy(state, ierr))
+    call bearing%get_unknowns(change, response)
     associate (film => bearing%film)
-      force = sum_over_ranks(film%force(film%ambient_pressure + unknown(:size(film%angle)) &
-                                        + solid_change(bearing, axis, here, unknown)))
+      force = sum_over_ranks(film%force(film%ambient_pressure + change(:size(film%angle)) &
+                                        + solid_change(bearing, axis, here, change)))
     end associate
     torque = force(3:4)
   end function torque_of
@@ -150,7 +110,7 @@ contains
     pressure = 0.0_wp
     if (.not. bearing%contact%present) return
     associate (film => bearing%film, foil => bearing%foil)
-      gap = -film%motion(2 + axis, :)
+      gap = -film%motion(tilts + axis, :)
       if (bearing%floats) then
         gap = gap + change(bearing%first_shaft + 1)*film%motion(1, :) + change(bearing%first_shaft + 2)*film%motion(2, :)
       end if

@@ -1,0 +1,64 @@
+#include "gfb_petsc.h"
+!> Derivatives of a bearing's equations by the shaft's coordinates, tilts among them.
+!>
+!> They are the right sides of a linear response: with \( f(x, q) = 0 \) the unknowns answer a motion of
+!> the shaft by \( f_x x' = -f_q \), where the shaft is fixed in that coordinate.
+module gfb_shaft_columns
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_film_load, only: film_forces
+  use gfb_solid_contact, only: contact_pressure, contact_pressure_rate
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: shaft_column
+
+contains
+
+  !> Derivative of all equations by one of the shaft's coordinates at the present point and state, the
+  !> unknowns staying: the film's by the rigid gap, of foil and shaft by the asperities' pressure.
+  subroutine shaft_column(bearing, coordinate, column)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: coordinate !! of `shaft_motion`: e_x, e_y [m], tilt_x, tilt_y [rad]
+    Vec, intent(in) :: column         !! like the residual, scaled, by that unit
+
+    real(wp) :: unknown(bearing%local_size()), value(bearing%local_size())
+    real(wp) :: gap(size(bearing%mesh%mesh_node))
+    PetscErrorCode :: ierr
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    value = 0.0_wp
+    call bearing%film%add_shaft_column(unknown(:size(gap)), gap, bearing%position(unknown), coordinate, value)
+    if (bearing%contact%present) call add_asperities(bearing, coordinate, unknown, gap, value)
+    PetscCallA(VecSet(column, 0.0_wp, ierr))
+    call bearing%exchange%add(value/bearing%equation_scale(bearing%point), column)
+  end subroutine shaft_column
+
+  !> The asperities' pressure follows the gap, and loads foil and shaft. The foil's equations are linear
+  !> in what loads it: their difference over any step is their derivative.
+  subroutine add_asperities(bearing, coordinate, unknown, gap, value)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: coordinate
+    real(wp), intent(in) :: unknown(:)  !! local, in SI
+    real(wp), intent(in) :: gap(:)      !! at this rank's nodes [m]
+    real(wp), intent(inout) :: value(:) !! one a local unknown
+
+    real(wp) :: rate(size(gap)), force(film_forces), step
+    real(wp), dimension(size(unknown)) :: loading, before, after
+
+    rate = contact_pressure_rate(bearing%contact, gap)*bearing%film%motion(coordinate, :)
+    step = bearing%film%ambient_pressure/max(maxval(abs(rate)), tiny(1.0_wp))
+    loading = unknown
+    loading(:size(gap)) = unknown(:size(gap)) + contact_pressure(bearing%contact, gap)
+    before = 0.0_wp
+    call bearing%foil%add_residual(loading, before)
+    loading(:size(gap)) = loading(:size(gap)) + step*rate
+    after = 0.0_wp
+    call bearing%foil%add_residual(loading, after)
+    value = value + (after - before)/step
+    if (.not. bearing%floats .or. bearing%held) return
+    force = bearing%film%force(bearing%film%ambient_pressure + rate)
+    value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(1:2)
+  end subroutine add_asperities
+end module gfb_shaft_columns
