@@ -7,7 +7,7 @@ module gfb_natural_order
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top
   use gfb_contact_set, only: contact_set_type
-  use gfb_unknown_layout, only: shaft_unknowns
+  use gfb_shaft_motion, only: shaft_unknowns
   use gfb_bearing_system, only: bearing_system_type
   use gfb_strip_system, only: strip_system_type, plate_forced
   implicit none (type)

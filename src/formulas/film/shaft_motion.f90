@@ -17,6 +17,7 @@ module gfb_shaft_motion
   public :: shaft_motion, point_motions, motion_excess, entraining_speed
 
   integer, parameter, public :: shaft_coordinates = 4 !! e_x, e_y [m], phi_x, phi_y [rad]
+  integer, parameter, public :: shaft_unknowns = 2    !! of them, those that a load moves: e_x, e_y
 
 contains
 

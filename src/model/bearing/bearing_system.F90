@@ -25,8 +25,8 @@ module gfb_bearing_system
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_unknown_layout, only: unknown_layout_type, shaft_unknowns, create_layout, &
-                                create_coupled_matrix
+  use gfb_shaft_motion, only: shaft_unknowns
+  use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_matrix_rows, only: copy_row
   implicit none (type)
@@ -44,6 +44,7 @@ module gfb_bearing_system
     type(solid_contact_type) :: contact    !! of the shaft with the foil
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
+    type(blocks_type) :: blocks            !! of unknowns: film, foil; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before e_x
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
@@ -113,7 +114,6 @@ contains
     class(foil_model_type), allocatable, intent(inout) :: foil
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
 
-    type(unknown_layout_type) :: layout
     PetscErrorCode :: ierr
 
     call move_alloc(foil, bearing%foil)
@@ -123,26 +123,35 @@ contains
     call find_free_edge(bearing%whole, bearing%mesh, bearing%foil, bearing%edge)
     bearing%floats = floats
     bearing%dense_rows = floats
-    bearing%first_shaft = size(bearing%mesh%mesh_node) + bearing%foil%local_unknowns()
-    if (bearing%contact%present .and. floats) then ! the shaft presses on the foil
-      bearing%foil%row_entries = bearing%foil%row_entries + shaft_unknowns
-    end if
-    call create_layout(bearing%mesh, bearing%foil, floats, layout)
-    bearing%unknowns = layout%unknowns
-    bearing%last_rank = layout%last_rank
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(layout%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
+    call create_blocks([block_type(bearing%mesh%owned_unknowns, bearing%mesh%first_unknown), &
+                        block_type(bearing%foil%owned, bearing%foil%global_unknown)], &
+                       merge(shaft_unknowns, 0, floats), bearing%blocks)
+    bearing%unknowns = bearing%blocks%border%unknowns
+    bearing%last_rank = bearing%blocks%border%last_rank
+    bearing%first_shaft = bearing%blocks%first(size(bearing%blocks%first))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%right, ierr))
-    call create_exchange(layout%global, bearing%state, bearing%exchange)
-    call create_coupled_matrix(layout, bearing%mesh, bearing%foil, bearing%whole%order, bearing%jacobian)
+    call create_exchange(bearing%blocks%global, bearing%state, bearing%exchange)
+    call create_bearing_matrix(bearing)
     call scale_unknowns(bearing)
-    if (bearing%foil%is_meshed()) call fill_constant(bearing, layout)
+    if (bearing%foil%is_meshed()) call fill_constant(bearing)
   end subroutine create_bearing_system
 
-  !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
-  subroutine fill_constant(bearing, layout)
+  !> Matrix with room for what each row couples: film nodes around, foil, shaft.
+  subroutine create_bearing_matrix(bearing)
     type(bearing_system_type), intent(inout) :: bearing
-    type(unknown_layout_type), intent(in) :: layout
+    PetscInt, allocatable :: entries(:)
+
+    associate (film_row => (2*bearing%whole%order + 1)**2, foil => bearing%foil) ! elements around a node
+      entries = [spread(int(film_row + foil%couplings, pint), 1, bearing%mesh%owned_unknowns), int(foil%row_entries, pint)]
+    end associate
+    call bearing%blocks%create_matrix(entries, bearing%jacobian)
+  end subroutine create_bearing_matrix
+
+  !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
+  subroutine fill_constant(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
 
     PetscInt :: first, last, row, entries, number(maxval([0, bearing%foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
@@ -153,8 +162,8 @@ contains
     PetscCallA(MatGetOwnershipRange(bearing%foil%elastic, first, last, ierr))
     do row = first, last - 1
       call copy_row(bearing%foil%elastic, row, entries, number, value)
-      renumbered = [(int(layout%of_foil(int(number(i)) + 1), pint), i=1, int(entries))]
-      PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(layout%of_foil(int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
+      renumbered = [(int(bearing%blocks%global_number(2, int(number(i)) + 1), pint), i=1, int(entries))]
+      PetscCallA(MatSetValues(bearing%jacobian, 1_pint, [int(bearing%blocks%global_number(2, int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
     end do
     call bearing%foil%add_constant(bearing%jacobian)
     call make_film_room(bearing%film, bearing%foil, shaft_place(bearing), bearing%mesh%owned, bearing%jacobian)
@@ -407,7 +416,7 @@ contains
     if (.not. self%foil%is_meshed()) return
     PetscCallA(GFB_VecGetArrayRead(residual, force, ierr))
     PetscCallA(GFB_VecGetArrayRead(step, way, ierr))
-    associate (first => self%mesh%owned_unknowns + 1, last => self%mesh%owned_unknowns + self%foil%owned)
+    associate (first => self%blocks%first_owned(2) + 1, last => self%blocks%first_owned(3))
       total = sum_over_ranks([dot_product(force(first:last), way(first:last))])
     end associate
     PetscCallA(GFB_VecRestoreArrayRead(step, way, ierr))

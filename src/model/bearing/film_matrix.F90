@@ -7,7 +7,7 @@ module gfb_film_matrix
   use gfb_gas_film, only: gas_film_type
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_unknown_layout, only: shaft_unknowns
+  use gfb_shaft_motion, only: shaft_unknowns
   implicit none (type)
   private
   public :: add_film_rows, add_shaft_rows, make_film_room

@@ -8,7 +8,7 @@ module gfb_strip_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks, any_rank, rank_count, this_rank
+  use gfb_petsc_session, only: any_rank
   use gfb_bump_contacts, only: contact_top
   use gfb_contact_set, only: contact_set_type
   use gfb_errors, only: error_type
@@ -17,6 +17,7 @@ module gfb_strip_system
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_rigid_modes, only: create_rigid_modes
   use gfb_matrix_rows, only: copy_row
+  use gfb_border_rows, only: border_type, create_border
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
@@ -45,6 +46,7 @@ module gfb_strip_system
     real(wp), allocatable :: crest_press(:) !! full normal force of each pressed contact [N]
     Mat :: elastic                          !! stiffness of the foil alone, scaled
     Vec :: full_load                        !! scaled
+    type(border_type), private :: border    !! the displacement of a plate whose force is given
     Vec, private :: unit                    !! one scaled unknown is so much [m] or [1]
     Vec, private :: work
     Vec, private :: last, elastic_force     !! where elastic forces were last asked for, and they; scaled
@@ -72,16 +74,11 @@ contains
   !> Prepares vectors and matrices; foil, contacts, plate and scale have been set.
   subroutine create_strip_system(strip)
     type(strip_system_type), intent(inout) :: strip
-    PetscInt :: owned
     PetscErrorCode :: ierr
 
-    strip%unknowns = strip%foil%unknowns
-    owned = strip%foil%part%owned_unknowns
-    if (strip%plate == plate_forced) then
-      strip%unknowns = strip%unknowns + 1
-      if (last_rank()) owned = owned + 1
-    end if
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, owned, PETSC_DETERMINE, strip%state, ierr))
+    call create_border(strip%foil%part%owned_unknowns, merge(1, 0, strip%plate == plate_forced), strip%border)
+    strip%unknowns = strip%border%unknowns
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(strip%border%owned, pint), PETSC_DETERMINE, strip%state, ierr))
     PetscCallA(VecDuplicate(strip%state, strip%full_load, ierr))
     PetscCallA(VecDuplicate(strip%state, strip%unit, ierr))
     PetscCallA(VecDuplicate(strip%state, strip%work, ierr))
@@ -93,7 +90,7 @@ contains
     call create_exchange(int(strip%contacts%global, pint), strip%state, strip%exchange)
     allocate (strip%local_unit(size(strip%contacts%global)))
     call strip%exchange%get(strip%unit, strip%local_unit)
-    call create_matrices(strip, owned)
+    call create_matrices(strip)
     strip%symmetric = all(strip%contacts%law%friction <= 0.0_wp)
     strip%definite = strip%symmetric
     strip%dense_rows = strip%plate == plate_forced
@@ -101,12 +98,6 @@ contains
     strip%created = .true.
     call strip%set_factor(0.0_wp)
   end subroutine create_strip_system
-
-  !> Whether this rank is the last one, which owns the plate's unknown.
-  function last_rank() result(last)
-    logical :: last
-    last = this_rank() == rank_count() - 1
-  end function last_rank
 
   !> Size of a scaled unit of every unknown.
   subroutine set_units(strip)
@@ -132,9 +123,8 @@ contains
   end subroutine set_units
 
   !> The foil's stiffness with room for the contacts, scaled, and the matrix of the whole.
-  subroutine create_matrices(strip, owned)
+  subroutine create_matrices(strip)
     type(strip_system_type), intent(inout) :: strip
-    PetscInt, intent(in) :: owned
 
     PetscInt, parameter :: of_contact = 2 !! a node's other displacements, where the foil does not couple them
     PetscInt, allocatable :: inside(:), outside(:), column(:)
@@ -145,28 +135,14 @@ contains
 
     PetscCallA(MatGetOwnershipRange(strip%foil%stiffness, first, last, ierr))
     PetscCallA(VecGetOwnershipRange(strip%state, begin, finish, ierr))
-    allocate (inside(owned), outside(owned), source=0_pint)
+    allocate (inside(last - first), outside(last - first))
     allocate (column(strip%foil%row_entries()), value(strip%foil%row_entries()))
     do row = first, last - 1
       call copy_row(strip%foil%stiffness, row, entries, column)
       inside(row - first + 1) = count(column(:entries) >= begin .and. column(:entries) < finish)
       outside(row - first + 1) = entries - inside(row - first + 1)
     end do
-    if (strip%plate == plate_forced) then ! it touches every crest
-      if (last_rank()) then
-        inside(owned) = owned
-        outside(owned) = strip%unknowns - owned
-        inside(:owned - 1) = inside(:owned - 1) + 1
-      else
-        outside = outside + 1
-      end if
-    end if
-    inside = min(inside + of_contact, owned)
-    PetscCallA(MatCreate(PETSC_COMM_WORLD, strip%elastic, ierr))
-    PetscCallA(MatSetSizes(strip%elastic, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(strip%elastic, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(strip%elastic, 0_pint, inside, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(strip%elastic, 0_pint, inside, 0_pint, outside, ierr))
+    call strip%border%create_matrix(inside + of_contact, outside, strip%elastic)
     do row = first, last - 1
       call copy_row(strip%foil%stiffness, row, entries, column, value)
       PetscCallA(MatSetValues(strip%elastic, 1_pint, [row], entries, column, value, INSERT_VALUES, ierr))
@@ -354,17 +330,11 @@ contains
   function plate_travel(self) result(way)
     class(strip_system_type), intent(in) :: self
     real(wp) :: way
-    PetscScalar :: value(1)
-    PetscErrorCode :: ierr
 
     way = 0.0_wp
     if (self%plate == plate_moved) way = self%factor*self%plate_way
     if (self%plate /= plate_forced) return
-    value = 0.0_wp
-    if (last_rank()) then
-      PetscCallA(VecGetValues(self%state, 1_pint, [int(self%unknowns - 1, pint)], value, ierr))
-    end if
-    way = -self%scale%length*sum(sum_over_ranks([value(1)]))
+    way = -self%scale%length*sum(self%border%values(self%state))
   end function plate_travel
 
   !> Energy of the foil's deformation [J].

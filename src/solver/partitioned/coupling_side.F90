@@ -62,8 +62,8 @@ contains
     side%of_foil = of_foil
     side%dense_rows = bearing%dense_rows .and. .not. of_foil
     PetscCallA(VecGetOwnershipRange(bearing%state, first, last, ierr))
-    start = first + int(bearing%mesh%owned_unknowns, pint)
-    behind = start + int(bearing%foil%owned, pint)
+    start = first + int(bearing%blocks%first_owned(2), pint)
+    behind = first + int(bearing%blocks%first_owned(3), pint)
     if (of_foil) then
       number = [(i, i=start, behind - 1)]
     else

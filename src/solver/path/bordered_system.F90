@@ -9,10 +9,10 @@ module gfb_bordered_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
   use gfb_matrix_rows, only: copy_row, row_length
+  use gfb_border_rows, only: border_type, create_border
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
@@ -29,11 +29,8 @@ module gfb_bordered_system
     type(bearing_system_type), pointer, private :: bearing => null()
     Vec, private :: inner                     !! like the bearing's state
     Vec, private :: low, high                 !! its residuals beside a place
-    VecScatter, private :: to_last            !! a vector's values on the rank that owns lambda
-    Vec, private :: gathered                  !! there
-    logical, private :: last_rank = .false.
+    type(border_type), private :: border      !! lambda
     logical, private :: created = .false.
-    integer, private :: owned = 0             !! unknowns of the bearing that this rank owns
   contains
     procedure :: evaluate => evaluate_path
     procedure :: linearise => linearise_path
@@ -61,57 +58,33 @@ contains
     path%bearing => bearing
     path%first = bearing%point
     path%last = last
-    path%last_rank = bearing%last_rank
     path%dense_rows = .true.
     PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
-    path%owned = int(owned)
-    if (path%last_rank) owned = owned + 1
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, owned, PETSC_DETERMINE, path%state, ierr))
+    call create_border(int(owned), 1, path%border)
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(path%border%owned, pint), PETSC_DETERMINE, path%state, ierr))
     PetscCallA(VecDuplicate(path%state, path%base, ierr))
     PetscCallA(VecDuplicate(path%state, path%direction, ierr))
     PetscCallA(VecDuplicate(bearing%state, path%inner, ierr))
     PetscCallA(VecDuplicate(bearing%state, path%low, ierr))
     PetscCallA(VecDuplicate(bearing%state, path%high, ierr))
-    call create_bordered_matrix(path, owned)
-    call create_gathering(path)
+    call create_bordered_matrix(path)
     call path%join(bearing%state, 0.0_wp, path%state)
     path%created = .true.
   end subroutine create_path_system
 
-  !> Prepares bringing a whole vector to the rank that owns lambda.
-  subroutine create_gathering(path)
-    type(path_system_type), intent(inout) :: path
-    IS :: all
-    PetscInt :: size_of_state
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecGetSize(path%state, size_of_state, ierr))
-    if (.not. path%last_rank) size_of_state = 0
-    PetscCallA(VecCreateSeq(PETSC_COMM_SELF, size_of_state, path%gathered, ierr))
-    PetscCallA(ISCreateStride(PETSC_COMM_SELF, size_of_state, 0_pint, 1_pint, all, ierr))
-    PetscCallA(VecScatterCreate(path%state, all, path%gathered, PETSC_NULL_IS, path%to_last, ierr))
-    PetscCallA(ISDestroy(all, ierr))
-  end subroutine create_gathering
-
   !> The bearing's matrix with room for one more row and column, both full.
-  subroutine create_bordered_matrix(path, owned)
+  subroutine create_bordered_matrix(path)
     type(path_system_type), intent(inout) :: path
-    PetscInt, intent(in) :: owned !! with lambda
     PetscInt :: first, last, row
     PetscInt, allocatable :: room(:)
     PetscErrorCode :: ierr
 
-    allocate (room(owned))
     PetscCallA(MatGetOwnershipRange(path%bearing%jacobian, first, last, ierr))
+    allocate (room(last - first))
     do row = first, last - 1
-      room(row - first + 1) = row_length(path%bearing%jacobian, row) + 1
+      room(row - first + 1) = row_length(path%bearing%jacobian, row)
     end do
-    if (path%last_rank) room(owned) = path%bearing%unknowns + 1
-    PetscCallA(MatCreate(PETSC_COMM_WORLD, path%jacobian, ierr))
-    PetscCallA(MatSetSizes(path%jacobian, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(path%jacobian, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(path%jacobian, 0_pint, room, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(path%jacobian, 0_pint, min(room, owned), 0_pint, room, ierr))
+    call path%border%create_matrix(room, room, path%jacobian)
   end subroutine create_bordered_matrix
 
   !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
@@ -119,19 +92,11 @@ contains
     class(path_system_type), intent(in) :: self
     Vec, intent(in) :: state
     real(wp) :: lambda
-    real(wp) :: owner(1)
-    PetscScalar, pointer :: whole(:), part(:)
-    PetscErrorCode :: ierr
+    real(wp) :: value(1)
 
-    lambda = 0.0_wp
-    PetscCallA(GFB_VecGetArrayRead(state, whole, ierr))
-    PetscCallA(GFB_VecGetArray(self%inner, part, ierr))
-    part(:self%owned) = whole(:self%owned)
-    if (self%last_rank) lambda = whole(self%owned + 1)
-    PetscCallA(GFB_VecRestoreArray(self%inner, part, ierr))
-    PetscCallA(GFB_VecRestoreArrayRead(state, whole, ierr))
-    owner = sum_over_ranks([lambda]) ! the other ranks have none
-    lambda = owner(1)
+    call self%border%split(state, self%inner)
+    value = self%border%values(state)
+    lambda = value(1)
   end function place
 
   !> Sets a state's lambda.
@@ -139,12 +104,7 @@ contains
     class(path_system_type), intent(in) :: self
     Vec, intent(in) :: state
     real(wp), intent(in) :: lambda
-    PetscScalar, pointer :: whole(:)
-    PetscErrorCode :: ierr
-
-    PetscCallA(GFB_VecGetArray(state, whole, ierr))
-    if (self%last_rank) whole(self%owned + 1) = lambda
-    PetscCallA(GFB_VecRestoreArray(state, whole, ierr))
+    call self%border%set_values([lambda], state)
   end subroutine set_place
 
   !> The operating point at a place on the path.
@@ -161,15 +121,7 @@ contains
     Vec, intent(in) :: inner
     real(wp), intent(in) :: lambda
     Vec, intent(in) :: whole
-    PetscScalar, pointer :: all(:), part(:)
-    PetscErrorCode :: ierr
-
-    PetscCallA(GFB_VecGetArray(whole, all, ierr))
-    PetscCallA(GFB_VecGetArrayRead(inner, part, ierr))
-    all(:self%owned) = part(:self%owned)
-    if (self%last_rank) all(self%owned + 1) = lambda
-    PetscCallA(GFB_VecRestoreArrayRead(inner, part, ierr))
-    PetscCallA(GFB_VecRestoreArray(whole, all, ierr))
+    call self%border%join(inner, [lambda], whole)
   end subroutine join
 
   !> Gives the present state to the bearing, and puts it at its place; returns lambda.
@@ -205,8 +157,8 @@ contains
     Vec, intent(in) :: state
     real(wp) :: lambda
     logical :: valid
-    PetscScalar, pointer :: column(:), direction(:)
-    PetscInt :: first, last, row, entries, i, border
+    PetscScalar, pointer :: column(:)
+    PetscInt :: first, last, row, entries, border
     PetscInt, allocatable :: number(:)
     PetscScalar, allocatable :: value(:)
     PetscErrorCode :: ierr
@@ -217,7 +169,7 @@ contains
     call self%bearing%evaluate_at(self%point_at(lambda - shift), self%inner, self%low, valid)
     PetscCallA(VecAXPBY(self%high, -0.5_wp/shift, 0.5_wp/shift, self%low, ierr))
     border = self%bearing%unknowns
-    allocate (number(self%bearing%unknowns + 1), value(self%bearing%unknowns + 1))
+    allocate (number(self%bearing%unknowns), value(self%bearing%unknowns))
     PetscCallA(GFB_VecGetArrayRead(self%high, column, ierr))
     PetscCallA(MatGetOwnershipRange(self%bearing%jacobian, first, last, ierr))
     do row = first, last - 1
@@ -226,15 +178,7 @@ contains
       PetscCallA(MatSetValues(self%jacobian, 1_pint, [row], 1_pint, [border], [column(row - first + 1)], INSERT_VALUES, ierr))
     end do
     PetscCallA(GFB_VecRestoreArrayRead(self%high, column, ierr))
-    PetscCallA(VecScatterBegin(self%to_last, self%direction, self%gathered, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(VecScatterEnd(self%to_last, self%direction, self%gathered, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    if (self%last_rank) then
-      PetscCallA(GFB_VecGetArrayRead(self%gathered, direction, ierr))
-      number = [(i, i=0_pint, border)]
-      value = direction
-      PetscCallA(MatSetValues(self%jacobian, 1_pint, [border], border + 1_pint, number, value, INSERT_VALUES, ierr))
-      PetscCallA(GFB_VecRestoreArrayRead(self%gathered, direction, ierr))
-    end if
+    call self%border%set_row(1, self%direction, self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
   end subroutine linearise_path
@@ -272,8 +216,6 @@ contains
 
     if (.not. path%created) return
     PetscCallA(MatDestroy(path%jacobian, ierr))
-    PetscCallA(VecScatterDestroy(path%to_last, ierr))
-    PetscCallA(VecDestroy(path%gathered, ierr))
     PetscCallA(VecDestroy(path%high, ierr))
     PetscCallA(VecDestroy(path%low, ierr))
     PetscCallA(VecDestroy(path%inner, ierr))
