@@ -52,13 +52,13 @@ contains
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
     call add_quantity(row%quantity, answer_quantities(analysis_name(scene), converged, &
-      bearing_answer(bearing), bearing%film%clearance, bearing%force_scale()))
+      bearing_answer(bearing), bearing%pad(1)%film%clearance, bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
     call add_counts(newton%iterations, newton%factorizations, row%quantity)
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
-    call record_foil_contacts(bearing%foil, size(record%history), &
+    call record_foil_contacts(bearing%pad(1)%foil, size(record%history), &
                               max(1, size(scene%sweep%values)), record%contacts)
   end subroutine add_row
 

@@ -59,7 +59,7 @@ contains
     type(newton_type), intent(inout) :: newton          !! the same
 
     call memory%visit('held', bearing%held)
-    call memory%visit('upwind', bearing%film%flow%upwind)
+    call memory%visit('upwind', bearing%pad(1)%film%flow%upwind)
     call remember_point(memory, bearing%point)
     call memory%visit('newton_iterations', newton%iterations)
     call memory%visit('factorizations', newton%factorizations)
@@ -76,7 +76,7 @@ contains
     call put_memory(memory, '/bearing', 'operating point, switches and counters', file)
     call put_vector(bearing_order(bearing), bearing%state, '/bearing/state', &
                     'scaled unknowns: film, foil, shaft', file)
-    call put_contacts(bearing%foil%contacts, bearing%foil%contacts%rows, '/bearing/contacts', file)
+    call put_contacts(bearing%pad(1)%foil%contacts, bearing%pad(1)%foil%contacts%rows, '/bearing/contacts', file)
   end subroutine put_state
 
   !> Where a branch has led.
@@ -154,8 +154,8 @@ contains
     call remember_record(memory, record)
     call put_memory(memory, '/record', 'history, what else is known of the last answer, tilt response', file)
     if (.not. allocated(record%history)) return
-    if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
-    call put_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, record%contacts, &
+    if (size(record%history) == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
+    call put_contact_record(bearing%pad(1)%foil%nodal_contacts(), bearing%pad(1)%foil%contacts%rows, record%contacts, &
                             size(record%history), '/record/contacts', file)
   end subroutine put_record
 
@@ -208,7 +208,7 @@ contains
     call remember_bearing(memory, bearing, newton)
     call end_memory(memory, file)
     call read_vector(bearing_order(bearing), '/bearing/state', file, bearing%state)
-    call read_contacts(bearing%foil%contacts%rows, '/bearing/contacts', file, bearing%foil%contacts)
+    call read_contacts(bearing%pad(1)%foil%contacts%rows, '/bearing/contacts', file, bearing%pad(1)%foil%contacts)
   end subroutine read_state
 
   !> The reverse of `put_record`.
@@ -222,8 +222,8 @@ contains
     call remember_record(memory, record)
     call end_memory(memory, file)
     if (file%failed) return
-    if (size(record%history) == 0 .or. .not. bearing%foil%has_contacts()) return
-    call read_contact_record(bearing%foil%nodal_contacts(), bearing%foil%contacts%rows, size(record%history), &
+    if (size(record%history) == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
+    call read_contact_record(bearing%pad(1)%foil%nodal_contacts(), bearing%pad(1)%foil%contacts%rows, size(record%history), &
                              '/record/contacts', file, record%contacts)
   end subroutine read_record
 end module gfb_bearing_restart

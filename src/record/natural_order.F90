@@ -32,8 +32,8 @@ contains
     integer, allocatable :: film(:), foil(:)
     integer :: i
 
-    film = film_numbers(bearing%mesh)
-    foil = bearing%foil%natural_numbers()
+    film = film_numbers(bearing%pad(1)%mesh)
+    foil = bearing%pad(1)%foil%natural_numbers()
     order%number = [film, largest_number(film) + foil]
     order%total = largest_number(order%number)
     if (.not. bearing%floats) return

@@ -46,13 +46,13 @@ contains
     type(bearing_answer_type) :: answer
 
     real(wp) :: unknown(bearing%local_size()), largest(7)
-    real(wp) :: gap(size(bearing%mesh%mesh_node)), pressure(size(bearing%mesh%mesh_node))
+    real(wp) :: gap(size(bearing%pad(1)%mesh%mesh_node)), pressure(size(bearing%pad(1)%mesh%mesh_node))
     real(wp) :: total(2*film_forces + 1)
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
     pressure = unknown(:size(gap))
-    associate (film => bearing%film, whole => bearing%whole)
+    associate (film => bearing%pad(1)%film, whole => bearing%pad(1)%whole)
       total = sum_over_ranks([film%force(pressure), film%force_without_suction(pressure), &
                               film%drag(pressure, gap, bearing%position(unknown))])
       largest(1) = -minval(gap)
@@ -64,12 +64,12 @@ contains
       largest(7) = film%peclet(bearing%point, pressure, gap, rough_step)
       largest = largest_over_ranks(largest)
     end associate
-    if (bearing%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
-    if (bearing%contact%present) call read_solid_contact(bearing, unknown, answer)
+    if (bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
+    if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
-    answer%friction_torque = total(size(total))*bearing%film%radius + answer%solid_torque
+    answer%friction_torque = total(size(total))*bearing%pad(1)%film%radius + answer%solid_torque
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
     answer%minimum_gap_midplane = -largest(2)
@@ -85,17 +85,17 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
-    real(wp) :: pressure(size(bearing%mesh%mesh_node)), sums(film_forces + 1), largest(1)
+    real(wp) :: pressure(size(bearing%pad(1)%mesh%mesh_node)), sums(film_forces + 1), largest(1)
 
     pressure = bearing%solid_pressure(unknown)
-    associate (film => bearing%film)
+    associate (film => bearing%pad(1)%film)
       sums(:film_forces) = film%force(film%ambient_pressure + pressure)
       sums(film_forces + 1) = film%integral(pressure)
       sums = sum_over_ranks(sums)
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.
       answer%solid_force = sums(:film_forces)
-      answer%solid_torque = bearing%contact%friction*film%radius*sums(film_forces + 1)
+      answer%solid_torque = bearing%pad(1)%contact%friction*film%radius*sums(film_forces + 1)
       answer%maximum_solid_pressure = largest(1)
     end associate
   end subroutine read_solid_contact
@@ -106,17 +106,17 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
-    real(wp) :: lift(size(bearing%mesh%mesh_node)), middle, share(2), sums(8)
+    real(wp) :: lift(size(bearing%pad(1)%mesh%mesh_node)), middle, share(2), sums(8)
     integer :: i, station, row
 
-    lift = -bearing%foil%deflection(unknown)
+    lift = -bearing%pad(1)%foil%deflection(unknown)
     sums = 0.0_wp
-    associate (whole => bearing%whole)
+    associate (whole => bearing%pad(1)%whole)
       middle = minval(abs(whole%row_axial))
       do i = 1, size(lift)
-        if (.not. bearing%mesh%owned(i)) cycle
-        station = (bearing%mesh%mesh_node(i) - 1)/whole%rows() + 1
-        row = bearing%mesh%mesh_node(i) - (station - 1)*whole%rows()
+        if (.not. bearing%pad(1)%mesh%owned(i)) cycle
+        station = (bearing%pad(1)%mesh%mesh_node(i) - 1)/whole%rows() + 1
+        row = bearing%pad(1)%mesh%mesh_node(i) - (station - 1)*whole%rows()
         if (station /= 1 .and. station /= whole%stations()) cycle
         share = [merge(1.0_wp, 0.0_wp, abs(whole%row_axial(row)) <= middle), &
                  merge(1.0_wp, 0.0_wp, row == whole%rows() .or. (row == 1 .and. .not. whole%half))]
@@ -133,7 +133,7 @@ contains
     answer%has_foils = .true.
     answer%leading_edge_lift = sums(:2)/sums(3:4)
     answer%trailing_edge_lift = sums(5:6)/sums(7:8)
-    share = sum_over_ranks(bearing%foil%crest_lengths())
+    share = sum_over_ranks(bearing%pad(1)%foil%crest_lengths())
     if (share(2) > 0.0_wp) answer%lifted_length = share(1)/share(2)
   end subroutine read_lifts
 
@@ -142,8 +142,8 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     real(wp), allocatable :: position(:) !! z [m]
 
-    associate (z => bearing%whole%row_axial)
-      if (bearing%whole%half) then
+    associate (z => bearing%pad(1)%whole%row_axial)
+      if (bearing%pad(1)%whole%half) then
         position = [-z(size(z):2:-1), z]
       else
         position = z
@@ -165,10 +165,10 @@ contains
     rows = size(full_rows(bearing))
     allocate (wanted(last - first + 1))
     do i = first, last
-      station = modulo((i - 1)/rows, bearing%whole%stations())
+      station = modulo((i - 1)/rows, bearing%pad(1)%whole%stations())
       row = modulo(i - 1, rows) + 1
-      if (bearing%whole%half) row = abs(row - bearing%whole%rows()) + 1
-      wanted(i - first + 1) = station*bearing%whole%rows() + row
+      if (bearing%pad(1)%whole%half) row = abs(row - bearing%pad(1)%whole%rows()) + 1
+      wanted(i - first + 1) = station*bearing%pad(1)%whole%rows() + row
     end do
     block = film_values(bearing, value, wanted)
   end subroutine film_block

@@ -58,9 +58,9 @@ contains
     if (allocated(error)) return
     bearing%point = operating_point(scene%operation)
     associate (contact => scene%shaft_contact)
-      bearing%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
+      bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate
-    call build_foil(scene, bearing%whole, bearing%mesh, bearing%film%element_nodes, division, foil, error)
+    call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, plan%floats)
     call leave_stage()

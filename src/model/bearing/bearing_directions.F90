@@ -18,7 +18,7 @@ contains
     real(wp) :: unknown(bearing%local_size()), total(1)
 
     call bearing%get_unknowns(unknown)
-    total = sum_over_ranks([bearing%edge%lift(unknown)])
+    total = sum_over_ranks([bearing%pad(1)%edge%lift(unknown)])
     lift = total(1)
   end function edge_lift
 
@@ -26,11 +26,11 @@ contains
   function edge_room(bearing) result(room)
     class(bearing_system_type), intent(in) :: bearing
     real(wp) :: room
-    real(wp) :: unknown(bearing%local_size()), gap(size(bearing%mesh%mesh_node)), smallest(1)
+    real(wp) :: unknown(bearing%local_size()), gap(size(bearing%pad(1)%mesh%mesh_node)), smallest(1)
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
-    smallest = largest_over_ranks([maxval(-gap(bearing%edge%node))])
+    smallest = largest_over_ranks([maxval(-gap(bearing%pad(1)%edge%node))])
     room = -smallest(1)
   end function edge_room
 
@@ -41,7 +41,7 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call bearing%exchange%add(bearing%edge%lift_rates(bearing%local_size())*bearing%unknown_scale/bearing%film%clearance, direction)
+    call bearing%exchange%add(bearing%pad(1)%edge%lift_rates(bearing%local_size())*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
   end subroutine edge_direction
 
   !> Which contacts open or close first on the way from the present state to another.
@@ -57,17 +57,17 @@ contains
 
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(ahead, other)
-    first = -largest_over_ranks([-bearing%foil%next_contact_change(here, ahead)])
+    first = -largest_over_ranks([-bearing%pad(1)%foil%next_contact_change(here, ahead)])
     way = first(1)
     rate = 0.0_wp
     distance = 0.0_wp
     closes = .false.
-    if (way < huge(way)) call bearing%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
+    if (way < huge(way)) call bearing%pad(1)%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
     closes = any_rank(closes)
     total = sum_over_ranks([distance])
-    distance = total(1)/bearing%film%clearance
+    distance = total(1)/bearing%pad(1)%film%clearance
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%film%clearance, direction)
+    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
   end subroutine contact_direction
 
   !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
@@ -78,8 +78,8 @@ contains
     real(wp) :: value(bearing%local_size())
 
     value = 0.0_wp
-    associate (first => bearing%foil%first + 1, last => bearing%foil%first + bearing%foil%local_unknowns())
-      value(first:last) = bearing%foil%unknown_scale/bearing%foil%equation_scale
+    associate (first => bearing%pad(1)%foil%first + 1, last => bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns())
+      value(first:last) = bearing%pad(1)%foil%unknown_scale/bearing%pad(1)%foil%equation_scale
     end associate
     call bearing%exchange%put(value, diagonal)
   end subroutine foil_unit

@@ -10,7 +10,7 @@ module gfb_film_matrix
   use gfb_shaft_motion, only: shaft_unknowns
   implicit none (type)
   private
-  public :: add_film_rows, add_shaft_rows, make_film_room
+  public :: add_film_rows, add_shaft_weights, add_shaft_stiffness, make_film_room
 
   integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns
 
@@ -57,33 +57,44 @@ contains
     end do
   end subroutine add_film_rows
 
-  !> Shaft rows: weights of the pressures in the force, or the position where it is held.
-  subroutine add_shaft_rows(film, shaft, last_rank, hold, factor, matrix)
+  !> Shaft rows: weights of the pressures in the force; zeros keep the pattern where the shaft is fixed.
+  subroutine add_shaft_weights(film, shaft, held, factor, matrix)
     type(gas_film_type), intent(in) :: film
-    integer, intent(in) :: shaft     !! local unknowns before e_x
-    logical, intent(in) :: last_rank !! this rank owns the shaft's equations
-    real(wp), intent(in) :: hold     !! force over way where the shaft is held, else 0 [N/m]
-    real(wp), intent(in) :: factor   !! 0: makes room
+    integer, intent(in) :: shaft   !! local unknowns before e_x, or `no_shaft`
+    logical, intent(in) :: held    !! the shaft is fixed
+    real(wp), intent(in) :: factor !! 0: makes room
     Mat, intent(in) :: matrix
 
     PetscInt :: row(shaft_unknowns)
     PetscInt, allocatable :: column(:)
-    real(wp) :: diagonal(shaft_unknowns, shaft_unknowns)
     real(wp), allocatable :: weight(:, :)
     integer :: i
 
+    if (shaft == no_shaft) return
     row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
     column = [(int(i - 1, pint), i=1, size(film%force_weight, 2))]
     allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
-    if (.not. hold > 0.0_wp) weight = transpose(film%force_weight(1:2, :))
+    if (.not. held) weight = transpose(film%force_weight(:shaft_unknowns, :))
     call add_block(matrix, row, column, factor*weight)
-    diagonal = 0.0_wp ! the pattern stays the same when the shaft is let go
-    if (last_rank) then
-      diagonal(1, 1) = hold
-      diagonal(2, 2) = hold
-      call add_block(matrix, row, row, factor*diagonal)
-    end if
-  end subroutine add_shaft_rows
+  end subroutine add_shaft_weights
+
+  !> Shaft rows: what keeps the shaft where it is fixed; 0 keeps the pattern where it floats. The rank
+  !> that owns these rows asks.
+  subroutine add_shaft_stiffness(shaft, stiffness, matrix)
+    integer, intent(in) :: shaft      !! local unknowns before e_x
+    real(wp), intent(in) :: stiffness !! force over displacement [N/m]
+    Mat, intent(in) :: matrix
+    PetscInt :: row(shaft_unknowns)
+    real(wp) :: block(shaft_unknowns, shaft_unknowns)
+    integer :: i
+
+    row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
+    block = 0.0_wp
+    do i = 1, shaft_unknowns
+      block(i, i) = stiffness
+    end do
+    call add_block(matrix, row, row, block)
+  end subroutine add_shaft_stiffness
 
   !> Makes room for what the film's rows will hold.
   subroutine make_film_room(film, foil, shaft, owned, matrix)

@@ -23,14 +23,14 @@ contains
     Vec, intent(in) :: column         !! like the residual, scaled, by that unit
 
     real(wp) :: unknown(bearing%local_size()), value(bearing%local_size())
-    real(wp) :: gap(size(bearing%mesh%mesh_node))
+    real(wp) :: gap(size(bearing%pad(1)%mesh%mesh_node))
     PetscErrorCode :: ierr
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
     value = 0.0_wp
-    call bearing%film%add_shaft_column(unknown(:size(gap)), gap, bearing%position(unknown), coordinate, value)
-    if (bearing%contact%present) call add_asperities(bearing, coordinate, unknown, gap, value)
+    call bearing%pad(1)%film%add_shaft_column(unknown(:size(gap)), gap, bearing%position(unknown), coordinate, value)
+    if (bearing%pad(1)%contact%present) call add_asperities(bearing, coordinate, unknown, gap, value)
     PetscCallA(VecSet(column, 0.0_wp, ierr))
     call bearing%exchange%add(value/bearing%equation_scale(bearing%point), column)
   end subroutine shaft_column
@@ -47,18 +47,18 @@ contains
     real(wp) :: rate(size(gap)), force(film_forces), step
     real(wp), dimension(size(unknown)) :: loading, before, after
 
-    rate = contact_pressure_rate(bearing%contact, gap)*bearing%film%motion(coordinate, :)
-    step = bearing%film%ambient_pressure/max(maxval(abs(rate)), tiny(1.0_wp))
+    rate = contact_pressure_rate(bearing%pad(1)%contact, gap)*bearing%pad(1)%film%motion(coordinate, :)
+    step = bearing%pad(1)%film%ambient_pressure/max(maxval(abs(rate)), tiny(1.0_wp))
     loading = unknown
-    loading(:size(gap)) = unknown(:size(gap)) + contact_pressure(bearing%contact, gap)
+    loading(:size(gap)) = unknown(:size(gap)) + contact_pressure(bearing%pad(1)%contact, gap)
     before = 0.0_wp
-    call bearing%foil%add_residual(loading, before)
+    call bearing%pad(1)%foil%add_residual(loading, before)
     loading(:size(gap)) = loading(:size(gap)) + step*rate
     after = 0.0_wp
-    call bearing%foil%add_residual(loading, after)
+    call bearing%pad(1)%foil%add_residual(loading, after)
     value = value + (after - before)/step
     if (.not. bearing%floats .or. bearing%held) return
-    force = bearing%film%force(bearing%film%ambient_pressure + rate)
+    force = bearing%pad(1)%film%force(bearing%pad(1)%film%ambient_pressure + rate)
     value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(1:2)
   end subroutine add_asperities
 end module gfb_shaft_columns

@@ -28,17 +28,17 @@ contains
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
     call bearing%get_unknowns(unknown)
     film%name = 'film'
-    associate (whole => bearing%whole, nodes => size(bearing%mesh%mesh_node))
+    associate (whole => bearing%pad(1)%whole, nodes => size(bearing%pad(1)%mesh%mesh_node))
       position_x = whole%radius*(whole%station_angle - whole%station_angle(1))
       if (whole%periodic) position_x = [position_x, whole%radius*turn]
       film%grid = strip_grid(position_x, full_rows(bearing), this_rank(), rank_count())
-      call add('theta', 'rad', 'angle around the bearing', bearing%film%angle)
+      call add('theta', 'rad', 'angle around the bearing', bearing%pad(1)%film%angle)
       if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', unknown(:nodes))
       if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
       if (output%deflection) then
-        call add('deflection', 'm', 'of the foil, away from the shaft', bearing%foil%deflection(unknown))
+        call add('deflection', 'm', 'of the foil, away from the shaft', bearing%pad(1)%foil%deflection(unknown))
       end if
-      if (bearing%contact%present) then
+      if (bearing%pad(1)%contact%present) then
         call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
       end if
     end associate
@@ -70,7 +70,7 @@ contains
     real(wp), allocatable :: value(:, :)
     integer :: first, last, i, columns, column, half, rows
 
-    associate (whole => bearing%whole, mesh => bearing%mesh)
+    associate (whole => bearing%pad(1)%whole, mesh => bearing%pad(1)%mesh)
       half = whole%axial()
       columns = merge(2*half, half, whole%half)
       call block_bounds(film%grid%cells, this_rank(), rank_count(), first, last)

@@ -23,13 +23,13 @@ contains
     integer :: i
 
     call bearing%get_unknowns(unknown)
-    surface = bearing%foil%surfaces()
-    motion = bearing%foil%motions(unknown)
+    surface = bearing%pad(1)%foil%surfaces()
+    motion = bearing%pad(1)%foil%motions(unknown)
     do i = 1, size(surface)
       call create_foil_grid(surface(i), surface(i)%name, grid)
       call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
       call add_stress(surface(i), motion(i)%stress, grid)
-      if (surface(i)%has_contacts) call add_contacts(bearing%foil%nodal_contacts(), surface(i), grid)
+      if (surface(i)%has_contacts) call add_contacts(bearing%pad(1)%foil%nodal_contacts(), surface(i), grid)
       grids = [grids, grid]
     end do
   end subroutine add_foil_grids

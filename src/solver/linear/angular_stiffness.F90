@@ -62,9 +62,9 @@ contains
   subroutine linearise_exactly(bearing)
     type(bearing_system_type), intent(inout) :: bearing
 
-    call bearing%foil%set_lending(.false.)
+    call bearing%pad(1)%foil%set_lending(.false.)
     call bearing%linearise(bearing%state)
-    call bearing%foil%set_lending(.true.)
+    call bearing%pad(1)%foil%set_lending(.true.)
   end subroutine linearise_exactly
 
   !> A direct solver of the bearing's matrix, with the orderings of Newton's method.
@@ -90,7 +90,7 @@ contains
 
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(change, response)
-    associate (film => bearing%film)
+    associate (film => bearing%pad(1)%film)
       force = sum_over_ranks(film%force(film%ambient_pressure + change(:size(film%angle)) &
                                         + solid_change(bearing, axis, here, change)))
     end associate
@@ -103,13 +103,13 @@ contains
     integer, intent(in) :: axis          !! of the tilt
     real(wp), intent(in) :: here(:)      !! local unknowns, in SI
     real(wp), intent(in) :: change(:)    !! of them, against the tilt [per radian]
-    real(wp) :: pressure(size(bearing%film%angle)) !! [Pa/rad]
+    real(wp) :: pressure(size(bearing%pad(1)%film%angle)) !! [Pa/rad]
     real(wp) :: gap(size(pressure))
     integer :: node
 
     pressure = 0.0_wp
-    if (.not. bearing%contact%present) return
-    associate (film => bearing%film, foil => bearing%foil)
+    if (.not. bearing%pad(1)%contact%present) return
+    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
       gap = -film%motion(tilts + axis, :)
       if (bearing%floats) then
         gap = gap + change(bearing%first_shaft + 1)*film%motion(1, :) + change(bearing%first_shaft + 2)*film%motion(2, :)
@@ -118,6 +118,6 @@ contains
         if (foil%source(node) > 0) gap(node) = gap(node) + foil%rate(node)*change(foil%source(node))
       end do
     end associate
-    pressure = contact_pressure_rate(bearing%contact, bearing%gap(here))*gap
+    pressure = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(here))*gap
   end function solid_change
 end module gfb_angular_stiffness

@@ -86,11 +86,11 @@ contains
   subroutine measure_damping(bearing, damping)
     type(bearing_system_type), intent(in) :: bearing
     Vec, intent(in) :: damping
-    real(wp) :: area(size(bearing%mesh%mesh_node)), value(bearing%local_size())
+    real(wp) :: area(size(bearing%pad(1)%mesh%mesh_node)), value(bearing%local_size())
     integer :: element, node
 
     area = 0.0_wp
-    associate (film => bearing%film)
+    associate (film => bearing%pad(1)%film)
       do element = 1, size(film%element_nodes, 2)
         associate (nodes => film%element_nodes(:, element))
           area(nodes) = area(nodes) + matmul(film%shape, film%geometry(element)%area)
@@ -98,7 +98,7 @@ contains
       end do
     end associate
     value = 0.0_wp
-    associate (foil => bearing%foil)
+    associate (foil => bearing%pad(1)%foil)
       do node = 1, size(area)
         if (foil%source(node) <= foil%first) cycle ! held
         associate (sum => value(foil%source(node)))
@@ -109,7 +109,7 @@ contains
         mine = mine*foil%unknown_scale**2/foil%equation_scale ! one of them is divided out again
       end associate
     end associate
-    value = value*bearing%film%ambient_pressure/bearing%film%clearance
+    value = value*bearing%pad(1)%film%ambient_pressure/bearing%pad(1)%film%clearance
     call bearing%add_up(value, damping)
   end subroutine measure_damping
 

@@ -101,7 +101,7 @@ contains
   subroutine fix_film(self)
     class(coupling_side_type), intent(inout) :: self
 
-    real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%mesh%mesh_node)), rate
+    real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%pad(1)%mesh%mesh_node)), rate
     PetscInt :: row(1), column(1)
     PetscErrorCode :: ierr
     integer :: node, source
@@ -109,7 +109,7 @@ contains
     call self%bearing%get_unknowns(unknown)
     gap = self%bearing%gap(unknown)
     PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%held, ierr))
-    associate (mesh => self%bearing%mesh, foil => self%bearing%foil, film => self%bearing%film)
+    associate (mesh => self%bearing%pad(1)%mesh, foil => self%bearing%pad(1)%foil, film => self%bearing%pad(1)%film)
       do node = 1, size(gap)
         source = foil%source(node) - foil%first
         if (.not. mesh%owned(node) .or. source < 1) cycle
@@ -164,10 +164,10 @@ contains
     PetscErrorCode :: ierr
 
     call complete(self, state)
-    clearance = self%bearing%film%clearance
-    if (self%of_foil) self%bearing%film%clearance = room*clearance
+    clearance = self%bearing%pad(1)%film%clearance
+    if (self%of_foil) self%bearing%pad(1)%film%clearance = room*clearance
     call self%bearing%evaluate(self%whole, self%whole_residual, valid)
-    self%bearing%film%clearance = clearance
+    self%bearing%pad(1)%film%clearance = clearance
     PetscCallA(VecISCopy(self%whole_residual, self%part, SCATTER_REVERSE, residual, ierr))
   end subroutine evaluate_side
 
@@ -179,10 +179,10 @@ contains
     PetscErrorCode :: ierr
 
     call complete(self, state)
-    clearance = self%bearing%film%clearance
-    if (self%of_foil) self%bearing%film%clearance = room*clearance
+    clearance = self%bearing%pad(1)%film%clearance
+    if (self%of_foil) self%bearing%pad(1)%film%clearance = room*clearance
     call self%bearing%linearise(self%whole)
-    self%bearing%film%clearance = clearance
+    self%bearing%pad(1)%film%clearance = clearance
     PetscCallA(MatCreateSubMatrix(self%bearing%jacobian, self%part, self%part, MAT_REUSE_MATRIX, self%jacobian, ierr))
     if (self%of_foil) call stiffen(self)
   end subroutine linearise_side

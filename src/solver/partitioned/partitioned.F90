@@ -84,11 +84,11 @@ contains
     newton%iterations = rigid_newton%iterations
     newton%factorizations = rigid_newton%factorizations
     bearing%point = target
-    bearing%film%flow%upwind = rigid%film%flow%upwind
+    bearing%pad(1)%film%flow%upwind = rigid%pad(1)%film%flow%upwind
     call refine(rigid, bearing)
     allocate (unknown(bearing%local_size()))
     call bearing%get_unknowns(unknown)
-    unknown(bearing%foil%first + 1:bearing%foil%first + bearing%foil%local_unknowns()) = 0.0_wp ! at rest
+    unknown(bearing%pad(1)%foil%first + 1:bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns()) = 0.0_wp ! at rest
     call bearing%set_unknowns(unknown)
     call create_partitioned(bearing, newton_settings, log, sides)
     if (report%converged) then
@@ -124,7 +124,7 @@ contains
     PetscCallA(VecDuplicate(sides%foil%state, sides%answer, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%change, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%kept_before, ierr))
-    allocate (sides%asked(count(bearing%mesh%owned)), source=0.0_wp)
+    allocate (sides%asked(count(bearing%pad(1)%mesh%owned)), source=0.0_wp)
     call create_anderson(sides%foil%state, size(sides%asked), sides%anderson)
     sides%created = .true.
   end subroutine create_partitioned
@@ -201,7 +201,7 @@ contains
         reason = 'the foil under the fixed film in loop '//text(loop)//': '//solved%reason
         exit
       end if
-      size_of_change = largest(sides%asked)/bearing%film%clearance
+      size_of_change = largest(sides%asked)/bearing%pad(1)%film%clearance
       call show_loop(bearing, sides, loop, size_of_change)
       converged = size_of_change <= sides%foil_newton%settings%step_tolerance
       if (converged) then
@@ -270,11 +270,11 @@ contains
   !> Deflection of the film nodes that this rank owns [m].
   function deflection(bearing)
     type(bearing_system_type), intent(in) :: bearing
-    real(wp) :: deflection(count(bearing%mesh%owned))
+    real(wp) :: deflection(count(bearing%pad(1)%mesh%owned))
     real(wp) :: unknown(bearing%local_size())
 
     call bearing%get_unknowns(unknown)
-    deflection = pack(bearing%foil%deflection(unknown), bearing%mesh%owned)
+    deflection = pack(bearing%pad(1)%foil%deflection(unknown), bearing%pad(1)%mesh%owned)
   end function deflection
 
   !> What the film is solved with next, not too far away.
@@ -289,7 +289,7 @@ contains
     displacement = sides%asked - deflection(bearing)
     call put_foil(sides, sides%kept)
     displacement = displacement + deflection(bearing)
-    stretch = longest_displacement*bearing%film%clearance/max(largest(displacement), tiny(1.0_wp))
+    stretch = longest_displacement*bearing%pad(1)%film%clearance/max(largest(displacement), tiny(1.0_wp))
     if (stretch < 1.0_wp) then
       PetscCallA(VecAXPBY(sides%kept, 1.0_wp - stretch, stretch, sides%kept_before, ierr))
     end if
@@ -313,7 +313,7 @@ contains
     real(wp), intent(in) :: change !! that the foil asks for, over the clearance [1]
     real(wp) :: position(2)
 
-    position = bearing%eccentricity()/bearing%film%clearance
+    position = bearing%eccentricity()/bearing%pad(1)%film%clearance
     call sides%log%detail('loop '//text(loop)//': change '//text(change, 3)//' C, e/C ('//text(position(1), 8)// &
                           ', '//text(position(2), 8)//')')
   end subroutine show_loop

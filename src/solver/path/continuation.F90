@@ -88,7 +88,7 @@ contains
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'
-          if (.not. (settings%look_for_folds .and. bearing%foil%has_contacts())) exit
+          if (.not. (settings%look_for_folds .and. bearing%pad(1)%foil%has_contacts())) exit
           call find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
           if (.not. goes_on) exit
           step = 4.0_wp*smallest
@@ -168,7 +168,7 @@ contains
     real(wp) :: gap
 
     gap = bearing%smallest_gap()
-    report%touched = gap < closing_gap*bearing%film%clearance .and. .not. bearing%contact%present
+    report%touched = gap < closing_gap*bearing%pad(1)%film%clearance .and. .not. bearing%pad(1)%contact%present
     if (report%touched) then
       report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
         ' um, beyond that '//report%reason

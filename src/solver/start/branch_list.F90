@@ -64,7 +64,7 @@ contains
     new%state = work
     new%answer = bearing_answer(bearing)
     self%branch = [self%branch, new]
-    associate (answer => new%answer, clearance => bearing%film%clearance)
+    associate (answer => new%answer, clearance => bearing%pad(1)%film%clearance)
       call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
                            text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
                            '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &

@@ -45,11 +45,11 @@ contains
 
     search%given = given
     search%wanted = wanted
-    search%close_enough = same_lift*bearing%film%clearance
+    search%close_enough = same_lift*bearing%pad(1)%film%clearance
     lift = edge_lift(bearing)
     mean = sum(search%wanted, mask=search%given)/real(count(search%given), wp)
     search%lifts = [min(lift, mean), max(lift, mean)]
-    search%lifts = search%lifts + lift_margin*(bearing%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
+    search%lifts = search%lifts + lift_margin*(bearing%pad(1)%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
     call find_branches(bearing, newton, search)
     call take_branch(bearing, bearing%point, search%branch(search%nearest_branch()))
     if (.not. search%is_found()) then
@@ -75,11 +75,11 @@ contains
     call search%collect(bearing, newton)
     first = size(search%branch)
     if (first == known .or. search%is_found()) return
-    if (any_rank(bearing%edge%pairs() > 0)) then
+    if (any_rank(bearing%pad(1)%edge%pairs() > 0)) then
       call newton%log%line('from equilibrium '//text(first)//', its free edge kept straight and pulled:')
       straight = free
       straight%edge_tension = tension_share*bearing%force_scale()* &
-        (maxval(bearing%whole%row_axial) - minval(bearing%whole%row_axial))/bearing%film%clearance
+        (maxval(bearing%pad(1)%whole%row_axial) - minval(bearing%pad(1)%whole%row_axial))/bearing%pad(1)%film%clearance
       settings%look_for_folds = .false.
       call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
       if (report%converged) call pull_both_ways(bearing, newton, straight, free, search)
@@ -136,7 +136,7 @@ contains
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
-      if (.not. is_worth_it(search, lift, bearing%film%clearance)) cycle
+      if (.not. is_worth_it(search, lift, bearing%pad(1)%film%clearance)) cycle
       call find_equilibrium(arc, bearing, newton, point, free, here)
       if (here) call search%collect(bearing, newton)
     end do

@@ -72,7 +72,7 @@ contains
     if (helped) problem%smaller => coarse
     call try_starts(problem, report)
     if (.not. report%converged .and. plan%may_upwind .and. .not. plan%upwind) then
-      bearing%film%flow%upwind = .true.
+      bearing%pad(1)%film%flow%upwind = .true.
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call try_starts(problem, report)
     end if

@@ -70,8 +70,8 @@ contains
     newton%settings%residual_tolerance = max(wanted%residual_tolerance, rough%residual_tolerance)
     newton%settings%step_tolerance = max(wanted%step_tolerance, rough%step_tolerance)
     newton%settings%maximum_iterations = min(wanted%maximum_iterations, rough%maximum_iterations)
-    call bearing%foil%set_hardness(bearing%foil%softest())
-    call bearing%foil%set_adhesion(1.0_wp)
+    call bearing%pad(1)%foil%set_hardness(bearing%pad(1)%foil%softest())
+    call bearing%pad(1)%foil%set_adhesion(1.0_wp)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
     early = contacts%release == before
@@ -81,7 +81,7 @@ contains
     if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     if (report%converged .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
     if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, contacts, report)
-    call bearing%foil%set_adhesion(0.0_wp)
+    call bearing%pad(1)%foil%set_adhesion(0.0_wp)
     real_contacts = .false.
     if (report%converged .or. .not. report%held) then
       call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
@@ -94,7 +94,7 @@ contains
     else
       report%held = .true. ! not a state of this scene
     end if
-    call bearing%foil%set_hardness(1.0_wp)
+    call bearing%pad(1)%foil%set_hardness(1.0_wp)
   end subroutine find_from
 
   !> Releases contacts, or raises their stiffness to the scene's, at the bearing's present point and by
@@ -111,7 +111,7 @@ contains
     real(wp) :: gone, total, step, trial ! decades
 
     total = least_adhesion
-    if (change == stiffening) total = log10(bearing%foil%softest())
+    if (change == stiffening) total = log10(bearing%pad(1)%foil%softest())
     total = -total
     step = contacts%first_decades
     gone = 0.0_wp
@@ -148,11 +148,11 @@ contains
 
     if (change == releasing) then
       factor = merge(0.0_wp, 10.0_wp**(-gone), gone >= total)
-      call bearing%foil%set_adhesion(factor)
+      call bearing%pad(1)%foil%set_adhesion(factor)
       call newton%log%detail('two-way contacts: '//text(factor, 3)//' of their stiffness against opening')
     else
       factor = merge(1.0_wp, 10.0_wp**(gone - total), gone >= total)
-      call bearing%foil%set_hardness(factor)
+      call bearing%pad(1)%foil%set_hardness(factor)
       call newton%log%detail('contacts: '//text(factor, 3)//' of their stiffness')
     end if
   end subroutine set_contacts

@@ -43,7 +43,7 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
     logical :: has
 
-    has = any_rank(size(bearing%edge%unknown) > 0)
+    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
   end function has_free_edge
 
   !> Holds the edge higher and higher, and releases it where it may stay.
@@ -67,7 +67,7 @@ contains
     highest = 0.0_wp
     room = huge(room)
     do number = 1, most_heights
-      height = max(lowest, (number - 2 + max(0, number - near_heights))*next_height)*problem%bearing%film%clearance
+      height = max(lowest, (number - 2 + max(0, number - near_heights))*next_height)*problem%bearing%pad(1)%film%clearance
       call hold_at(problem, height, report)
       if (report%converged) then
         failures = 0
@@ -76,7 +76,7 @@ contains
         call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um by '//text(edge_force(problem%bearing), 4)//' N')
         call release_edge(problem%target, problem%settings, problem%bearing, problem%newton, least, report)
         if (report%converged) return
-        reached = room < near_shaft*problem%bearing%film%clearance
+        reached = room < near_shaft*problem%bearing%pad(1)%film%clearance
         if (reached) exit
       else
         call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um: '//report%reason)
@@ -107,7 +107,7 @@ contains
     held%settings%look_for_folds = .false.
     held%settings%smallest_step = shortest_trial
     held%settings%maximum_steps = min(problem%settings%maximum_steps, most_steps)
-    held%target%edge_hold = hold_share*problem%bearing%force_scale()/problem%bearing%film%clearance
+    held%target%edge_hold = hold_share*problem%bearing%force_scale()/problem%bearing%pad(1)%film%clearance
     held%target%edge_height = height
     associate (settings => problem%newton%settings)
       allowed = settings%maximum_iterations
@@ -134,7 +134,7 @@ contains
     held = bearing%point
     force = edge_force(bearing)
     least = min(least, -force)
-    step = small_step*bearing%film%clearance
+    step = small_step*bearing%pad(1)%film%clearance
     rise = 0.0_wp
     do trial = 1, most_trials
       force_before = force
@@ -148,8 +148,8 @@ contains
       report%converged = .false.
       if (trial > 1 .and. abs(force) > least_fall*abs(force_before)) exit
       step = step*force/(force_before - force)
-      if (.not. abs(rise + step) <= next_height*bearing%film%clearance) exit ! there is none near by
-      if (abs(step) <= small_step*bearing%film%clearance) then
+      if (.not. abs(rise + step) <= next_height*bearing%pad(1)%film%clearance) exit ! there is none near by
+      if (abs(step) <= small_step*bearing%pad(1)%film%clearance) then
         call solve_at(bearing, newton, target, .false., settings, report)
         if (report%converged) exit
       end if

@@ -23,16 +23,16 @@ contains
 
     call half%get_unknowns(narrow)
     unknown = 0.0_wp
-    associate (mesh => whole%mesh, nodes => size(whole%mesh%mesh_node))
-      unknown(:nodes) = film_values(half, narrow(:size(half%mesh%mesh_node)), &
-                                    [(mirrored(mesh%mesh_node(i), whole%whole%rows()), i=1, nodes)])
+    associate (mesh => whole%pad(1)%mesh, nodes => size(whole%pad(1)%mesh%mesh_node))
+      unknown(:nodes) = film_values(half, narrow(:size(half%pad(1)%mesh%mesh_node)), &
+                                    [(mirrored(mesh%mesh_node(i), whole%pad(1)%whole%rows()), i=1, nodes)])
       where (.not. mesh%owned) unknown(:nodes) = 0.0_wp
     end associate
     if (whole%floats) unknown(whole%first_shaft + 1:) = merge(half%eccentricity(), 0.0_wp, whole%last_rank)
-    half_surface = half%foil%surfaces()
-    full_surface = whole%foil%surfaces()
+    half_surface = half%pad(1)%foil%surfaces()
+    full_surface = whole%pad(1)%foil%surfaces()
     do i = 1, size(full_surface)
-      call mirror_surface(half%foil, half_surface(i), narrow, whole%foil, full_surface(i), i, unknown)
+      call mirror_surface(half%pad(1)%foil, half_surface(i), narrow, whole%pad(1)%foil, full_surface(i), i, unknown)
     end do
     call whole%add_up(unknown, whole%state)
   end subroutine take_full_width

@@ -55,9 +55,9 @@ contains
     position = bearing%eccentricity()
     call start%keep(bearing)
     quick = settings
-    if (.not. bearing%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
+    if (.not. bearing%pad(1)%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
     call find_position(bearing, newton, target, quick, report)
-    if (.not. (report%converged .or. bearing%film%flow%upwind)) then
+    if (.not. (report%converged .or. bearing%pad(1)%film%flow%upwind)) then
       call failed%keep(bearing)
       call start%put_back(bearing)
       call find_by_upwinding(bearing, newton, target, position, settings, peclet, other)
@@ -88,9 +88,9 @@ contains
     type(operating_point_type) :: wanted
     type(bearing_answer_type) :: answer
 
-    bearing%film%flow%upwind = .true.
+    bearing%pad(1)%film%flow%upwind = .true.
     call find_position(bearing, newton, target, settings, report)
-    bearing%film%flow%upwind = .false.
+    bearing%pad(1)%film%flow%upwind = .false.
     peclet = 0.0_wp
     if (.not. report%converged) return
     answer = bearing_answer(bearing)

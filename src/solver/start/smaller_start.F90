@@ -52,7 +52,7 @@ contains
     type(bearing_system_type), intent(in) :: small
     type(bearing_system_type), intent(inout) :: bearing
 
-    if (small%whole%half .and. .not. bearing%whole%half) then
+    if (small%pad(1)%whole%half .and. .not. bearing%pad(1)%whole%half) then
       call take_full_width(small, bearing)
     else
       call refine(small, bearing)
@@ -65,17 +65,17 @@ contains
     type(bearing_system_type), intent(inout) :: fine !! gets a start value
 
     real(wp) :: rough(coarse%local_size()), unknown(fine%local_size())
-    real(wp) :: share(corners, size(fine%mesh%mesh_node))
-    integer :: around(corners, size(fine%mesh%mesh_node)), node
+    real(wp) :: share(corners, size(fine%pad(1)%mesh%mesh_node))
+    integer :: around(corners, size(fine%pad(1)%mesh%mesh_node)), node
 
     call coarse%get_unknowns(rough)
-    do node = 1, size(fine%mesh%mesh_node)
-      call find_film_place(coarse%whole, fine%film%angle(node), fine%film%axial(node), around(:, node), share(:, node))
+    do node = 1, size(fine%pad(1)%mesh%mesh_node)
+      call find_film_place(coarse%pad(1)%whole, fine%pad(1)%film%angle(node), fine%pad(1)%film%axial(node), around(:, node), share(:, node))
     end do
     unknown = 0.0_wp
-    unknown(:size(share, 2)) = taken(rough(:size(coarse%mesh%mesh_node)) + coarse%solid_pressure(rough))
-    call fine%foil%estimate(unknown)
-    unknown(:size(share, 2)) = taken(rough(:size(coarse%mesh%mesh_node)))
+    unknown(:size(share, 2)) = taken(rough(:size(coarse%pad(1)%mesh%mesh_node)) + coarse%solid_pressure(rough))
+    call fine%pad(1)%foil%estimate(unknown)
+    unknown(:size(share, 2)) = taken(rough(:size(coarse%pad(1)%mesh%mesh_node)))
     if (fine%floats) unknown(fine%first_shaft + 1:) = coarse%eccentricity()
     call fine%set_unknowns(unknown)
 

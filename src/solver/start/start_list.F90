@@ -179,7 +179,7 @@ contains
   function has_contacts(problem) result(applies)
     type(start_problem_type), intent(in) :: problem
     logical :: applies
-    applies = problem%bearing%foil%has_contacts()
+    applies = problem%bearing%pad(1)%foil%has_contacts()
   end function has_contacts
 
   !> They do, and the shaft finds its own position.

@@ -93,12 +93,12 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: wanted
     type(operating_point_type) :: free
-    real(wp) :: undeflected(size(bearing%film%angle)), approach(1)
+    real(wp) :: undeflected(size(bearing%pad(1)%film%angle)), approach(1)
 
     free = wanted
     undeflected = 0.0_wp
-    associate (clearance => bearing%film%clearance)
-      approach = largest_over_ranks([clearance - minval(bearing%film%gap(wanted, undeflected))])
+    associate (clearance => bearing%pad(1)%film%clearance)
+      approach = largest_over_ranks([clearance - minval(bearing%pad(1)%film%gap(wanted, undeflected))])
       if (approach(1) < clearance) return
       free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach(1)
       free%tilt = wanted%tilt*room_at_rest*clearance/approach(1)
@@ -115,7 +115,7 @@ contains
     bearing%point%speed = 0.0_wp
     bearing%held = .true.
     unknown = 0.0_wp
-    unknown(:size(bearing%mesh%mesh_node)) = bearing%film%ambient_pressure
+    unknown(:size(bearing%pad(1)%mesh%mesh_node)) = bearing%pad(1)%film%ambient_pressure
     if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest
@@ -135,7 +135,7 @@ contains
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
-      if (bearing%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load) > 0.0_wp) then
+      if (bearing%pad(1)%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load) > 0.0_wp) then
         bearing%point%eccentricity = resting_position(bearing, target)
       end if
     end if
@@ -152,7 +152,7 @@ contains
     real(wp) :: eccentricity(2)
     integer, parameter :: halvings = 40
     type(operating_point_type) :: there
-    real(wp) :: undeflected(size(bearing%film%angle)), gap(size(undeflected)), direction(2)
+    real(wp) :: undeflected(size(bearing%pad(1)%film%angle)), gap(size(undeflected)), direction(2)
     real(wp) :: near, far, middle, force(film_forces), smallest(1)
     integer :: i
 
@@ -160,13 +160,13 @@ contains
     undeflected = 0.0_wp
     direction = -target%load/norm2(target%load)
     near = 0.0_wp
-    far = bearing%film%clearance
+    far = bearing%pad(1)%film%clearance
     do i = 1, halvings
       middle = 0.5_wp*(near + far)
       there%eccentricity = middle*direction
-      gap = bearing%film%gap(there, undeflected)
+      gap = bearing%pad(1)%film%gap(there, undeflected)
       smallest = largest_over_ranks([-minval(gap)])
-      force = sum_over_ranks(bearing%film%force(bearing%film%ambient_pressure + contact_pressure(bearing%contact, gap)))
+      force = sum_over_ranks(bearing%pad(1)%film%force(bearing%pad(1)%film%ambient_pressure + contact_pressure(bearing%pad(1)%contact, gap)))
       if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load) < norm2(target%load)**2) then
         near = middle
       else

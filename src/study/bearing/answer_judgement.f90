@@ -31,7 +31,7 @@ contains
       call find_stability(bearing, stability)
       newton%factorizations = newton%factorizations + stability%factorizations
       call log%line('stability: '//stability_words(stability, &
-                    bearing%whole%half .and. scene%model%foil == foil_shell))
+                    bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell))
       if (stability%counted) call add_result(list, 'stability', stability%negative)
       if (stability%found) then
         call add_result(list, 'growing_modes', stability%growing)

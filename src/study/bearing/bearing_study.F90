@@ -67,7 +67,7 @@ contains
       self%iterations = newton%iterations
       self%factorizations = newton%factorizations
       self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
-                                     bearing%film%clearance, bearing%force_scale())
+                                     bearing%pad(1)%film%clearance, bearing%force_scale())
     end associate
   end subroutine solve_study
 
@@ -91,7 +91,7 @@ contains
     result%ranks = rank_count()
     result%origin = provenance(context%command)
     associate (record => self%sweep%record)
-      result%contacts = foil_contact_arrays(self%sweep%bearing%foil, record%contacts, size(record%history))
+      result%contacts = foil_contact_arrays(self%sweep%bearing%pad(1)%foil, record%contacts, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
     end associate
     call write_bearing(scene, context, self%sweep, result, summary, error)

@@ -53,13 +53,13 @@ contains
 
     associate (bearing => sweep%bearing, record => sweep%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing)
-      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%film%clearance, &
+      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%pad(1)%film%clearance, &
         bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))
-      call add_quantity(summary, bearing%foil%sizes())
+      call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       call add_quantity(summary, cost_quantities(result%cost))
-      call show_closing_block(log, converged, answer, bearing%film%clearance, result%cost, result%ranks, blas_in_use())
+      call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
       call show_tilt_response(log, record%tilted)
       if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
         call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &

@@ -83,7 +83,7 @@ contains
                          settings, context%log, self%bearing, self%newton, report, error)
     end associate
     if (allocated(error)) return
-    self%search%lifts = [lowest_lift, highest_lift]*self%bearing%film%clearance
+    self%search%lifts = [lowest_lift, highest_lift]*self%bearing%pad(1)%film%clearance
     if (report%converged) then
       call find_branches(self%bearing, self%newton, self%search)
     else

@@ -164,7 +164,7 @@ contains
       stretch%factorizations = study%factorizations
       stretch%row = sweep%record%history(:found)
       stretch%next = sweep%record%history(found + 1:)
-      stretch%contacts = foil_contact_arrays(sweep%bearing%foil, sweep%record%contacts, found)
+      stretch%contacts = foil_contact_arrays(sweep%bearing%pad(1)%foil, sweep%record%contacts, found)
     end associate
     if (found == points) return
     stretch%status = status_unconverged

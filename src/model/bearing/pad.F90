@@ -1,0 +1,184 @@
+#include "gfb_petsc.h"
+!> One pad of a bearing: its film, the foil under it, asperities, the free edge of its top foil.
+!>
+!> Its local unknowns on a rank are the pressures of its film nodes (the rank's own and its neighbours')
+!> and the foil's unknowns, one after the other; all arrays here are the pad's part of the bearing's.
+module gfb_pad
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: rank_count
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_mesh_dm, only: local_mesh_type, distribute_mesh
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_part_chains, only: film_chain, film_columns
+  use gfb_film_load, only: film_forces
+  use gfb_solid_contact, only: solid_contact_type, contact_pressure
+  use gfb_foil_model, only: foil_model_type
+  use gfb_cost_events, only: cost_events_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_gas_film, only: gas_film_type, create_gas_film
+  use gfb_free_edge, only: free_edge_type, find_free_edge
+  implicit none (type)
+  private
+  public :: create_pad_film, complete_pad
+
+  !> A pad on this rank.
+  type, public :: pad_type
+    type(film_mesh_type) :: whole          !! the film's mesh
+    type(local_mesh_type) :: mesh          !! this rank's share of it
+    type(gas_film_type) :: film
+    type(solid_contact_type) :: contact    !! of the shaft with the foil
+    class(foil_model_type), allocatable :: foil
+    type(free_edge_type) :: edge           !! of the top foil
+    integer :: first = 0, last = 0         !! local unknown of the bearing before the pad's, and their last
+    integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads
+  contains
+    procedure :: gap => pad_gap
+    procedure :: loading
+    procedure :: force => pad_force
+    procedure :: add_residual => pad_residual
+    procedure :: unknown_scale
+    procedure :: equation_scale
+    procedure :: row_entries
+  end type pad_type
+
+contains
+
+  !> Distributes the film's mesh and sets up this rank's share of the film.
+  !>
+  !> Fails when the mesh cannot be cut, or an element is folded over.
+  subroutine create_pad_film(whole, clearance, ambient_pressure, viscosity, upwind, pad, error, column_part)
+    type(film_mesh_type), intent(in) :: whole !! the film's mesh
+    real(wp), intent(in) :: clearance        !! C [m]
+    real(wp), intent(in) :: ambient_pressure !! p_a [Pa]
+    real(wp), intent(in) :: viscosity        !! of the gas [Pa s]
+    logical, intent(in) :: upwind            !! SUPG instead of Galerkin
+    type(pad_type), intent(inout) :: pad
+    type(error_type), allocatable, intent(out) :: error
+    !> rank, from 1, of every column of elements; default: the film is cut by itself
+    integer, intent(in), optional :: column_part(:)
+
+    type(division_type) :: division
+
+    pad%whole = whole
+    if (present(column_part)) then
+      division%film = column_part
+    else
+      call divide(film_chain(whole, .false.), no_chain(), rank_count(), division, error)
+      if (allocated(error)) return
+      division%film = film_columns(whole, division%film)
+    end if
+    call distribute_mesh(PETSC_COMM_WORLD, whole%stations(), whole%rows(), whole%periodic, division%film, pad%mesh)
+    call create_gas_film(whole, pad%mesh%mesh_node, pad%mesh%element_nodes, clearance, ambient_pressure, viscosity, &
+                         upwind, pad%film, error)
+  end subroutine create_pad_film
+
+  !> Puts the foil under the film; it moves into the pad.
+  subroutine complete_pad(foil, events, pad)
+    class(foil_model_type), allocatable, intent(inout) :: foil
+    type(cost_events_type), intent(in) :: events !! of PETSc's log
+    type(pad_type), intent(inout) :: pad         !! with its film
+    integer :: nodes
+
+    nodes = size(pad%mesh%mesh_node)
+    call move_alloc(foil, pad%foil)
+    pad%foil%events = events
+    call pad%foil%place(nodes)
+    call find_free_edge(pad%whole, pad%mesh, pad%foil, pad%edge)
+    pad%last = pad%first + nodes + pad%foil%local_unknowns()
+    pad%last_node = pad%first_node + nodes
+  end subroutine complete_pad
+
+  !> Gap at this rank's nodes [m].
+  pure function pad_gap(self, point, unknown) result(gap)
+    class(pad_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! the shaft's position
+    real(wp), intent(in) :: unknown(:)              !! the pad's, in SI
+    real(wp) :: gap(size(self%mesh%mesh_node))
+
+    gap = self%film%gap(point, self%foil%deflection(unknown))
+  end function pad_gap
+
+  !> All pressure that loads shaft and foil, the film's and the asperities', at this rank's nodes [Pa].
+  pure function loading(self, unknown, gap) result(pressure)
+    class(pad_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! the pad's, in SI
+    real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
+    real(wp) :: pressure(size(gap))
+
+    pressure = unknown(:size(gap))
+    if (self%contact%present) pressure = pressure + contact_pressure(self%contact, gap)
+  end function loading
+
+  !> This rank's share of the force on the sleeve and the torque on the shaft [N], [N m].
+  pure function pad_force(self, unknown, gap) result(force)
+    class(pad_type), intent(in) :: self
+    real(wp), intent(in) :: unknown(:) !! the pad's, in SI
+    real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
+    real(wp) :: force(film_forces)
+
+    force = self%film%force(self%loading(unknown, gap))
+  end function pad_force
+
+  !> Adds the equations of film and foil; the film must be open.
+  subroutine pad_residual(self, point, unknown, gap, events, residual)
+    class(pad_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:)     !! the pad's, in SI
+    real(wp), intent(in) :: gap(:)         !! at this rank's nodes [m]
+    type(cost_events_type), intent(in) :: events
+    real(wp), intent(inout) :: residual(:) !! the pad's, in SI
+    real(wp) :: loading(size(unknown)) ! the unknowns, with all pressure that loads the foil
+    PetscErrorCode :: ierr
+
+    associate (nodes => size(gap))
+      PetscCallA(PetscLogEventBegin(events%film, ierr))
+      call self%film%add_residual(unknown(:nodes), gap, point, residual)
+      where (self%film%fixed .and. self%mesh%owned)
+        residual(:nodes) = unknown(:nodes) - self%film%ambient_pressure
+      end where
+      PetscCallA(PetscLogEventEnd(events%film, ierr))
+      PetscCallA(PetscLogEventBegin(events%foil, ierr))
+      loading = unknown
+      loading(:nodes) = self%loading(unknown, gap)
+      call self%foil%add_residual(loading, residual)
+      call self%edge%add_pull(point%edge_pull, residual)
+      call self%edge%add_tension(point%edge_tension, unknown, residual)
+      call self%edge%add_hold(point%edge_hold, point%edge_height, unknown, residual)
+      PetscCallA(PetscLogEventEnd(events%foil, ierr))
+    end associate
+  end subroutine pad_residual
+
+  !> Sizes of the unknowns, in SI.
+  pure function unknown_scale(self) result(scale)
+    class(pad_type), intent(in) :: self
+    real(wp) :: scale(self%last - self%first)
+
+    scale(:self%foil%first) = self%film%ambient_pressure
+    scale(self%foil%first + 1:) = self%foil%unknown_scale
+  end function unknown_scale
+
+  !> Sizes of the equations at an operating point, in SI: a film equation is measured by the flow
+  !> through a cell.
+  pure function equation_scale(self, point) result(scale)
+    class(pad_type), intent(in) :: self
+    type(operating_point_type), intent(in) :: point !! whose speed counts
+    real(wp) :: scale(self%last - self%first)
+
+    associate (film => self%film)
+      scale(:self%foil%first) = merge(film%ambient_pressure, film%cell_flow(point), film%fixed)
+      scale(self%foil%first + 1:) = self%foil%equation_scale
+    end associate
+  end function equation_scale
+
+  !> Entries that the rows this rank owns need at most: film nodes around, and the foil.
+  pure function row_entries(self) result(entries)
+    class(pad_type), intent(in) :: self
+    PetscInt :: entries(self%mesh%owned_unknowns + self%foil%owned)
+
+    entries(:self%mesh%owned_unknowns) = int((2*self%whole%order + 1)**2 + self%foil%couplings, pint)
+    entries(self%mesh%owned_unknowns + 1:) = int(self%foil%row_entries, pint)
+  end function row_entries
+end module gfb_pad
