@@ -4,7 +4,10 @@ module gfb_bearing_answer
   use gfb_memory, only: memory_type
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
-  use gfb_bearing_system, only: bearing_system_type, film_values
+  use gfb_film_measures, only: force_without_suction, film_drag, film_integral, film_peclet, &
+                               film_midplane_gap
+  use gfb_bearing, only: film_values
+  use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
   public :: bearing_answer, film_block, full_rows
@@ -53,15 +56,15 @@ contains
     gap = bearing%gap(unknown)
     pressure = unknown(:size(gap))
     associate (film => bearing%pad(1)%film, whole => bearing%pad(1)%whole)
-      total = sum_over_ranks([film%force(pressure), film%force_without_suction(pressure), &
-                              film%drag(pressure, gap, bearing%position(unknown))])
+      total = sum_over_ranks([film%force(pressure), force_without_suction(film, pressure), &
+                              film_drag(film, pressure, gap, bearing%position(unknown))])
       largest(1) = -minval(gap)
-      largest(2) = -film%midplane_gap(gap)
+      largest(2) = -film_midplane_gap(film, gap)
       largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
       largest(4) = maxval(pressure)
       largest(5) = -minval(pressure)
-      largest(6) = film%peclet(bearing%point, pressure, gap, 0.0_wp)
-      largest(7) = film%peclet(bearing%point, pressure, gap, rough_step)
+      largest(6) = film_peclet(film, bearing%point, pressure, gap, 0.0_wp)
+      largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
       largest = largest_over_ranks(largest)
     end associate
     if (bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
@@ -90,7 +93,7 @@ contains
     pressure = bearing%solid_pressure(unknown)
     associate (film => bearing%pad(1)%film)
       sums(:film_forces) = film%force(film%ambient_pressure + pressure)
-      sums(film_forces + 1) = film%integral(pressure)
+      sums(film_forces + 1) = film_integral(film, pressure)
       sums = sum_over_ranks(sums)
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.

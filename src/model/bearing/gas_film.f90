@@ -6,8 +6,8 @@ module gfb_gas_film
   use gfb_film_gap, only: rigid_gap
   use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess, &
                               entraining_speed
-  use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction
-  use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian, cell_peclet
+  use gfb_film_load, only: film_forces, film_force_weights
+  use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian
   use gfb_film_mesh, only: film_mesh_type, gather_elements
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
@@ -48,11 +48,6 @@ module gfb_gas_film
     procedure :: element_jacobian => film_element_jacobian
     procedure :: add_shaft_column => film_shaft_column
     procedure :: force => film_node_force
-    procedure :: force_without_suction
-    procedure :: drag => film_drag
-    procedure :: integral => film_integral
-    procedure :: peclet => film_peclet
-    procedure :: midplane_gap
   end type gas_film_type
 
 contains
@@ -310,108 +305,4 @@ contains
     force = matmul(self%force_weight, pressure - self%ambient_pressure)
   end function film_node_force
 
-  !> The same where the pressure is above ambient only.
-  pure function force_without_suction(self, pressure) result(force)
-    class(gas_film_type), intent(in) :: self
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp) :: force(film_forces)
-    integer :: element
-
-    force = 0.0_wp
-    do element = 1, size(self%element_nodes, 2)
-      associate (nodes => self%element_nodes(:, element))
-        force = force + self%copies*film_force(self%geometry(element), &
-                                               self%point_motion(:, :, element), &
-                                               pressure(nodes) - self%ambient_pressure)
-      end associate
-    end do
-    if (self%copies > 1.0_wp) force(3:4) = 0.0_wp
-  end function force_without_suction
-
-  !> This rank's share of the drag on the shaft [N].
-  pure function film_drag(self, pressure, gap, point) result(drag)
-    class(gas_film_type), intent(in) :: self
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point
-    real(wp) :: drag
-    real(wp) :: excess(most_film_nodes)
-    type(film_flow_type) :: flow
-    integer :: element
-
-    drag = 0.0_wp
-    flow = self%flow_at(point)
-    do element = 1, size(self%element_nodes, 2)
-      associate (nodes => self%element_nodes(:, element))
-        excess = self%excess(element, point)
-        drag = drag + self%copies* &
-          film_friction(self%geometry(element), flow, pressure(nodes), gap(nodes), &
-                        excess(:size(nodes)))
-      end associate
-    end do
-  end function film_drag
-
-  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
-  pure function film_integral(self, value) result(integral)
-    class(gas_film_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! at the nodes
-    real(wp) :: integral
-    integer :: element
-
-    integral = 0.0_wp
-    do element = 1, size(self%element_nodes, 2)
-      associate (here => value(self%element_nodes(:, element)))
-        integral = integral + self%copies*dot_product(matmul(here, self%shape), &
-                                                      self%geometry(element)%area)
-      end associate
-    end do
-  end function film_integral
-
-  !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
-  pure function film_peclet(self, point, pressure, gap, change) result(peclet)
-    class(gas_film_type), intent(in) :: self
-    type(operating_point_type), intent(in) :: point !! whose speed counts
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
-    real(wp) :: peclet
-    type(film_flow_type) :: flow
-    integer :: element, i
-
-    peclet = 0.0_wp
-    flow = self%flow_at(point)
-    do element = 1, size(self%element_nodes, 2)
-      associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
-        if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
-        do i = 1, size(self%shape, 2)
-          peclet = max(peclet, abs(cell_peclet(flow, geometry%stream_length(i), &
-                                               dot_product(self%shape(:, i), pressure(nodes)), &
-                                               dot_product(self%shape(:, i), gap(nodes)))))
-        end do
-      end associate
-    end do
-  end function film_peclet
-
-  !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
-  pure function midplane_gap(self, gap) result(smallest)
-    class(gas_film_type), intent(in) :: self
-    real(wp), intent(in) :: gap(:) !! at the nodes [m]
-    real(wp) :: smallest
-    real(wp) :: share
-    integer :: cell, a, b
-
-    smallest = huge(1.0_wp)
-    do cell = 1, size(self%cell_nodes, 2)
-      associate (nodes => self%cell_nodes(:, cell))
-        do a = 1, corners
-          b = modulo(a, corners) + 1
-          associate (z_a => self%axial(nodes(a)), z_b => self%axial(nodes(b)))
-            if (z_a*z_b > 0.0_wp .or. abs(z_b - z_a) <= 0.0_wp) cycle
-            share = z_a/(z_a - z_b)
-            smallest = min(smallest, (1.0_wp - share)*gap(nodes(a)) + share*gap(nodes(b)))
-          end associate
-        end do
-      end associate
-    end do
-  end function midplane_gap
 end module gfb_gas_film

@@ -6,7 +6,8 @@ module gfb_full_width_start
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_builder, only: axial, about_tangent
-  use gfb_bearing_system, only: bearing_system_type, film_values
+  use gfb_bearing, only: film_values
+  use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
   public :: take_full_width

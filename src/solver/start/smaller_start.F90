@@ -4,7 +4,8 @@ module gfb_smaller_start
   use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
   use gfb_film_mesh, only: find_film_place
-  use gfb_bearing_system, only: bearing_system_type, film_values
+  use gfb_bearing, only: film_values
+  use gfb_bearing_system, only: bearing_system_type
   use gfb_continuation, only: path_report_type
   use gfb_start_problem, only: start_problem_type, soft_contacts_type
   use gfb_start_position, only: release_shaft, solve_at

@@ -1,0 +1,121 @@
+!> What one rank's part of a film says of itself beside its force: drag, cell Peclet numbers, gaps.
+module gfb_film_measures
+  use gfb_kinds, only: wp
+  use gfb_film_geometry, only: most_film_nodes
+  use gfb_film_load, only: film_forces, film_force, film_friction
+  use gfb_reynolds_element, only: film_flow_type, cell_peclet
+  use gfb_operating_point, only: operating_point_type
+  use gfb_gas_film, only: gas_film_type
+  implicit none (type, external)
+  private
+  public :: force_without_suction, film_drag, film_integral, film_peclet, film_midplane_gap
+
+  integer, parameter :: corners = 4 !! of a cell
+
+contains
+
+  !> This rank's share of force and torque where the pressure is above ambient only [N], [N m].
+  pure function force_without_suction(film, pressure) result(force)
+    type(gas_film_type), intent(in) :: film
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp) :: force(film_forces)
+    integer :: element
+
+    force = 0.0_wp
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element))
+        force = force + film%copies*film_force(film%geometry(element), &
+                                               film%point_motion(:, :, element), &
+                                               pressure(nodes) - film%ambient_pressure)
+      end associate
+    end do
+    if (film%copies > 1.0_wp) force(3:4) = 0.0_wp
+  end function force_without_suction
+
+  !> This rank's share of the drag on the shaft [N].
+  pure function film_drag(film, pressure, gap, point) result(drag)
+    type(gas_film_type), intent(in) :: film
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point
+    real(wp) :: drag
+    real(wp) :: excess(most_film_nodes)
+    type(film_flow_type) :: flow
+    integer :: element
+
+    drag = 0.0_wp
+    flow = film%flow_at(point)
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element))
+        excess = film%excess(element, point)
+        drag = drag + film%copies* &
+          film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
+                        excess(:size(nodes)))
+      end associate
+    end do
+  end function film_drag
+
+  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
+  pure function film_integral(film, value) result(integral)
+    type(gas_film_type), intent(in) :: film
+    real(wp), intent(in) :: value(:) !! at the nodes
+    real(wp) :: integral
+    integer :: element
+
+    integral = 0.0_wp
+    do element = 1, size(film%element_nodes, 2)
+      associate (here => value(film%element_nodes(:, element)))
+        integral = integral + film%copies*dot_product(matmul(here, film%shape), &
+                                                      film%geometry(element)%area)
+      end associate
+    end do
+  end function film_integral
+
+  !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
+  pure function film_peclet(film, point, pressure, gap, change) result(peclet)
+    type(gas_film_type), intent(in) :: film
+    type(operating_point_type), intent(in) :: point !! whose speed counts
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
+    real(wp) :: peclet
+    type(film_flow_type) :: flow
+    integer :: element, i
+
+    peclet = 0.0_wp
+    flow = film%flow_at(point)
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
+        if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
+        do i = 1, size(film%shape, 2)
+          peclet = max(peclet, abs(cell_peclet(flow, geometry%stream_length(i), &
+                                               dot_product(film%shape(:, i), pressure(nodes)), &
+                                               dot_product(film%shape(:, i), gap(nodes)))))
+        end do
+      end associate
+    end do
+  end function film_peclet
+
+  !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
+  pure function film_midplane_gap(film, gap) result(smallest)
+    type(gas_film_type), intent(in) :: film
+    real(wp), intent(in) :: gap(:) !! at the nodes [m]
+    real(wp) :: smallest
+    real(wp) :: share
+    integer :: cell, a, b
+
+    smallest = huge(1.0_wp)
+    do cell = 1, size(film%cell_nodes, 2)
+      associate (nodes => film%cell_nodes(:, cell))
+        do a = 1, corners
+          b = modulo(a, corners) + 1
+          associate (z_a => film%axial(nodes(a)), z_b => film%axial(nodes(b)))
+            if (z_a*z_b > 0.0_wp .or. abs(z_b - z_a) <= 0.0_wp) cycle
+            share = z_a/(z_a - z_b)
+            smallest = min(smallest, (1.0_wp - share)*gap(nodes(a)) + share*gap(nodes(b)))
+          end associate
+        end do
+      end associate
+    end do
+  end function film_midplane_gap
+end module gfb_film_measures
