@@ -12,7 +12,7 @@ module gfb_bearing_restart
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: bearing_plan_type, build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors
-  use gfb_arc_length, only: create_arc
+  use gfb_arc, only: create_arc
   use gfb_arc_memory, only: remember_arc, resume_arc
   use gfb_fold_way, only: fold_way_type, remember_way
   use gfb_result_file, only: result_file_type

@@ -2,8 +2,7 @@
 !> Follows a branch of answers by its own length, round the folds where the path's parameter turns.
 !>
 !> A step from an answer \( x_0 \) goes along the tangent \( t \), and ends where
-!> \( t \cdot (x - x_0) = s \) ([Riks1979]). The measure is the mean square of the scaled unknowns,
-!> with a small weight for the parameter. The sign of the determinant of the equations bordered by the
+!> \( t \cdot (x - x_0) = s \) ([Riks1979]). The sign of the determinant of the equations bordered by the
 !> tangent is the same all along a branch: it tells the tangent's sense.
 !>
 !> Where contacts open or close the branch has corners; a step round one goes along the penetration of
@@ -11,23 +10,17 @@
 module gfb_arc_length
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: contact_direction
-  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, find_determinant_sign, &
-                        solve_with_factors, destroy_newton
-  use gfb_bordered_system, only: path_system_type, create_path_system, destroy_path_system
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton, find_determinant_sign, solve_with_factors
+  use gfb_arc, only: arc_type, create_arc, first_step, shortest_step, longest_step, least_start, cut, place_weight, &
+                     hasty_iterations
   implicit none (type)
   private
-  public :: begin_arc, create_arc, advance_arc, end_arc
+  public :: begin_arc, advance_arc
 
-  real(wp), parameter :: first_step = 1.0e-3_wp
-  real(wp), parameter :: shortest_step = 1.0e-7_wp
-  real(wp), parameter :: longest_step = 0.05_wp
-  real(wp), parameter :: least_start = 5.0e-4_wp   !! to which a step after a very short one is lengthened
   real(wp), parameter :: growth = 2.0_wp
-  real(wp), parameter :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
   real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
   real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
   real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
@@ -36,44 +29,8 @@ module gfb_arc_length
   real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
   real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
-  real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
   integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
-  real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
-  integer, parameter :: most_retreats = 6          !! before one, for shorter steps
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
-  integer, parameter :: hasty_iterations = 12      !! more are not given to a step
-
-  !> A branch and the last answer on it. Keep it where it is.
-  type, public :: arc_type
-    type(path_system_type) :: path
-    type(newton_type) :: newton
-    real(wp) :: place = 0.0_wp        !! lambda of the last answer
-    real(wp) :: place_before = 0.0_wp !! of the one before
-    integer :: steps = 0
-    integer :: orientation = 0 !! sign of the determinant with the tangent in its sense
-    real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
-    logical :: turned = .false.       !! it changed in the last step
-    type(bearing_system_type), pointer, private :: bearing => null()
-    real(wp) :: step = first_step      !! to try next
-    Vec :: tangent                    !! at the last answer, of length one
-    real(wp) :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
-    real(wp) :: distance = 0.0_wp     !! of that contact from it, over the clearance [1]
-    real(wp) :: last_way = least_start !! length of the last step
-    logical, private :: closes = .false.
-    Vec, private :: coming            !! direction in which it comes on
-    real(wp) :: place_earlier = 0.0_wp !! lambda of the answer before those two
-    real(wp) :: earlier_step = 0.0_wp !! its length
-    integer :: retreats = 0           !! before the fold ahead
-    real(wp) :: step_limit = longest_step !! until that is passed
-    Vec :: previous, earlier          !! the answers before the last one
-    Vec :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
-    Vec, private :: work
-  contains
-    procedure :: between
-    procedure :: return_to
-    procedure :: nears_fold
-    procedure :: to_turn
-  end type arc_type
 
 contains
 
@@ -91,27 +48,6 @@ contains
     call start_along_path(arc, sense)
     PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
   end subroutine begin_arc
-
-  !> Prepares what an arc needs, on the path from the bearing's present point to another.
-  subroutine create_arc(bearing, newton, last, arc)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), intent(in) :: newton !! of the bearing: its settings
-    type(operating_point_type), intent(in) :: last
-    type(arc_type), target, intent(inout) :: arc
-    PetscErrorCode :: ierr
-
-    arc%bearing => bearing
-    call create_path_system(bearing, last, arc%path)
-    call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
-    arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
-    PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%previous, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%earlier, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%previous_tangent, ierr))
-    PetscCallA(VecDuplicate(arc%path%state, arc%earlier_tangent, ierr))
-  end subroutine create_arc
 
   !> The first direction is the one in which the path goes in the sense asked for.
   subroutine start_along_path(arc, sense)
@@ -137,14 +73,14 @@ contains
     real(wp) :: length
     PetscErrorCode :: ierr
 
-    call weigh(arc, arc%tangent, arc%path%direction)
+    call arc%weigh(arc%tangent, arc%path%direction)
     call find_determinant_sign(arc%newton, sense)
     if (sense == 0) return
     if (arc%orientation == 0) arc%orientation = sense
     PetscCallA(VecSet(arc%work, 0.0_wp, ierr))
     call arc%path%set_place(arc%work, 1.0_wp)
     call solve_with_factors(arc%newton, arc%work, arc%tangent)
-    length = length_of(arc, arc%tangent)
+    length = arc%length_of(arc%tangent)
     PetscCallA(VecScale(arc%tangent, real(sense*arc%orientation, wp)/length, ierr))
   end subroutine find_tangent
 
@@ -177,7 +113,7 @@ contains
     arc%heading = sign(1.0_wp, place - arc%place)
     arc%place_before = arc%place
     arc%place = place
-    length = way_gone(arc)
+    length = arc%path_length()
     arc%last_way = length
     call find_tangent(arc)
     arc%step = min(arc%step_limit, max(least_start, length))
@@ -206,13 +142,13 @@ contains
     type(newton_report_type) :: solved
     PetscErrorCode :: ierr
 
-    call weigh(arc, arc%tangent, arc%path%direction)
+    call arc%weigh(arc%tangent, arc%path%direction)
     arc%path%step = arc%step
     PetscCallA(VecWAXPY(arc%path%state, arc%step, arc%tangent, arc%path%base, ierr))
     call solve_newton(arc%newton, solved)
     easy = solved%iterations <= easy_iterations
     moved = solved%converged
-    if (moved) moved = arc%step >= sharpest_turn*way_gone(arc)
+    if (moved) moved = arc%step >= sharpest_turn*arc%path_length()
   end subroutine try_step
 
   !> Where on the tangent a contact opens or closes, and the direction in which it comes on.
@@ -224,9 +160,8 @@ contains
 
     PetscCallA(VecDuplicate(arc%bearing%state, ahead, ierr))
     PetscCallA(VecDuplicate(arc%bearing%state, along, ierr))
-    PetscCallA(VecWAXPY(arc%path%state, 1.0_wp, arc%tangent, arc%path%base, ierr))
-    place = arc%path%give()
-    PetscCallA(VecCopy(arc%bearing%state, ahead, ierr))
+    PetscCallA(VecWAXPY(arc%work, 1.0_wp, arc%tangent, arc%path%base, ierr))
+    call arc%path%split(arc%work, ahead)
     PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
     place = arc%path%give()
     call contact_direction(arc%bearing, ahead, along, arc%next_change, arc%distance, arc%closes)
@@ -275,136 +210,7 @@ contains
   function stays_near(arc) result(near_by)
     type(arc_type), intent(inout) :: arc
     logical :: near_by
-    near_by = way_gone(arc) <= min(longest_step, longest_leap*max(arc%last_way, least_start))
+    near_by = arc%path_length() <= min(longest_step, longest_leap*max(arc%last_way, least_start))
   end function stays_near
 
-  !> Puts the bearing between the last two answers.
-  subroutine between(self, share)
-    class(arc_type), intent(inout) :: self
-    real(wp), intent(in) :: share !! of the way from the one before the last to the last [1]
-    real(wp) :: place
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecCopy(self%path%state, self%work, ierr))
-    PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%previous, ierr))
-    place = self%path%give()
-    PetscCallA(VecCopy(self%work, self%path%state, ierr))
-  end subroutine between
-
-  !> Puts the bearing back to the last answer.
-  subroutine return_to(self)
-    class(arc_type), intent(inout) :: self
-    real(wp) :: place
-    place = self%path%give()
-  end subroutine return_to
-
-  !> Puts the bearing where the place has just turned: at the answer before the last, or where a contact
-  !> changed since then, if the place went farther there.
-  subroutine to_turn(self)
-    class(arc_type), target, intent(inout) :: self
-    type(newton_report_type) :: solved
-    real(wp) :: place
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecCopy(self%path%state, self%earlier, ierr))
-    PetscCallA(VecCopy(self%previous, self%path%base, ierr))
-    PetscCallA(VecCopy(self%previous, self%path%state, ierr))
-    if (self%next_change <= self%last_way) then
-      PetscCallA(VecCopy(self%coming, self%path%direction, ierr))
-      self%path%step = self%distance
-      call solve_newton(self%newton, solved)
-      place = self%path%place(self%path%state)
-      if (solved%converged .and. self%heading*(place - self%place_before) < 0.0_wp) then
-        self%place_before = place
-      else
-        PetscCallA(VecCopy(self%previous, self%path%state, ierr))
-      end if
-    end if
-    place = self%path%give()
-    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
-  end subroutine to_turn
-
-  !> Where the place has just turned: goes back behind the turn to pass it in shorter steps, unless
-  !> they are short already. Without that the turn is at `place_before`, to about the last step.
-  subroutine nears_fold(self, again)
-    class(arc_type), intent(inout) :: self
-    logical, intent(out) :: again !! the turn is still ahead
-    PetscErrorCode :: ierr
-
-    again = self%turned .and. self%retreats < most_retreats .and. &
-      max(abs(self%place - self%place_before), abs(self%place_before - self%place_earlier)) > sharp_fold
-    if (.not. again) then
-      self%retreats = 0
-      self%step_limit = longest_step
-      return
-    end if
-    self%retreats = self%retreats + 1
-    PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
-    PetscCallA(VecCopy(self%earlier_tangent, self%tangent, ierr))
-    self%step = max(shortest_step, cut*min(self%step_limit, self%earlier_step, self%last_way))
-    self%step_limit = self%step
-    self%place = self%place_earlier
-    self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
-    self%place_before = self%place_earlier
-    self%turned = .false.
-    call self%return_to()
-  end subroutine nears_fold
-
-  !> Length of the way from the base to the state.
-  function way_gone(arc) result(length)
-    type(arc_type), intent(inout) :: arc
-    real(wp) :: length
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecWAXPY(arc%work, -1.0_wp, arc%path%base, arc%path%state, ierr))
-    length = length_of(arc, arc%work)
-  end function way_gone
-
-  !> Length of a vector in the arc's measure.
-  function length_of(arc, vector) result(length)
-    type(arc_type), intent(in) :: arc
-    Vec, intent(in) :: vector
-    real(wp) :: length
-    Vec :: weighted
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecDuplicate(vector, weighted, ierr))
-    call weigh(arc, vector, weighted)
-    PetscCallA(VecDot(vector, weighted, length, ierr))
-    PetscCallA(VecDestroy(weighted, ierr))
-    length = sqrt(length)
-  end function length_of
-
-  !> A vector times the weights of the measure.
-  subroutine weigh(arc, vector, weighted)
-    type(arc_type), intent(in) :: arc
-    Vec, intent(in) :: vector
-    Vec, intent(in) :: weighted
-    real(wp) :: place
-    PetscErrorCode :: ierr
-
-    place = arc%path%place(vector)
-    PetscCallA(VecCopy(vector, weighted, ierr))
-    PetscCallA(VecScale(weighted, 1.0_wp/real(arc%bearing%unknowns, wp), ierr))
-    call arc%path%set_place(weighted, place_weight*place)
-  end subroutine weigh
-
-  !> Frees what PETSc holds; adds what was spent to the bearing's own Newton method.
-  subroutine end_arc(arc, newton)
-    type(arc_type), intent(inout) :: arc
-    type(newton_type), intent(inout) :: newton
-    PetscErrorCode :: ierr
-
-    newton%iterations = newton%iterations + arc%newton%iterations
-    newton%factorizations = newton%factorizations + arc%newton%factorizations
-    call destroy_newton(arc%newton)
-    call destroy_path_system(arc%path)
-    PetscCallA(VecDestroy(arc%tangent, ierr))
-    PetscCallA(VecDestroy(arc%work, ierr))
-    PetscCallA(VecDestroy(arc%coming, ierr))
-    PetscCallA(VecDestroy(arc%previous, ierr))
-    PetscCallA(VecDestroy(arc%earlier, ierr))
-    PetscCallA(VecDestroy(arc%previous_tangent, ierr))
-    PetscCallA(VecDestroy(arc%earlier_tangent, ierr))
-  end subroutine end_arc
 end module gfb_arc_length

@@ -3,7 +3,7 @@
 module gfb_arc_memory
   use petscvec
   use gfb_memory, only: memory_type
-  use gfb_arc_length, only: arc_type
+  use gfb_arc, only: arc_type
   use gfb_newton, only: forget_factors
   implicit none (type)
   private

@@ -40,6 +40,7 @@ module gfb_bordered_system
     procedure :: place
     procedure :: set_place
     procedure :: join
+    procedure :: split
     procedure :: give
     procedure, private :: point_at
   end type path_system_type
@@ -123,6 +124,14 @@ contains
     Vec, intent(in) :: whole
     call self%border%join(inner, [lambda], whole)
   end subroutine join
+
+  !> The bearing's part of a vector.
+  subroutine split(self, whole, inner)
+    class(path_system_type), intent(in) :: self
+    Vec, intent(in) :: whole !! with lambda
+    Vec, intent(in) :: inner !! without
+    call self%border%split(whole, inner)
+  end subroutine split
 
   !> Gives the present state to the bearing, and puts it at its place; returns lambda.
   function give(self) result(lambda)

@@ -2,7 +2,7 @@
 module gfb_fold_way
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
-  use gfb_arc_length, only: arc_type
+  use gfb_arc, only: arc_type
   use gfb_operating_point, only: operating_point_type, remember_point
   implicit none (type, external)
   private

@@ -14,7 +14,8 @@ module gfb_branch_search
   use gfb_bearing_directions, only: edge_lift
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_arc_length, only: arc_type, begin_arc, advance_arc, end_arc
+  use gfb_arc, only: arc_type, end_arc
+  use gfb_arc_length, only: begin_arc, advance_arc
   use gfb_kept_state, only: kept_state_type
   use gfb_branch_list, only: branch_search_type, take_branch, destroy_branches
   implicit none (type)

@@ -10,7 +10,8 @@ module gfb_folds
   use gfb_operating_point, only: point_between
   use gfb_newton, only: newton_report_type, solve_newton
   use gfb_continuation, only: path_report_type
-  use gfb_arc_length, only: begin_arc, advance_arc, end_arc
+  use gfb_arc, only: end_arc
+  use gfb_arc_length, only: begin_arc, advance_arc
   use gfb_fold_way, only: fold_way_type
   use gfb_tilt_response, only: measure_tilt
   use gfb_bearing_restart, only: keep_bearing, recall_way
