@@ -58,7 +58,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! written where the memory unpacks
     type(newton_type), intent(inout) :: newton          !! the same
 
-    call memory%visit('held', bearing%held)
+    call memory%visit('shaft_fixed', bearing%shaft_fixed)
     call memory%visit('upwind', bearing%pad(1)%film%flow%upwind)
     call remember_point(memory, bearing%point)
     call memory%visit('newton_iterations', newton%iterations)

@@ -24,7 +24,7 @@ module gfb_bearing
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
     logical :: floats = .false.            !! (e_x, e_y) are unknowns
-    logical :: held = .false.              !! they are, but fixed at the point's eccentricity
+    logical :: shaft_fixed = .false.       !! they are, but fixed at the point's eccentricity
     type(pad_type), allocatable :: pad(:)  !! today one
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks

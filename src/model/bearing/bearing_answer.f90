@@ -49,7 +49,7 @@ contains
     type(bearing_answer_type) :: answer
 
     real(wp) :: unknown(bearing%local_size()), largest(7)
-    real(wp) :: gap(size(bearing%pad(1)%mesh%mesh_node)), pressure(size(bearing%pad(1)%mesh%mesh_node))
+    real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
     real(wp) :: total(2*film_forces + 1)
 
     call bearing%get_unknowns(unknown)

@@ -11,7 +11,7 @@ module gfb_bearing_directions
 
 contains
 
-  !> Mean way of the top foil's free edge towards the shaft at the present state, over all ranks [m].
+  !> Mean displacement of the top foil's free edge towards the shaft at the present state, over all ranks [m].
   function edge_lift(bearing) result(lift)
     class(bearing_system_type), intent(in) :: bearing
     real(wp) :: lift
@@ -44,12 +44,12 @@ contains
     call bearing%exchange%add(bearing%pad(1)%edge%lift_rates(bearing%local_size())*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
   end subroutine edge_direction
 
-  !> Which contacts open or close first on the way from the present state to another.
-  subroutine contact_direction(bearing, other, direction, way, distance, closes)
+  !> Which contacts open or close first on the path from the present state to another.
+  subroutine contact_direction(bearing, other, direction, share, distance, closes)
     class(bearing_system_type), intent(in) :: bearing
     Vec, intent(in) :: other             !! scaled state
     Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
-    real(wp), intent(out) :: way         !! part of the way to there; huge if there is none [1]
+    real(wp), intent(out) :: share       !! of the path to there; huge if there is none [1]
     real(wp), intent(out) :: distance    !! by which that product has to grow until then [1]
     logical, intent(out) :: closes       !! one of them closes
     real(wp) :: here(bearing%local_size()), ahead(bearing%local_size()), rate(bearing%local_size()), first(1), total(1)
@@ -58,11 +58,11 @@ contains
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(ahead, other)
     first = -largest_over_ranks([-bearing%pad(1)%foil%next_contact_change(here, ahead)])
-    way = first(1)
+    share = first(1)
     rate = 0.0_wp
     distance = 0.0_wp
     closes = .false.
-    if (way < huge(way)) call bearing%pad(1)%foil%add_penetration_rates(here, ahead, way, rate, distance, closes)
+    if (share < huge(share)) call bearing%pad(1)%foil%add_penetration_rates(here, ahead, share, rate, distance, closes)
     closes = any_rank(closes)
     total = sum_over_ranks([distance])
     distance = total(1)/bearing%pad(1)%film%clearance

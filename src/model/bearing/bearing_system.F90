@@ -116,12 +116,12 @@ contains
   end function shaft_number
 
   !> Force over displacement that keeps a fixed shaft at its position, 0 where it floats [N/m].
-  pure function hold_stiffness(bearing, point, held) result(stiffness)
+  pure function hold_stiffness(bearing, point, fixed) result(stiffness)
     class(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point !! whose load counts
-    logical, intent(in) :: held                     !! the shaft is fixed
+    logical, intent(in) :: fixed                     !! the shaft is fixed
     real(wp) :: stiffness
-    stiffness = merge(bearing%force_scale(point)/bearing%pad(1)%film%clearance, 0.0_wp, held)
+    stiffness = merge(bearing%force_scale(point)/bearing%pad(1)%film%clearance, 0.0_wp, fixed)
   end function hold_stiffness
 
   !> Residual of all equations at the present operating point.
@@ -197,7 +197,7 @@ contains
     real(wp), intent(inout) :: value(:) !! of (e_x, e_y), in SI
     real(wp) :: force(film_forces)
 
-    if (bearing%held) then
+    if (bearing%shaft_fixed) then
       if (bearing%last_rank) then
         value = (unknown(bearing%first_shaft + 1:) - point%eccentricity)*hold_stiffness(bearing, point, .true.)
       end if
@@ -212,14 +212,14 @@ contains
   subroutine linearise_bearing(self, state)
     class(bearing_system_type), intent(inout) :: self
     Vec, intent(in) :: state !! scaled
-    call self%linearise_at(self%point, self%held, state)
+    call self%linearise_at(self%point, self%shaft_fixed, state)
   end subroutine linearise_bearing
 
   !> Derivative of all equations at an operating point.
-  subroutine linearise_at(self, point, held, state)
+  subroutine linearise_at(self, point, fixed, state)
     class(bearing_system_type), intent(inout) :: self
     type(operating_point_type), intent(in) :: point
-    logical, intent(in) :: held !! the shaft is fixed
+    logical, intent(in) :: fixed !! the shaft is fixed
     Vec, intent(in) :: state    !! scaled
 
     real(wp) :: unknown(self%local_size()), gap(self%film_nodes())
@@ -238,11 +238,11 @@ contains
     do i = 1, size(self%pad)
       associate (pad => self%pad(i))
         call fill_pad(pad, self%position(unknown, point), unknown(pad%first + 1:pad%last), &
-                      gap(pad%first_node + 1:pad%last_node), shaft_number(self), held, self%events, self%jacobian)
+                      gap(pad%first_node + 1:pad%last_node), shaft_number(self), fixed, self%events, self%jacobian)
       end associate
     end do
     if (self%floats .and. self%last_rank) then
-      call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, held), self%jacobian)
+      call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
     end if
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))

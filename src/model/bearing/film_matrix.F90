@@ -58,10 +58,10 @@ contains
   end subroutine add_film_rows
 
   !> Shaft rows: weights of the pressures in the force; zeros keep the pattern where the shaft is fixed.
-  subroutine add_shaft_weights(film, shaft, held, factor, matrix)
+  subroutine add_shaft_weights(film, shaft, fixed, factor, matrix)
     type(gas_film_type), intent(in) :: film
     integer, intent(in) :: shaft   !! local unknowns before e_x, or `no_shaft`
-    logical, intent(in) :: held    !! the shaft is fixed
+    logical, intent(in) :: fixed    !! the shaft is fixed
     real(wp), intent(in) :: factor !! 0: makes room
     Mat, intent(in) :: matrix
 
@@ -74,7 +74,7 @@ contains
     row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
     column = [(int(i - 1, pint), i=1, size(film%force_weight, 2))]
     allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
-    if (.not. held) weight = transpose(film%force_weight(:shaft_unknowns, :))
+    if (.not. fixed) weight = transpose(film%force_weight(:shaft_unknowns, :))
     call add_block(matrix, row, column, factor*weight)
   end subroutine add_shaft_weights
 
@@ -124,7 +124,7 @@ contains
   pure subroutine element_columns(film, foil, shaft, element, row, column)
     type(gas_film_type), intent(in) :: film
     class(foil_model_type), intent(in) :: foil
-    integer, intent(in) :: shaft !! local unknowns before e_x, `no_shaft` where it is held for good
+    integer, intent(in) :: shaft !! local unknowns before e_x, `no_shaft` where it is never an unknown
     integer, intent(in) :: element
     PetscInt, intent(out) :: row(:)    !! (nodes)
     PetscInt, intent(out) :: column(:) !! (2 nodes + shaft)

@@ -1,5 +1,5 @@
-!> The edge of the top foil that nothing holds, and fictitious forces on it: one that lifts it, and
-!> the tension of a string along it that keeps it straight.
+!> The free edge of the top foil, and fictitious forces on it: one that lifts it, and the
+!> tension of a string along it that keeps it straight.
 !>
 !> They lead from one equilibrium of a bearing to others: where both are zero again, the bearing is
 !> in equilibrium by itself.
@@ -17,10 +17,10 @@ module gfb_free_edge
     integer, allocatable :: unknown(:)        !! local unknowns of the bearing that move the nodes
     integer, allocatable :: node(:)           !! of the film, on this rank
     real(wp), allocatable :: share(:)         !! of the solved width that belongs to a node [1]
-    real(wp), allocatable, private :: rate(:) !! way towards the shaft over the unknown [1]
+    real(wp), allocatable, private :: rate(:) !! displacement towards the shaft over the unknown [1]
     real(wp), allocatable, private :: origin(:) !! the unknown's value at rest
     integer, allocatable, private :: neighbours(:, :) !! (2, pairs) unknowns of nodes side by side
-    real(wp), allocatable, private :: pair_rate(:, :) !! (2, pairs) way over the unknown [1]
+    real(wp), allocatable, private :: pair_rate(:, :) !! (2, pairs) the same of these [1]
     real(wp), allocatable, private :: distance(:)     !! (pairs) between them [m]
     real(wp), private :: solved = 1.0_wp      !! part of the width that is solved [1]
   contains
@@ -121,11 +121,11 @@ contains
     end do
   end subroutine add_pull
 
-  !> Adds the forces of springs that hold every node of the edge at a height to the local residual.
+  !> Adds the forces of springs that keep every node of the edge at a height to the local residual.
   pure subroutine add_hold(self, stiffness, height, unknown, residual)
     class(free_edge_type), intent(in) :: self
     real(wp), intent(in) :: stiffness      !! of the whole width [N/m]
-    real(wp), intent(in) :: height         !! above the edge's place at rest [m]
+    real(wp), intent(in) :: height         !! above the edge at rest [m]
     real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
     real(wp), intent(inout) :: residual(:) !! one a local unknown of the bearing
     real(wp) :: lift
@@ -133,9 +133,10 @@ contains
 
     if (.not. stiffness > 0.0_wp) return
     do i = 1, size(self%unknown)
-      associate (place => self%unknown(i), rate => self%rate(i))
-        lift = rate*(unknown(place) - self%origin(i))
-        residual(place) = residual(place) + stiffness*self%solved*self%share(i)*rate*(lift - height)
+      associate (number => self%unknown(i), rate => self%rate(i))
+        lift = rate*(unknown(number) - self%origin(i))
+        residual(number) = residual(number) &
+          + stiffness*self%solved*self%share(i)*rate*(lift - height)
       end associate
     end do
   end subroutine add_hold
@@ -166,29 +167,29 @@ contains
 
     if (.not. abs(tension) > 0.0_wp) return
     do i = 1, size(self%distance)
-      associate (place => self%neighbours(:, i), rate => self%pair_rate(:, i))
-        force = tension*(rate(1)*unknown(place(1)) - rate(2)*unknown(place(2)))/self%distance(i)
-        residual(place) = residual(place) + [force, -force]*rate
+      associate (number => self%neighbours(:, i), rate => self%pair_rate(:, i))
+        force = tension*(rate(1)*unknown(number(1)) - rate(2)*unknown(number(2)))/self%distance(i)
+        residual(number) = residual(number) + [force, -force]*rate
       end associate
     end do
   end subroutine add_tension
 
   !> Derivatives of these forces, for one pair of neighbours, and where they stand.
-  pure subroutine tension_block(self, i, tension, place, block)
+  pure subroutine tension_block(self, i, tension, number, block)
     class(free_edge_type), intent(in) :: self
     integer, intent(in) :: i           !! pair
     real(wp), intent(in) :: tension    !! T [N]
-    integer, intent(out) :: place(2)   !! local unknowns of the bearing
+    integer, intent(out) :: number(2)   !! local unknowns of the bearing
     real(wp), intent(out) :: block(2, 2)
 
-    place = self%neighbours(:, i)
+    number = self%neighbours(:, i)
     associate (rate => self%pair_rate(:, i), stiffness => tension/self%distance(i))
       block(:, 1) = stiffness*[rate(1)*rate(1), -rate(1)*rate(2)]
       block(:, 2) = stiffness*[-rate(1)*rate(2), rate(2)*rate(2)]
     end associate
   end subroutine tension_block
 
-  !> This rank's part of the mean way of the edge towards the shaft [m].
+  !> This rank's part of the mean displacement of the edge towards the shaft [m].
   pure function lift(self, unknown)
     class(free_edge_type), intent(in) :: self
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI

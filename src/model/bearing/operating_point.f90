@@ -11,17 +11,17 @@ module gfb_operating_point
   type, public :: operating_point_type
     real(wp) :: speed = 0.0_wp           !! of the shaft, in +theta [rad/s]
     real(wp) :: load(2) = 0.0_wp         !! external force on the shaft, where it floats [N]
-    real(wp) :: eccentricity(2) = 0.0_wp !! of the sleeve relative to the shaft, where held [m]
+    real(wp) :: eccentricity(2) = 0.0_wp !! of the sleeve relative to the shaft, where fixed [m]
     real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
-    real(wp) :: edge_hold = 0.0_wp       !! fictitious, holds that edge at a height [N/m]
-    real(wp) :: edge_height = 0.0_wp     !! it, above the edge's place at rest [m]
+    real(wp) :: edge_hold = 0.0_wp       !! fictitious, keeps that edge at a height [N/m]
+    real(wp) :: edge_height = 0.0_wp     !! it, above the edge at rest [m]
   end type operating_point_type
 
 contains
 
-  !> The point at a fraction of the straight way from one to another, or on beyond either.
+  !> The point at a fraction of the straight path from one to another, or on beyond either.
   elemental function point_between(first, last, fraction) result(point)
     type(operating_point_type), intent(in) :: first, last
     real(wp), intent(in) :: fraction !! 0 at the first, 1 at the last [1]

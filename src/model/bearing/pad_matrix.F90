@@ -46,21 +46,21 @@ contains
   end subroutine fill_pad_constant
 
   !> Fills in the derivatives of film and foil, and of the pad's force.
-  subroutine fill_pad(pad, point, unknown, gap, shaft, held, events, matrix)
+  subroutine fill_pad(pad, point, unknown, gap, shaft, fixed, events, matrix)
     type(pad_type), intent(in) :: pad
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
     integer, intent(in) :: shaft       !! local unknowns before e_x, or `no_shaft`
-    logical, intent(in) :: held        !! the shaft is fixed
+    logical, intent(in) :: fixed        !! the shaft is fixed
     type(cost_events_type), intent(in) :: events
     Mat, intent(in) :: matrix
     PetscErrorCode :: ierr
 
     PetscCallA(PetscLogEventBegin(events%film, ierr))
     call add_film_rows(pad%film, pad%foil, shaft, pad%mesh%owned, unknown(:size(gap)), gap, point, matrix)
-    call add_shaft_weights(pad%film, shaft, held, 1.0_wp, matrix)
-    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, held, gap, 1.0_wp, matrix)
+    call add_shaft_weights(pad%film, shaft, fixed, 1.0_wp, matrix)
+    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, fixed, gap, 1.0_wp, matrix)
     PetscCallA(PetscLogEventEnd(events%film, ierr))
     PetscCallA(PetscLogEventBegin(events%foil, ierr))
     call pad%foil%add_jacobian(unknown, matrix)

@@ -57,7 +57,7 @@ contains
     after = 0.0_wp
     call bearing%pad(1)%foil%add_residual(loading, after)
     value = value + (after - before)/step
-    if (.not. bearing%floats .or. bearing%held) return
+    if (.not. bearing%floats .or. bearing%shaft_fixed) return
     force = bearing%pad(1)%film%force(bearing%pad(1)%film%ambient_pressure + rate)
     value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(1:2)
   end subroutine add_asperities

@@ -19,12 +19,12 @@ module gfb_solid_rows
 contains
 
   !> Adds their rows of shaft and foil; none where nothing touches.
-  subroutine add_solid_rows(contact, film, foil, shaft, held, gap, factor, matrix)
+  subroutine add_solid_rows(contact, film, foil, shaft, fixed, gap, factor, matrix)
     type(solid_contact_type), intent(in) :: contact
     type(gas_film_type), intent(in) :: film
     class(foil_model_type), intent(in) :: foil
     integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
-    logical, intent(in) :: held     !! the shaft's equations are its position's
+    logical, intent(in) :: fixed     !! the shaft's equations are its position's
     real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
     real(wp), intent(in) :: factor  !! 0: makes room
     Mat, intent(in) :: matrix
@@ -43,16 +43,16 @@ contains
     end if
     slope(2, :) = rate*film%motion(1, :)
     slope(3, :) = rate*film%motion(2, :)
-    if (shaft /= no_shaft) call add_to_shaft(film, shaft, held, column, slope, matrix)
+    if (shaft /= no_shaft) call add_to_shaft(film, shaft, fixed, column, slope, matrix)
     call foil%add_load_rates(column, slope, matrix)
   end subroutine add_solid_rows
 
   !> The shaft's rows: weights of the pressures in the force, times their slopes; zeros keep the
-  !> pattern where the shaft is held.
-  subroutine add_to_shaft(film, shaft, held, column, slope, matrix)
+  !> pattern where the shaft is fixed.
+  subroutine add_to_shaft(film, shaft, fixed, column, slope, matrix)
     type(gas_film_type), intent(in) :: film
     integer, intent(in) :: shaft        !! local unknowns before e_x
-    logical, intent(in) :: held
+    logical, intent(in) :: fixed
     integer, intent(in) :: column(:, :) !! (3, nodes) local numbers, from 0
     real(wp), intent(in) :: slope(:, :) !! (3, nodes) of the pressure by them
     Mat, intent(in) :: matrix
@@ -66,7 +66,7 @@ contains
     row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
     block = 0.0_wp
     do node = 1, size(column, 2)
-      if (.not. held) then
+      if (.not. fixed) then
         do i = 1, shaft_unknowns
           block(:, i) = film%force_weight(i, node)*slope(:, node)
         end do

@@ -52,7 +52,7 @@ contains
       if (load%kind == load_plates) then
         strip%plate = plate_moved
         if (load%maximum_force > 0.0_wp) strip%plate = plate_forced
-        strip%plate_way = load%maximum_displacement
+        strip%plate_displacement = load%maximum_displacement
       end if
       strip%scale%length = typical_deflection(load, foil)
       strip%scale%angle = strip%scale%length/foil%half_length

@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> Equations of a bump strip between the sleeve and what presses on its crests.
 !>
-!> Unknowns: those of the foil, and after them the way of a plate where its force is given.
+!> Unknowns: those of the foil, and after them the displacement of a plate where its force is given.
 !> Displacements are in units of a typical deflection, equations in units of the energy that goes
 !> with it, so that the matrix of a strip without friction stays symmetric.
 module gfb_strip_system
@@ -40,7 +40,7 @@ module gfb_strip_system
     type(contact_set_type) :: contacts
     type(strip_scale_type) :: scale
     integer :: plate = plate_none
-    real(wp) :: plate_way = 0.0_wp          !! of a moved plate at the full load, towards the sleeve [m]
+    real(wp) :: plate_displacement = 0.0_wp          !! of a moved plate at the full load, towards the sleeve [m]
     real(wp) :: factor = 0.0_wp             !! share of the full load that acts
     integer :: unknowns = 0                 !! with the plate's
     real(wp), allocatable :: crest_press(:) !! full normal force of each pressed contact [N]
@@ -292,7 +292,7 @@ contains
     do i = 1, size(self%contacts%point)
       associate (point => self%contacts%point(i))
         if (point%pressed) point%pressing = max(0.0_wp, factor*self%crest_press(i))
-        if (self%plate == plate_moved .and. point%law == contact_top) point%gap = -factor*self%plate_way
+        if (self%plate == plate_moved .and. point%law == contact_top) point%gap = -factor*self%plate_displacement
       end associate
     end do
   end subroutine set_factor
@@ -326,15 +326,15 @@ contains
     PetscCallA(VecPointwiseMult(solution, self%state, self%unit, ierr))
   end subroutine foil_solution
 
-  !> Way of the plate towards the sleeve [m]; zero without one.
-  function plate_travel(self) result(way)
+  !> Displacement of the plate towards the sleeve [m]; zero without one.
+  function plate_travel(self) result(displacement)
     class(strip_system_type), intent(in) :: self
-    real(wp) :: way
+    real(wp) :: displacement
 
-    way = 0.0_wp
-    if (self%plate == plate_moved) way = self%factor*self%plate_way
+    displacement = 0.0_wp
+    if (self%plate == plate_moved) displacement = self%factor*self%plate_displacement
     if (self%plate /= plate_forced) return
-    way = -self%scale%length*sum(self%border%values(self%state))
+    displacement = -self%scale%length*sum(self%border%values(self%state))
   end function plate_travel
 
   !> Energy of the foil's deformation [J].

@@ -4,7 +4,7 @@
 !> Along a tilt \( t \) the bearing's equations are \( f(x, t) = 0 \). So \( f_x x' = -f_t \), and
 !> the torque changes by \( w \cdot p' \), where \( p' \) are the pressures in \( x' \): the weights
 !> \( w \) of [Gu2020] eq. 16 do not depend on the tilt. What the bearing keeps is kept: the shaft's
-!> position where it is held, the load where it floats. Contacts stay on the tangents of their laws.
+!> position where it is fixed, the load where it floats. Contacts stay on the tangents of their laws.
 module gfb_angular_stiffness
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use petscksp
@@ -58,7 +58,7 @@ contains
   end subroutine angular_stiffness
 
   !> The bearing's matrix at its state, without what is lent to contacts that are open: that keeps
-  !> Newton's steps short, but is no derivative. The foils are held at an edge: it is regular.
+  !> Newton's steps short, but is no derivative. The foils are fixed at an edge: it is regular.
   subroutine linearise_exactly(bearing)
     type(bearing_system_type), intent(inout) :: bearing
 

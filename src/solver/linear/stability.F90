@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Whether an equilibrium of the foils is stable while the shaft is held.
+!> Whether an equilibrium of the foils is stable while the shaft is fixed.
 !>
 !> The foil's stiffness with the film eliminated, \( K \), is not symmetric: film and sliding friction
 !> see to that. How many of its eigenvalues are negative is one measure; it weighs displacements and
@@ -100,7 +100,7 @@ contains
     value = 0.0_wp
     associate (foil => bearing%pad(1)%foil)
       do node = 1, size(area)
-        if (foil%source(node) <= foil%first) cycle ! held
+        if (foil%source(node) <= foil%first) cycle ! fixed
         associate (sum => value(foil%source(node)))
           sum = sum + foil%rate(node)**2*area(node)
         end associate
@@ -171,17 +171,17 @@ contains
     Mat, intent(out) :: gather
     PetscInt, parameter :: none = 0, one = 1
     PetscScalar, pointer :: values(:)
-    PetscInt, allocatable :: place(:)
+    PetscInt, allocatable :: number(:)
     PetscInt :: first, last, first_row, last_row, i
     PetscErrorCode :: ierr
 
     PetscCallA(VecGetOwnershipRange(damping, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(damping, values, ierr))
-    place = pack([(i, i=1, last - first)], values(:last - first) > 0.0_wp)
-    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, size(place, kind=pint), last - first, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, none, PETSC_NULL_INTEGER_ARRAY, gather, ierr))
+    number = pack([(i, i=1, last - first)], values(:last - first) > 0.0_wp)
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, size(number, kind=pint), last - first, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, none, PETSC_NULL_INTEGER_ARRAY, gather, ierr))
     PetscCallA(MatGetOwnershipRange(gather, first_row, last_row, ierr))
-    do i = 1, size(place, kind=pint)
-      PetscCallA(MatSetValue(gather, first_row + i - 1, first + place(i) - 1, sqrt(values(place(i))), INSERT_VALUES, ierr))
+    do i = 1, size(number, kind=pint)
+      PetscCallA(MatSetValue(gather, first_row + i - 1, first + number(i) - 1, sqrt(values(number(i))), INSERT_VALUES, ierr))
     end do
     PetscCallA(GFB_VecRestoreArrayRead(damping, values, ierr))
     PetscCallA(MatAssemblyBegin(gather, MAT_FINAL_ASSEMBLY, ierr))

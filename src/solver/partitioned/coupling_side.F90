@@ -29,7 +29,7 @@ module gfb_coupling_side
     Vec, private :: whole, whole_residual !! of the bearing, at a state of the side
     Vec, private :: whole_step
     IS, private :: film_part              !! the pressures among the bearing's unknowns
-    Vec, private :: held                  !! the foil where the film was fixed
+    Vec, private :: kept                  !! the foil where the film was fixed
     Vec, private :: moved, pressure       !! displacement of the foil from there; pressures, scaled
     Mat, private :: yielding              !! pressures by the foil's unknowns, scaled
     Mat, private :: felt, stiffening      !! the foil's equations by the pressures; product of both
@@ -89,7 +89,7 @@ contains
 
     PetscCallA(ISCreateStride(PETSC_COMM_WORLD, behind - first, first, one, side%film_part, ierr))
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, behind - first, PETSC_DETERMINE, side%pressure, ierr))
-    PetscCallA(VecDuplicate(side%state, side%held, ierr))
+    PetscCallA(VecDuplicate(side%state, side%kept, ierr))
     PetscCallA(VecDuplicate(side%state, side%moved, ierr))
     PetscCallA(VecGetLocalSize(side%state, unknowns, ierr))
     PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, behind - first, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, one, PETSC_NULL_INTEGER_ARRAY, side%yielding, ierr))
@@ -108,7 +108,7 @@ contains
 
     call self%bearing%get_unknowns(unknown)
     gap = self%bearing%gap(unknown)
-    PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%held, ierr))
+    PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%kept, ierr))
     associate (mesh => self%bearing%pad(1)%mesh, foil => self%bearing%pad(1)%foil, film => self%bearing%pad(1)%film)
       do node = 1, size(gap)
         source = foil%source(node) - foil%first
@@ -147,7 +147,7 @@ contains
     PetscCallA(VecCopy(self%bearing%state, self%whole, ierr))
     PetscCallA(VecISCopy(self%whole, self%part, SCATTER_FORWARD, state, ierr))
     if (.not. self%of_foil) return
-    PetscCallA(VecWAXPY(self%moved, -1.0_wp, self%held, state, ierr))
+    PetscCallA(VecWAXPY(self%moved, -1.0_wp, self%kept, state, ierr))
     PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_REVERSE, self%pressure, ierr))
     PetscCallA(MatMultAdd(self%yielding, self%moved, self%pressure, self%pressure, ierr))
     PetscCallA(VecISCopy(self%whole, self%film_part, SCATTER_FORWARD, self%pressure, ierr))
@@ -247,7 +247,7 @@ contains
     PetscCallA(MatDestroy(self%jacobian, ierr))
     if (.not. self%of_foil) return
     PetscCallA(ISDestroy(self%film_part, ierr))
-    PetscCallA(VecDestroy(self%held, ierr))
+    PetscCallA(VecDestroy(self%kept, ierr))
     PetscCallA(VecDestroy(self%moved, ierr))
     PetscCallA(VecDestroy(self%pressure, ierr))
     PetscCallA(MatDestroy(self%yielding, ierr))

@@ -9,7 +9,7 @@ module gfb_arc
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
-  use gfb_bordered_system, only: path_system_type, create_path_system, destroy_path_system
+  use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
   implicit none (type)
   private
   public :: create_arc, end_arc
@@ -19,17 +19,17 @@ module gfb_arc
   real(wp), parameter, public :: longest_step = 0.05_wp
   real(wp), parameter, public :: least_start = 5.0e-4_wp   !! to which a step after a very short one is lengthened
   real(wp), parameter, public :: cut = 0.3_wp              !! of a step that failed
-  real(wp), parameter, public :: place_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
+  real(wp), parameter, public :: lambda_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
   integer, parameter, public :: hasty_iterations = 12      !! more are not given to a step
   real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
   integer, parameter :: most_retreats = 6          !! before one, for shorter steps
 
   !> A branch and the last answer on it. Keep it where it is.
   type, public :: arc_type
-    type(path_system_type) :: path
+    type(bordered_system_type) :: path
     type(newton_type) :: newton
-    real(wp) :: place = 0.0_wp        !! lambda of the last answer
-    real(wp) :: place_before = 0.0_wp !! of the one before
+    real(wp) :: lambda = 0.0_wp        !! lambda of the last answer
+    real(wp) :: lambda_before = 0.0_wp !! of the one before
     integer :: steps = 0
     integer :: orientation = 0 !! sign of the determinant with the tangent in its sense
     real(wp) :: heading = 1.0_wp      !! sign of the last change of lambda
@@ -39,10 +39,10 @@ module gfb_arc
     Vec :: tangent                    !! at the last answer, of length one
     real(wp) :: next_change = 0.0_wp !! on the tangent, where a contact opens or closes
     real(wp) :: distance = 0.0_wp     !! of that contact from it, over the clearance [1]
-    real(wp) :: last_way = least_start !! length of the last step
+    real(wp) :: last_length = least_start !! length of the last step
     logical :: closes = .false.
     Vec :: coming            !! direction in which it comes on
-    real(wp) :: place_earlier = 0.0_wp !! lambda of the answer before those two
+    real(wp) :: lambda_earlier = 0.0_wp !! lambda of the answer before those two
     real(wp) :: earlier_step = 0.0_wp !! its length
     integer :: retreats = 0           !! before the fold ahead
     real(wp) :: step_limit = longest_step !! until that is passed
@@ -70,7 +70,7 @@ contains
     PetscErrorCode :: ierr
 
     arc%bearing => bearing
-    call create_path_system(bearing, last, arc%path)
+    call create_bordered_system(bearing, last, arc%path)
     call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
     arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
     PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
@@ -85,50 +85,50 @@ contains
   !> Puts the bearing between the last two answers.
   subroutine between(self, share)
     class(arc_type), intent(inout) :: self
-    real(wp), intent(in) :: share !! of the way from the one before the last to the last [1]
-    real(wp) :: place
+    real(wp), intent(in) :: share !! of the path from the one before the last to the last [1]
+    real(wp) :: lambda
     PetscErrorCode :: ierr
 
     PetscCallA(VecCopy(self%path%state, self%work, ierr))
     PetscCallA(VecAXPBY(self%path%state, 1.0_wp - share, share, self%previous, ierr))
-    place = self%path%give()
+    lambda = self%path%give()
     PetscCallA(VecCopy(self%work, self%path%state, ierr))
   end subroutine between
 
   !> Puts the bearing back to the last answer.
   subroutine return_to(self)
     class(arc_type), intent(inout) :: self
-    real(wp) :: place
-    place = self%path%give()
+    real(wp) :: lambda
+    lambda = self%path%give()
   end subroutine return_to
 
-  !> Puts the bearing where the place has just turned: at the answer before the last, or where a contact
-  !> changed since then, if the place went farther there.
+  !> Puts the bearing where lambda has just turned: at the answer before the last, or where a contact
+  !> changed since then, if lambda went farther there.
   subroutine to_turn(self)
     class(arc_type), target, intent(inout) :: self
     type(newton_report_type) :: solved
-    real(wp) :: place
+    real(wp) :: lambda
     PetscErrorCode :: ierr
 
     PetscCallA(VecCopy(self%path%state, self%earlier, ierr))
     PetscCallA(VecCopy(self%previous, self%path%base, ierr))
     PetscCallA(VecCopy(self%previous, self%path%state, ierr))
-    if (self%next_change <= self%last_way) then
+    if (self%next_change <= self%last_length) then
       PetscCallA(VecCopy(self%coming, self%path%direction, ierr))
       self%path%step = self%distance
       call solve_newton(self%newton, solved)
-      place = self%path%place(self%path%state)
-      if (solved%converged .and. self%heading*(place - self%place_before) < 0.0_wp) then
-        self%place_before = place
+      lambda = self%path%lambda_of(self%path%state)
+      if (solved%converged .and. self%heading*(lambda - self%lambda_before) < 0.0_wp) then
+        self%lambda_before = lambda
       else
         PetscCallA(VecCopy(self%previous, self%path%state, ierr))
       end if
     end if
-    place = self%path%give()
+    lambda = self%path%give()
     PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
   end subroutine to_turn
 
-  !> Where the place has just turned: goes back behind the turn to pass it in shorter steps, unless
+  !> Where lambda has just turned: goes back behind the turn to pass it in shorter steps, unless
   !> they are short already. Without that the turn is at `place_before`, to about the last step.
   subroutine nears_fold(self, again)
     class(arc_type), intent(inout) :: self
@@ -136,7 +136,7 @@ contains
     PetscErrorCode :: ierr
 
     again = self%turned .and. self%retreats < most_retreats .and. &
-      max(abs(self%place - self%place_before), abs(self%place_before - self%place_earlier)) > sharp_fold
+      max(abs(self%lambda - self%lambda_before), abs(self%lambda_before - self%lambda_earlier)) > sharp_fold
     if (.not. again) then
       self%retreats = 0
       self%step_limit = longest_step
@@ -145,16 +145,16 @@ contains
     self%retreats = self%retreats + 1
     PetscCallA(VecCopy(self%earlier, self%path%state, ierr))
     PetscCallA(VecCopy(self%earlier_tangent, self%tangent, ierr))
-    self%step = max(shortest_step, cut*min(self%step_limit, self%earlier_step, self%last_way))
+    self%step = max(shortest_step, cut*min(self%step_limit, self%earlier_step, self%last_length))
     self%step_limit = self%step
-    self%place = self%place_earlier
-    self%heading = sign(1.0_wp, self%place_before - self%place_earlier)
-    self%place_before = self%place_earlier
+    self%lambda = self%lambda_earlier
+    self%heading = sign(1.0_wp, self%lambda_before - self%lambda_earlier)
+    self%lambda_before = self%lambda_earlier
     self%turned = .false.
     call self%return_to()
   end subroutine nears_fold
 
-  !> Length of the way from the base to the state.
+  !> Length of the path from the base to the state.
   function path_length(self) result(length)
     class(arc_type), intent(inout) :: self
     real(wp) :: length
@@ -184,13 +184,13 @@ contains
     class(arc_type), intent(in) :: self
     Vec, intent(in) :: vector
     Vec, intent(in) :: weighted
-    real(wp) :: place
+    real(wp) :: lambda
     PetscErrorCode :: ierr
 
-    place = self%path%place(vector)
+    lambda = self%path%lambda_of(vector)
     PetscCallA(VecCopy(vector, weighted, ierr))
     PetscCallA(VecScale(weighted, 1.0_wp/real(self%bearing%unknowns, wp), ierr))
-    call self%path%set_place(weighted, place_weight*place)
+    call self%path%set_lambda(weighted, lambda_weight*lambda)
   end subroutine weigh
 
   !> Frees what PETSc holds; adds what was spent to the bearing's own Newton method.
@@ -202,7 +202,7 @@ contains
     newton%iterations = newton%iterations + arc%newton%iterations
     newton%factorizations = newton%factorizations + arc%newton%factorizations
     call destroy_newton(arc%newton)
-    call destroy_path_system(arc%path)
+    call destroy_bordered_system(arc%path)
     PetscCallA(VecDestroy(arc%tangent, ierr))
     PetscCallA(VecDestroy(arc%work, ierr))
     PetscCallA(VecDestroy(arc%coming, ierr))

@@ -14,7 +14,7 @@ module gfb_arc_length
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: contact_direction
   use gfb_newton, only: newton_type, newton_report_type, solve_newton, find_determinant_sign, solve_with_factors
-  use gfb_arc, only: arc_type, create_arc, first_step, shortest_step, longest_step, least_start, cut, place_weight, &
+  use gfb_arc, only: arc_type, create_arc, first_step, shortest_step, longest_step, least_start, cut, lambda_weight, &
                      hasty_iterations
   implicit none (type)
   private
@@ -27,7 +27,7 @@ module gfb_arc_length
   integer, parameter :: corner_attempts = 4
   real(wp), parameter :: longest_leap = 5.0_wp     !! round a corner, over the last step
   real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
-  real(wp), parameter :: short_of_it = 0.9_wp      !! of the way to a change of contact
+  real(wp), parameter :: short_of_it = 0.9_wp      !! of the distance to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
   integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
@@ -56,13 +56,13 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecSet(arc%tangent, 0.0_wp, ierr))
-    call arc%path%set_place(arc%tangent, sense/sqrt(place_weight))
+    call arc%path%set_lambda(arc%tangent, sense/sqrt(lambda_weight))
     arc%orientation = 0
     call find_tangent(arc)
     arc%step = first_step
     arc%steps = 0
-    arc%place = 0.0_wp
-    arc%place_before = 0.0_wp
+    arc%lambda = 0.0_wp
+    arc%lambda_before = 0.0_wp
   end subroutine start_along_path
 
   !> The branch's direction at the last answer, of length one, in the sense in which it is followed:
@@ -78,7 +78,7 @@ contains
     if (sense == 0) return
     if (arc%orientation == 0) arc%orientation = sense
     PetscCallA(VecSet(arc%work, 0.0_wp, ierr))
-    call arc%path%set_place(arc%work, 1.0_wp)
+    call arc%path%set_lambda(arc%work, 1.0_wp)
     call solve_with_factors(arc%newton, arc%work, arc%tangent)
     length = arc%length_of(arc%tangent)
     PetscCallA(VecScale(arc%tangent, real(sense*arc%orientation, wp)/length, ierr))
@@ -88,7 +88,7 @@ contains
   subroutine advance_arc(arc, moved)
     type(arc_type), target, intent(inout) :: arc
     logical, intent(out) :: moved
-    real(wp) :: length, place
+    real(wp) :: length, lambda
     logical :: easy
     PetscErrorCode :: ierr
 
@@ -105,16 +105,16 @@ contains
     if (.not. moved) call turn_corner(arc, moved)
     if (.not. moved) then
       PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
-      place = arc%path%give()
+      lambda = arc%path%give()
       return
     end if
-    place = arc%path%give()
-    arc%turned = arc%steps > 0 .and. arc%heading*(place - arc%place) < 0.0_wp
-    arc%heading = sign(1.0_wp, place - arc%place)
-    arc%place_before = arc%place
-    arc%place = place
+    lambda = arc%path%give()
+    arc%turned = arc%steps > 0 .and. arc%heading*(lambda - arc%lambda) < 0.0_wp
+    arc%heading = sign(1.0_wp, lambda - arc%lambda)
+    arc%lambda_before = arc%lambda
+    arc%lambda = lambda
     length = arc%path_length()
-    arc%last_way = length
+    arc%last_length = length
     call find_tangent(arc)
     arc%step = min(arc%step_limit, max(least_start, length))
     if (easy) arc%step = min(arc%step_limit, growth*arc%step)
@@ -130,8 +130,8 @@ contains
     PetscCallA(VecCopy(arc%previous_tangent, arc%earlier_tangent, ierr))
     PetscCallA(VecCopy(arc%path%state, arc%previous, ierr))
     PetscCallA(VecCopy(arc%tangent, arc%previous_tangent, ierr))
-    arc%place_earlier = arc%place_before
-    arc%earlier_step = arc%last_way
+    arc%lambda_earlier = arc%lambda_before
+    arc%earlier_step = arc%last_length
   end subroutine remember
 
   !> A step along the tangent.
@@ -155,7 +155,7 @@ contains
   subroutine find_next_change(arc)
     type(arc_type), intent(inout) :: arc
     Vec :: ahead, along
-    real(wp) :: place
+    real(wp) :: lambda
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(arc%bearing%state, ahead, ierr))
@@ -163,7 +163,7 @@ contains
     PetscCallA(VecWAXPY(arc%work, 1.0_wp, arc%tangent, arc%path%base, ierr))
     call arc%path%split(arc%work, ahead)
     PetscCallA(VecCopy(arc%path%base, arc%path%state, ierr))
-    place = arc%path%give()
+    lambda = arc%path%give()
     call contact_direction(arc%bearing, ahead, along, arc%next_change, arc%distance, arc%closes)
     call arc%path%join(along, 0.0_wp, arc%coming)
     PetscCallA(VecDestroy(along, ierr))
@@ -210,7 +210,7 @@ contains
   function stays_near(arc) result(near_by)
     type(arc_type), intent(inout) :: arc
     logical :: near_by
-    near_by = arc%path_length() <= min(longest_step, longest_leap*max(arc%last_way, least_start))
+    near_by = arc%path_length() <= min(longest_step, longest_leap*max(arc%last_length, least_start))
   end function stays_near
 
 end module gfb_arc_length

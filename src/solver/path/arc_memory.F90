@@ -16,12 +16,12 @@ contains
     type(memory_type), intent(inout) :: memory
     type(arc_type), intent(inout) :: arc !! written where the memory unpacks
 
-    call memory%visit('place', arc%place)
-    call memory%visit('place_before', arc%place_before)
-    call memory%visit('place_earlier', arc%place_earlier)
+    call memory%visit('lambda', arc%lambda)
+    call memory%visit('lambda_before', arc%lambda_before)
+    call memory%visit('lambda_earlier', arc%lambda_earlier)
     call memory%visit('heading', arc%heading)
     call memory%visit('step', arc%step)
-    call memory%visit('last_way', arc%last_way)
+    call memory%visit('last_length', arc%last_length)
     call memory%visit('earlier_step', arc%earlier_step)
     call memory%visit('step_limit', arc%step_limit)
     call memory%visit('orientation', arc%orientation)

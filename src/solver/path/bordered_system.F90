@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> A bearing along a path of operating points, with the place on the path as one more unknown.
+!> A bearing along a path of operating points, with the path's parameter as one more unknown.
 !>
 !> The bearing's equations are \( f(x, \lambda) = 0 \), where \( \lambda \) goes from 0 at the path's
 !> first point to 1 at its last. A step of length \( s \) from an answer \( x_0 \) asks for
@@ -16,19 +16,19 @@ module gfb_bordered_system
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
-  public :: create_path_system, destroy_path_system
+  public :: create_bordered_system, destroy_bordered_system
 
   real(wp), parameter :: shift = 1.0e-4_wp !! of lambda for its derivative; exact where f is linear in it
 
-  !> The bearing and its place on the path. It is handed to SNES by address: keep it where it is.
-  type, extends(nonlinear_system_type), public :: path_system_type
+  !> The bearing and the path's parameter. It is handed to SNES by address: keep it where it is.
+  type, extends(nonlinear_system_type), public :: bordered_system_type
     type(operating_point_type) :: first, last !! of the path
     real(wp) :: step = 0.0_wp                 !! s
     Vec :: base                               !! x_0, with its lambda
     Vec :: direction                          !! t, with 0 for lambda
     type(bearing_system_type), pointer, private :: bearing => null()
     Vec, private :: inner                     !! like the bearing's state
-    Vec, private :: low, high                 !! its residuals beside a place
+    Vec, private :: low, high                 !! its residuals beside a lambda
     type(border_type), private :: border      !! lambda
     logical, private :: created = .false.
   contains
@@ -37,22 +37,22 @@ module gfb_bordered_system
     procedure :: settle => settle_path
     procedure :: begin_step => begin_path_step
     procedure :: virtual_work => path_work
-    procedure :: place
-    procedure :: set_place
+    procedure :: lambda_of
+    procedure :: set_lambda
     procedure :: join
     procedure :: split
     procedure :: give
     procedure, private :: point_at
-  end type path_system_type
+  end type bordered_system_type
 
 contains
 
   !> Sets the path up from the bearing's present point, at its present state. The bearing's matrix
   !> must have been filled before.
-  subroutine create_path_system(bearing, last, path)
+  subroutine create_bordered_system(bearing, last, path)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(operating_point_type), intent(in) :: last
-    type(path_system_type), intent(inout) :: path
+    type(bordered_system_type), intent(inout) :: path
     PetscInt :: owned
     PetscErrorCode :: ierr
 
@@ -71,11 +71,11 @@ contains
     call create_bordered_matrix(path)
     call path%join(bearing%state, 0.0_wp, path%state)
     path%created = .true.
-  end subroutine create_path_system
+  end subroutine create_bordered_system
 
   !> The bearing's matrix with room for one more row and column, both full.
   subroutine create_bordered_matrix(path)
-    type(path_system_type), intent(inout) :: path
+    type(bordered_system_type), intent(inout) :: path
     PetscInt :: first, last, row
     PetscInt, allocatable :: room(:)
     PetscErrorCode :: ierr
@@ -89,8 +89,8 @@ contains
   end subroutine create_bordered_matrix
 
   !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
-  function place(self, state) result(lambda)
-    class(path_system_type), intent(in) :: self
+  function lambda_of(self, state) result(lambda)
+    class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: state
     real(wp) :: lambda
     real(wp) :: value(1)
@@ -98,19 +98,19 @@ contains
     call self%border%split(state, self%inner)
     value = self%border%values(state)
     lambda = value(1)
-  end function place
+  end function lambda_of
 
   !> Sets a state's lambda.
-  subroutine set_place(self, state, lambda)
-    class(path_system_type), intent(in) :: self
+  subroutine set_lambda(self, state, lambda)
+    class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: state
     real(wp), intent(in) :: lambda
     call self%border%set_values([lambda], state)
-  end subroutine set_place
+  end subroutine set_lambda
 
-  !> The operating point at a place on the path.
+  !> The operating point at a parameter of the path.
   pure function point_at(self, lambda) result(point)
-    class(path_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self
     real(wp), intent(in) :: lambda
     type(operating_point_type) :: point
     point = point_between(self%first, self%last, lambda)
@@ -118,7 +118,7 @@ contains
 
   !> Puts a vector of the bearing and a value for lambda together.
   subroutine join(self, inner, lambda, whole)
-    class(path_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: inner
     real(wp), intent(in) :: lambda
     Vec, intent(in) :: whole
@@ -127,33 +127,33 @@ contains
 
   !> The bearing's part of a vector.
   subroutine split(self, whole, inner)
-    class(path_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: whole !! with lambda
     Vec, intent(in) :: inner !! without
     call self%border%split(whole, inner)
   end subroutine split
 
-  !> Gives the present state to the bearing, and puts it at its place; returns lambda.
+  !> Gives the present state to the bearing, and its operating point; returns lambda.
   function give(self) result(lambda)
-    class(path_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self
     real(wp) :: lambda
     PetscErrorCode :: ierr
 
-    lambda = self%place(self%state)
+    lambda = self%lambda_of(self%state)
     PetscCallA(VecCopy(self%inner, self%bearing%state, ierr))
     self%bearing%point = self%point_at(lambda)
   end function give
 
   !> Residual of the bearing and of the step's length.
   subroutine evaluate_path(self, state, residual, valid)
-    class(path_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self
     Vec, intent(in) :: state
     Vec, intent(in) :: residual
     logical, intent(out) :: valid
     real(wp) :: lambda, along, along_base
     PetscErrorCode :: ierr
 
-    lambda = self%place(state)
+    lambda = self%lambda_of(state)
     call self%bearing%evaluate_at(self%point_at(lambda), self%inner, self%low, valid)
     PetscCallA(VecDot(self%direction, state, along, ierr))
     PetscCallA(VecDot(self%direction, self%base, along_base, ierr))
@@ -162,7 +162,7 @@ contains
 
   !> The bearing's matrix, bordered by the derivatives after lambda and by the direction.
   subroutine linearise_path(self, state)
-    class(path_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self
     Vec, intent(in) :: state
     real(wp) :: lambda
     logical :: valid
@@ -172,8 +172,8 @@ contains
     PetscScalar, allocatable :: value(:)
     PetscErrorCode :: ierr
 
-    lambda = self%place(state)
-    call self%bearing%linearise_at(self%point_at(lambda), self%bearing%held, self%inner)
+    lambda = self%lambda_of(state)
+    call self%bearing%linearise_at(self%point_at(lambda), self%bearing%shaft_fixed, self%inner)
     call self%bearing%evaluate_at(self%point_at(lambda + shift), self%inner, self%high, valid)
     call self%bearing%evaluate_at(self%point_at(lambda - shift), self%inner, self%low, valid)
     PetscCallA(VecAXPBY(self%high, -0.5_wp/shift, 0.5_wp/shift, self%low, ierr))
@@ -194,33 +194,33 @@ contains
 
   !> Moves the contacts to where the foils have gone.
   subroutine settle_path(self, state, moved)
-    class(path_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self
     Vec, intent(in) :: state
     logical, intent(out) :: moved
     real(wp) :: lambda
 
-    lambda = self%place(state)
+    lambda = self%lambda_of(state)
     call self%bearing%settle(self%inner, moved)
     self%settled = self%bearing%settled
   end subroutine settle_path
 
   !> A new Newton step begins where the contacts are.
   subroutine begin_path_step(self)
-    class(path_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self
     call self%bearing%begin_step()
   end subroutine begin_path_step
 
   !> Work of the residual forces on the foil along a step, scaled.
   function path_work(self, residual, step) result(work)
-    class(path_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: residual, step
     real(wp) :: work
     work = self%bearing%virtual_work(residual, step)
   end function path_work
 
   !> Frees what PETSc holds; may be called twice.
-  subroutine destroy_path_system(path)
-    type(path_system_type), intent(inout) :: path
+  subroutine destroy_bordered_system(path)
+    type(bordered_system_type), intent(inout) :: path
     PetscErrorCode :: ierr
 
     if (.not. path%created) return
@@ -232,5 +232,5 @@ contains
     PetscCallA(VecDestroy(path%base, ierr))
     PetscCallA(VecDestroy(path%state, ierr))
     path%created = .false.
-  end subroutine destroy_path_system
+  end subroutine destroy_bordered_system
 end module gfb_bordered_system

@@ -22,7 +22,7 @@ module gfb_continuation
   !> Limits of a path.
   type, public :: path_settings_type
     integer :: maximum_steps = 200
-    real(wp) :: smallest_step = 1.0e-4_wp !! share of the way [1]
+    real(wp) :: smallest_step = 1.0e-4_wp !! share of the path [1]
     real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
     logical :: look_for_folds = .true.    !! beyond the end of a path
   end type path_settings_type
@@ -33,11 +33,11 @@ module gfb_continuation
     logical :: touched = .false.              !! the shaft came too near
     character(len=:), allocatable :: reason   !! in words
     type(operating_point_type) :: reached     !! the last point with an answer
-    real(wp) :: fraction = 0.0_wp             !! of the way that was gone [1]
+    real(wp) :: fraction = 0.0_wp             !! of the path that was gone [1]
     integer :: steps = 0
     integer :: cuts = 0                       !! steps that had to be shortened
     logical :: folded = .false.               !! the branch of answers turns back
-    logical :: held = .false.                 !! the shaft was still held
+    logical :: shaft_fixed = .false.          !! the shaft was still fixed
   end type path_report_type
 
 contains
@@ -50,7 +50,7 @@ contains
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: target
-    real(wp), intent(in) :: first_step !! share of the way to try first [1]
+    real(wp), intent(in) :: first_step !! share of the path to try first [1]
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
 
@@ -66,7 +66,7 @@ contains
     PetscCallA(VecCopy(bearing%state, here, ierr))
     start = bearing%point
     report%reached = start
-    ! A way that is long against its beginning needs steps that are small against the way.
+    ! A path that is long against its beginning needs steps that are small against the path.
     smallest = min(settings%smallest_step, shortest_first*first_step)
     step = min(1.0_wp, max(first_step, smallest))
     at_before = -1.0_wp
@@ -147,8 +147,8 @@ contains
     end if
   end subroutine find_end
 
-  !> Newton's method, which gives up early where a shorter step can be tried: a step that will come
-  !> home does so soon.
+  !> Newton's method, which gives up early where a shorter step can be tried: a step that
+  !> converges does so soon.
   subroutine try_step(newton, may_be_cut, solved)
     type(newton_type), target, intent(inout) :: newton
     logical, intent(in) :: may_be_cut

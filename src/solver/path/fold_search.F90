@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Looks beyond the place where a path of operating points stops.
+!> Looks beyond the point where a path of operating points stops.
 !>
 !> There the free edge of the top foil is moved on instead, and the operating point on the path is
 !> what follows from it. Where the point turns back, the branch of answers folds: with a foil that
@@ -11,7 +11,7 @@ module gfb_fold_search
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: edge_direction
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
-  use gfb_bordered_system, only: path_system_type, create_path_system, destroy_path_system
+  use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
   implicit none (type)
   private
   public :: look_beyond
@@ -22,8 +22,8 @@ module gfb_fold_search
 
   real(wp), parameter :: first_move = 1.0e-3_wp    !! of the edge, over the clearance [1]
   real(wp), parameter :: shortest_move = 1.0e-9_wp
-  real(wp), parameter :: longest_way = 0.02_wp     !! of any unknown in a move; beyond, it is another branch
-  real(wp), parameter :: closest_way = 2.0e-3_wp   !! of any unknown, that tells where a fold lies
+  real(wp), parameter :: longest_change = 0.02_wp     !! of any unknown in a move; beyond, it is another branch
+  real(wp), parameter :: closest_change = 2.0e-3_wp   !! of any unknown, that tells where a fold lies
   integer, parameter :: most_moves = 40
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
 
@@ -39,17 +39,17 @@ contains
     type(operating_point_type), intent(in) :: target   !! end of the path
     Vec, intent(in) :: before                !! the answer before the present one
     logical, intent(in) :: known             !! there is one
-    real(wp), intent(in) :: wanted           !! share of the way from here to the target [1]
+    real(wp), intent(in) :: wanted           !! share of the path from here to the target [1]
     integer, intent(out) :: outcome
-    real(wp), intent(out) :: ahead           !! share of that way that was gone [1]
+    real(wp), intent(out) :: ahead           !! share of that path that was gone [1]
 
-    type(path_system_type), target :: path
+    type(bordered_system_type), target :: path
     type(newton_type), target :: mover
     Vec :: farthest
     PetscErrorCode :: ierr
 
     ahead = 0.0_wp
-    call create_path_system(bearing, target, path)
+    call create_bordered_system(bearing, target, path)
     call aim_at_edge(bearing, path, before, known)
     call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
@@ -66,19 +66,19 @@ contains
     newton%factorizations = newton%factorizations + mover%factorizations
     PetscCallA(VecDestroy(farthest, ierr))
     call destroy_newton(mover)
-    call destroy_path_system(path)
+    call destroy_bordered_system(path)
   end subroutine look_beyond
 
   !> Moves the edge in one sense.
   subroutine move_edge(path, mover, wanted, farthest, outcome, ahead)
-    type(path_system_type), intent(inout) :: path
+    type(bordered_system_type), intent(inout) :: path
     type(newton_type), target, intent(inout) :: mover
-    real(wp), intent(in) :: wanted   !! share of the way [1]
+    real(wp), intent(in) :: wanted   !! share of the path [1]
     Vec, intent(in) :: farthest      !! answer that lies farthest ahead
     integer, intent(out) :: outcome
-    real(wp), intent(inout) :: ahead !! its share of the way [1]
+    real(wp), intent(inout) :: ahead !! its share of the path [1]
     type(newton_report_type) :: solved
-    real(wp) :: move, place, way
+    real(wp) :: move, lambda, change
     integer :: moves
     PetscErrorCode :: ierr
 
@@ -91,18 +91,18 @@ contains
       PetscCallA(VecCopy(farthest, path%state, ierr))
       path%step = move
       call solve_newton(mover, solved)
-      place = path%place(path%state)
+      lambda = path%lambda_of(path%state)
       PetscCallA(VecAXPY(path%base, -1.0_wp, path%state, ierr))
-      PetscCallA(VecNorm(path%base, NORM_INFINITY, way, ierr))
-      if (.not. solved%converged .or. way > longest_way) then
+      PetscCallA(VecNorm(path%base, NORM_INFINITY, change, ierr))
+      if (.not. solved%converged .or. change > longest_change) then
         move = 0.1_wp*move
-      else if (place > ahead) then
-        ahead = place
+      else if (lambda > ahead) then
+        ahead = lambda
         PetscCallA(VecCopy(path%state, farthest, ierr))
         if (ahead >= wanted) outcome = branch_goes_on
         if (solved%iterations <= easy_iterations) move = 2.0_wp*move
       else
-        if (way <= closest_way) outcome = branch_folds
+        if (change <= closest_change) outcome = branch_folds
         move = 0.25_wp*move
       end if
     end do
@@ -112,7 +112,7 @@ contains
   !> in the sense in which it was moving.
   subroutine aim_at_edge(bearing, path, before, known)
     type(bearing_system_type), intent(inout) :: bearing
-    type(path_system_type), intent(inout) :: path
+    type(bordered_system_type), intent(inout) :: path
     Vec, intent(in) :: before
     logical, intent(in) :: known
     Vec :: edge

@@ -12,7 +12,7 @@ module gfb_fold_way
   type, public :: fold_way_type
     type(arc_type) :: arc
     type(operating_point_type) :: first, last !! of the sweep
-    real(wp), allocatable :: place(:)         !! of the sweep's values between them [1]
+    real(wp), allocatable :: lambda(:)        !! of the sweep's values between them [1]
     integer :: kept = 1                       !! value whose answer was kept last
     real(wp) :: kept_heading = 1.0_wp         !! and in which sense it was passed
   end type fold_way_type

@@ -136,7 +136,7 @@ contains
       if (modulo(arc%steps, steps_a_line) == 0) call newton%log%line('  '//text(arc%steps)// &
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
-      if (.not. moved .or. arc%steps == 1 .or. arc%place*arc%place_before > 0.0_wp) cycle
+      if (.not. moved .or. arc%steps == 1 .or. arc%lambda*arc%lambda_before > 0.0_wp) cycle
       if (.not. is_worth_it(search, lift, bearing%pad(1)%film%clearance)) cycle
       call find_equilibrium(arc, bearing, newton, point, free, here)
       if (here) call search%collect(bearing, newton)
@@ -164,7 +164,7 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point, free !! without the force; without the string
     logical, intent(out) :: here
-    call arc%between(arc%place_before/(arc%place_before - arc%place))
+    call arc%between(arc%lambda_before/(arc%lambda_before - arc%lambda))
     call solve_there(bearing, newton, point, here)
     if (here .and. abs(point%edge_tension) > 0.0_wp) call release_string(bearing, newton, free, here)
   end subroutine find_equilibrium
@@ -202,12 +202,12 @@ contains
 
     call begin_arc(bearing, newton, point, 1.0_wp, arc)
     moved = .true.
-    do while (moved .and. arc%place < 1.0_wp .and. arc%place >= 0.0_wp .and. arc%steps < most_release_steps)
+    do while (moved .and. arc%lambda < 1.0_wp .and. arc%lambda >= 0.0_wp .and. arc%steps < most_release_steps)
       call advance_arc(arc, moved)
     end do
-    here = arc%place >= 1.0_wp
+    here = arc%lambda >= 1.0_wp
     if (here) then
-      call arc%between((1.0_wp - arc%place_before)/(arc%place - arc%place_before))
+      call arc%between((1.0_wp - arc%lambda_before)/(arc%lambda - arc%lambda_before))
       call solve_there(bearing, newton, point, here)
     end if
     call end_arc(arc, newton)

@@ -83,7 +83,7 @@ contains
     if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     call bearing%pad(1)%foil%set_adhesion(0.0_wp)
     real_contacts = .false.
-    if (report%converged .or. .not. report%held) then
+    if (report%converged .or. .not. report%shaft_fixed) then
       call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
     end if
     newton%settings = wanted
@@ -92,7 +92,7 @@ contains
     else if (real_contacts) then
       call follow_path(bearing, newton, target, first_hard_step, settings, report)
     else
-      report%held = .true. ! not a state of this scene
+      report%shaft_fixed = .true. ! not a state of this scene
     end if
     call bearing%pad(1)%foil%set_hardness(1.0_wp)
   end subroutine find_from
@@ -135,7 +135,7 @@ contains
     if (gone >= total .or. .not. report%converged) return
     report%converged = .false.
     report%reason = solved%reason
-    report%held = .true. ! not a state of this scene
+    report%shaft_fixed = .true. ! not a state of this scene
   end subroutine lead_contacts
 
   !> Contacts between soft two-way ones and the scene's, so many decades from where they began.

@@ -10,7 +10,7 @@ module gfb_kept_state
   !> Unknowns, operating point, and whether the shaft is fixed.
   type, public :: kept_state_type
     type(operating_point_type) :: point
-    logical :: held = .false.            !! the shaft is fixed at the point's position
+    logical :: shaft_fixed = .false.            !! the shaft is fixed at the point's position
     Vec, private :: state                !! scaled
     logical, private :: created = .false.
   contains
@@ -33,7 +33,7 @@ contains
     end if
     PetscCallA(VecCopy(bearing%state, self%state, ierr))
     self%point = bearing%point
-    self%held = bearing%held
+    self%shaft_fixed = bearing%shaft_fixed
   end subroutine keep
 
   !> Makes what was kept the bearing's present state again.
@@ -44,7 +44,7 @@ contains
 
     PetscCallA(VecCopy(self%state, bearing%state, ierr))
     bearing%point = self%point
-    bearing%held = self%held
+    bearing%shaft_fixed = self%shaft_fixed
   end subroutine put_back
 
   !> Frees what PETSc holds; may be called without anything kept.

@@ -98,6 +98,6 @@ contains
     wanted = target
     wanted%eccentricity = eccentricity
     call solve_at(bearing, newton, wanted, .true., settings, report)
-    report%held = .true.
+    report%shaft_fixed = .true.
   end subroutine find_by_upwinding
 end module gfb_rigid_start

@@ -119,7 +119,7 @@ contains
     nearest%known = .true.
     nearest%report = report
     call nearest%kept%keep(problem%bearing)
-    nearest%kept%held = report%held .and. problem%bearing%floats
+    nearest%kept%shaft_fixed = report%shaft_fixed .and. problem%bearing%floats
   end subroutine keep_nearest
 
   !> Loads and speeds that are missing, fixed positions last [1].
@@ -130,7 +130,7 @@ contains
 
     distance = norm2(report%reached%load - target%load)/max(norm2(target%load), tiny(1.0_wp)) + &
       abs(report%reached%speed - target%speed)/max(abs(target%speed), tiny(1.0_wp))
-    if (report%held) distance = huge(1.0_wp)
+    if (report%shaft_fixed) distance = huge(1.0_wp)
   end function distance
 
   !> A slower shaft first, by all starts that apply to it, then faster.
@@ -150,7 +150,7 @@ contains
     if (report%converged) then
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, problem%settings, report)
     else
-      report%held = .true. ! not a state of this scene
+      report%shaft_fixed = .true. ! not a state of this scene
     end if
   end subroutine try_half_speed
 

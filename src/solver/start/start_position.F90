@@ -30,7 +30,7 @@ contains
     type(newton_report_type) :: solved
 
     bearing%point = target
-    bearing%held = held
+    bearing%shaft_fixed = held
     call solve_newton(newton, solved)
     report%converged = solved%converged
     if (solved%converged .and. bearing%floats .and. .not. held) then
@@ -61,12 +61,12 @@ contains
     call put_at_rest(bearing, free)
     call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
-    report%held = .true.
+    report%shaft_fixed = .true.
     if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
         norm2(free%tilt - wanted%tilt) > 0.0_wp) then
       call newton%log%detail('to the position asked for')
       call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)
-      report%held = .true.
+      report%shaft_fixed = .true.
     end if
   end subroutine find_position
 
@@ -80,7 +80,7 @@ contains
     real(wp) :: force(film_forces), change
 
     force = bearing%reaction()
-    bearing%held = .false.
+    bearing%shaft_fixed = .false.
     bearing%point%load = force(1:2)
     call newton%log%detail('shaft released, load from the reaction to its target')
     change = norm2(target%load - force(1:2))
@@ -113,7 +113,7 @@ contains
 
     bearing%point = held
     bearing%point%speed = 0.0_wp
-    bearing%held = .true.
+    bearing%shaft_fixed = .true.
     unknown = 0.0_wp
     unknown(:size(bearing%pad(1)%mesh%mesh_node)) = bearing%pad(1)%film%ambient_pressure
     if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity

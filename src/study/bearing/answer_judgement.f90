@@ -38,7 +38,7 @@ contains
         call add_result(list, 'stability_margin', real(stability%nearest, wp))
       end if
     end if
-    if (.not. bearing%floats .or. bearing%held) return
+    if (.not. bearing%floats .or. bearing%shaft_fixed) return
     ! The last of the factors, so that the next solve can begin with them.
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return

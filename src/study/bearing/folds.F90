@@ -54,7 +54,7 @@ contains
       end associate
     end do
     report%reached = sweep%bearing%point
-    report%fraction = branch%arc%place
+    report%fraction = branch%arc%lambda
     call end_arc(branch%arc, sweep%newton)
     if (.not. report%converged) call sweep%stop_short(report, reason)
   end subroutine sweep_round_folds
@@ -71,7 +71,7 @@ contains
     associate (bearing => sweep%bearing, restart => sweep%context%restart, values => sweep%scene%sweep%values)
       branch%first = bearing%point
       branch%last = sweep%target_at(size(values))
-      branch%place = (values - values(1))/(values(size(values)) - values(1))
+      branch%lambda = (values - values(1))/(values(size(values)) - values(1))
       begun = .false.
       if (restart%goes_on) then
         call bearing%linearise(bearing%state) ! an arc needs to know which entries the matrix has
@@ -105,7 +105,7 @@ contains
     gap = sweep%bearing%smallest_gap()
     if (moved .and. gap < sweep%path%touch_down_gap) then
       report%touched = .true.
-      report%reason = 'the shaft touches down at '//value_text(sweep%scene, branch%arc%place)
+      report%reason = 'the shaft touches down at '//value_text(sweep%scene, branch%arc%lambda)
     else if (branch%arc%steps >= most_steps) then
       report%reason = 'more than '//text(most_steps)//' steps along the branch'
     end if
@@ -122,17 +122,17 @@ contains
     logical :: found
     integer :: i, k, values
 
-    values = size(branch%place)
+    values = size(branch%lambda)
     ended = .false.
-    associate (from => branch%arc%place_before, to => branch%arc%place)
+    associate (from => branch%arc%lambda_before, to => branch%arc%lambda)
       do i = 1, values
         k = merge(i, values + 1 - i, to > from)
-        if (.not. passed(from, branch%place(k), to)) cycle
+        if (.not. passed(from, branch%lambda(k), to)) cycle
         if (k == branch%kept .and. branch%arc%heading*branch%kept_heading > 0.0_wp) cycle ! before a retreat
-        call branch%arc%between((branch%place(k) - from)/(to - from))
+        call branch%arc%between((branch%lambda(k) - from)/(to - from))
         call record_value(sweep, k, branch, report, found)
         if (.not. found) return
-        ended = k == values .and. to >= branch%place(k) .or. k == 1 .and. to <= branch%place(k)
+        ended = k == values .and. to >= branch%lambda(k) .or. k == 1 .and. to <= branch%lambda(k)
         if (ended) then
           report%converged = .true.
           if (k == 1) call sweep%context%log%line('the branch has come back to the first value')
@@ -153,11 +153,11 @@ contains
     type(newton_report_type) :: solved
 
     associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
-      bearing%point = point_between(branch%first, branch%last, branch%place(number))
+      bearing%point = point_between(branch%first, branch%last, branch%lambda(number))
       call solve_newton(newton, solved)
       found = solved%converged
       if (.not. found) then
-        report%reason = 'no answer at '//value_text(scene, branch%place(number))//', which the branch passes ('// &
+        report%reason = 'no answer at '//value_text(scene, branch%lambda(number))//', which the branch passes ('// &
           solved%reason//')'
         return
       end if
@@ -166,7 +166,7 @@ contains
       call measure_tilt(scene, scene%sweep%values(number), bearing, newton, record%tilted)
       call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)
       call add_row(scene, bearing, newton, .true., record, scene%sweep%values(number), .false.)
-      call sweep%context%log%line('on the branch: '//value_text(scene, branch%place(number)))
+      call sweep%context%log%line('on the branch: '//value_text(scene, branch%lambda(number)))
     end associate
   end subroutine record_value
 
@@ -178,7 +178,7 @@ contains
     integer :: i
 
     call branch%arc%to_turn()
-    fold = branch%arc%place_before
+    fold = branch%arc%lambda_before
     associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
       call measure_tilt(scene, value_at(scene, fold), bearing, newton, record%tilted)
       call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)

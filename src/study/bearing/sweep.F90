@@ -131,7 +131,7 @@ contains
 
     associate (bearing => self%bearing)
       bearing%point%eccentricity = bearing%eccentricity()
-      bearing%held = .true.
+      bearing%shaft_fixed = .true.
       call self%context%log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
                                  text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
     end associate
@@ -143,7 +143,7 @@ contains
     type(path_report_type), intent(in) :: report !! of the path to the point without an answer
     type(reason_type), intent(out) :: reason     !! why there is none
 
-    call self%explain(report, self%bearing%held, reason)
+    call self%explain(report, self%bearing%shaft_fixed, reason)
     self%record%judged = self%record%judged(:0)
   end subroutine stop_short
 
