@@ -59,7 +59,7 @@ contains
   pure subroutine film_geometry(position, geometry, error)
     real(wp), intent(in) :: position(:, :) !! (2, 4 or 9) node positions (x, z) [m]
     type(film_geometry_type), intent(out) :: geometry
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     real(wp) :: parent(2, size(position, 2)), jacobian(2, 2), inverse(2, 2), det, weight, intervals
     integer :: point

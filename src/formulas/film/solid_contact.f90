@@ -27,7 +27,7 @@ contains
 
   !> Pressure of the asperities [Pa].
   elemental function contact_pressure(contact, gap) result(pressure)
-    type(solid_contact_type), intent(in) :: contact
+    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     real(wp), intent(in) :: gap !! h [m]
     real(wp) :: pressure
 
@@ -37,7 +37,7 @@ contains
 
   !> Its derivative by the gap [Pa/m].
   elemental function contact_pressure_rate(contact, gap) result(rate)
-    type(solid_contact_type), intent(in) :: contact
+    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     real(wp), intent(in) :: gap !! h [m]
     real(wp) :: rate
 

@@ -54,7 +54,7 @@ contains
 
   !> Where each pad's film and foil and the shaft stand among all unknowns.
   subroutine number_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing
+    class(bearing_type), intent(inout) :: bearing !! pads and shaft
     type(block_type) :: block(2*size(bearing%pad))
     integer :: i
 
@@ -72,7 +72,7 @@ contains
 
   !> Sizes of the unknowns.
   subroutine scale_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing
+    class(bearing_type), intent(inout) :: bearing !! pads and shaft
     integer :: i
 
     allocate (bearing%unknown_scale(bearing%local_size()))
@@ -187,7 +187,7 @@ contains
 
   !> A field of the first pad's film, known at each rank's nodes, at any nodes of the whole mesh.
   function film_values(bearing, value, wanted) result(found)
-    class(bearing_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: value(:)     !! at the local nodes
     integer, intent(in) :: wanted(:)     !! nodes of the whole mesh
     real(wp) :: found(size(wanted))

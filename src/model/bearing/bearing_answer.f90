@@ -45,7 +45,7 @@ contains
 
   !> Reads the answer off the present state.
   function bearing_answer(bearing) result(answer)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     type(bearing_answer_type) :: answer
 
     real(wp) :: unknown(bearing%local_size()), largest(7)
@@ -142,7 +142,7 @@ contains
 
   !> Rows of the whole width, also where half of it is solved.
   pure function full_rows(bearing) result(position)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp), allocatable :: position(:) !! z [m]
 
     associate (z => bearing%pad(1)%whole%row_axial)
@@ -157,7 +157,7 @@ contains
   !> This rank's consecutive part of a film field on the whole pad: station by station, rows of the
   !> whole width, a ring closed by its first station.
   subroutine film_block(bearing, value, first, last, block)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: value(:)   !! at the local nodes
     integer, intent(in) :: first, last !! nodes of the pad this rank takes, from 1
     real(wp), allocatable, intent(out) :: block(:)

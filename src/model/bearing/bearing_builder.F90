@@ -42,10 +42,10 @@ contains
   !>
   !> Fails when the mesh cannot be cut into parts.
   subroutine build_bearing(scene, plan, bearing, error)
-    type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    type(bearing_system_type), intent(inout) :: bearing
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_plan_type), intent(in) :: plan !! what was decided about it
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
@@ -70,11 +70,11 @@ contains
   !>
   !> Fails when METIS does.
   subroutine divide_bearing(scene, film, parts, division, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    integer, intent(in) :: parts
-    type(division_type), intent(out) :: division
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
+    integer, intent(in) :: parts !! ranks
+    type(division_type), intent(out) :: division !! of film and bumps
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     if (scene%model%foil == foil_shell) then
       call divide(film_chain(film, .true.), strip_chain(shape_on_pad(scene), film%rows(), &
@@ -87,8 +87,8 @@ contains
 
   !> The film's mesh: equal elements, or stations above the crests.
   function film_mesh_of(scene, plan) result(mesh)
-    type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_plan_type), intent(in) :: plan !! what was decided about it
     type(film_mesh_type) :: mesh
 
     associate (bearing => scene%bearing)
@@ -105,7 +105,7 @@ contains
 
   !> Where the scene puts the shaft, in SI.
   pure function operating_point(operation) result(point)
-    type(operation_case_type), intent(in) :: operation
+    type(operation_case_type), intent(in) :: operation !! the scene's
     type(operating_point_type) :: point
 
     point%speed = angular_speed(operation%speed_rpm)

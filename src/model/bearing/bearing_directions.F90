@@ -13,7 +13,7 @@ contains
 
   !> Mean displacement of the top foil's free edge towards the shaft at the present state, over all ranks [m].
   function edge_lift(bearing) result(lift)
-    class(bearing_system_type), intent(in) :: bearing
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp) :: lift
     real(wp) :: unknown(bearing%local_size()), total(1)
 
@@ -24,7 +24,7 @@ contains
 
   !> Smallest gap over the top foil's free edge at the present state, over all ranks [m].
   function edge_room(bearing) result(room)
-    class(bearing_system_type), intent(in) :: bearing
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp) :: room
     real(wp) :: unknown(bearing%local_size()), gap(size(bearing%pad(1)%mesh%mesh_node)), smallest(1)
 
@@ -36,8 +36,8 @@ contains
 
   !> The vector whose product with a state is that lift over the clearance.
   subroutine edge_direction(bearing, direction)
-    class(bearing_system_type), intent(in) :: bearing
-    Vec, intent(in) :: direction
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    Vec, intent(in) :: direction !! scaled
     PetscErrorCode :: ierr
 
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
@@ -46,7 +46,7 @@ contains
 
   !> Which contacts open or close first on the path from the present state to another.
   subroutine contact_direction(bearing, other, direction, share, distance, closes)
-    class(bearing_system_type), intent(in) :: bearing
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: other             !! scaled state
     Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
     real(wp), intent(out) :: share       !! of the path to there; huge if there is none [1]
@@ -73,8 +73,8 @@ contains
   !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
   !> zero for all other unknowns.
   subroutine foil_unit(bearing, diagonal)
-    class(bearing_system_type), intent(in) :: bearing
-    Vec, intent(in) :: diagonal
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    Vec, intent(in) :: diagonal !! scaled
     real(wp) :: value(bearing%local_size())
 
     value = 0.0_wp

@@ -49,8 +49,8 @@ contains
     real(wp), intent(in) :: ambient_pressure !! p_a [Pa]
     real(wp), intent(in) :: viscosity        !! of the gas [Pa s]
     logical, intent(in) :: upwind            !! SUPG instead of Galerkin
-    type(bearing_system_type), intent(out) :: bearing
-    type(error_type), allocatable, intent(out) :: error
+    type(bearing_system_type), intent(out) :: bearing !! pads and shaft
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     !> rank, from 1, of every column of elements; default: the film is cut by itself
     integer, intent(in), optional :: column_part(:)
 
@@ -61,7 +61,7 @@ contains
   !> Puts film, foil and shaft together; the foil moves into the system.
   subroutine create_bearing_system(bearing, foil, floats)
     type(bearing_system_type), intent(inout) :: bearing !! with its film
-    class(foil_model_type), allocatable, intent(inout) :: foil
+    class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
     PetscErrorCode :: ierr
 
@@ -136,7 +136,7 @@ contains
   !> Residual of all equations at an operating point.
   subroutine evaluate_at(self, point, state, residual, valid)
     class(bearing_system_type), intent(inout) :: self
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     Vec, intent(in) :: state      !! scaled
     Vec, intent(in) :: residual   !! scaled
     logical, intent(out) :: valid !! gap and pressure are positive
@@ -218,7 +218,7 @@ contains
   !> Derivative of all equations at an operating point.
   subroutine linearise_at(self, point, fixed, state)
     class(bearing_system_type), intent(inout) :: self
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     logical, intent(in) :: fixed !! the shaft is fixed
     Vec, intent(in) :: state    !! scaled
 
@@ -255,7 +255,7 @@ contains
   subroutine settle_bearing(self, state, moved)
     class(bearing_system_type), intent(inout) :: self
     Vec, intent(in) :: state !! scaled
-    logical, intent(out) :: moved
+    logical, intent(out) :: moved !! some contact was
     real(wp) :: unknown(self%local_size())
     logical :: settled, pad_moved, pad_settled
     PetscErrorCode :: ierr

@@ -18,14 +18,14 @@ contains
 
   !> Film rows: pressures, what moves the foil, and the shaft.
   subroutine add_film_rows(film, foil, shaft, owned, pressure, gap, point, matrix)
-    type(gas_film_type), intent(in) :: film
-    class(foil_model_type), intent(in) :: foil
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    class(foil_model_type), intent(in) :: foil !! under the film
     integer, intent(in) :: shaft        !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: owned(:)     !! nodes that are this rank's
     real(wp), intent(in) :: pressure(:) !! at this rank's nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at this rank's nodes [m]
-    type(operating_point_type), intent(in) :: point
-    Mat, intent(in) :: matrix
+    type(operating_point_type), intent(in) :: point !! operating point
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     real(wp), dimension(size(film%shape, 1), size(film%shape, 1)) :: by_pressure, by_gap
     real(wp) :: by_shaft(size(film%shape, 1), shaft_unknowns)
@@ -59,11 +59,11 @@ contains
 
   !> Shaft rows: weights of the pressures in the force; zeros keep the pattern where the shaft is fixed.
   subroutine add_shaft_weights(film, shaft, fixed, factor, matrix)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     integer, intent(in) :: shaft   !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: fixed    !! the shaft is fixed
     real(wp), intent(in) :: factor !! 0: makes room
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     PetscInt :: row(shaft_unknowns)
     PetscInt, allocatable :: column(:)
@@ -83,7 +83,7 @@ contains
   subroutine add_shaft_stiffness(shaft, stiffness, matrix)
     integer, intent(in) :: shaft      !! local unknowns before e_x
     real(wp), intent(in) :: stiffness !! force over displacement [N/m]
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
     PetscInt :: row(shaft_unknowns)
     real(wp) :: block(shaft_unknowns, shaft_unknowns)
     integer :: i
@@ -98,11 +98,11 @@ contains
 
   !> Makes room for what the film's rows will hold.
   subroutine make_film_room(film, foil, shaft, owned, matrix)
-    type(gas_film_type), intent(in) :: film
-    class(foil_model_type), intent(in) :: foil
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    class(foil_model_type), intent(in) :: foil !! under the film
     integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: owned(:) !! nodes that are this rank's
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
     real(wp) :: zero(size(column), size(row))

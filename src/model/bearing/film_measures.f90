@@ -16,7 +16,7 @@ contains
 
   !> This rank's share of force and torque where the pressure is above ambient only [N], [N m].
   pure function force_without_suction(film, pressure) result(force)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp) :: force(film_forces)
     integer :: element
@@ -34,10 +34,10 @@ contains
 
   !> This rank's share of the drag on the shaft [N].
   pure function film_drag(film, pressure, gap, point) result(drag)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     real(wp) :: drag
     real(wp) :: excess(most_film_nodes)
     type(film_flow_type) :: flow
@@ -57,7 +57,7 @@ contains
 
   !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
   pure function film_integral(film, value) result(integral)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the nodes
     real(wp) :: integral
     integer :: element
@@ -73,7 +73,7 @@ contains
 
   !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
   pure function film_peclet(film, point, pressure, gap, change) result(peclet)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
@@ -98,7 +98,7 @@ contains
 
   !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
   pure function film_midplane_gap(film, gap) result(smallest)
-    type(gas_film_type), intent(in) :: film
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: gap(:) !! at the nodes [m]
     real(wp) :: smallest
     real(wp) :: share

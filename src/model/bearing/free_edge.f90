@@ -38,10 +38,10 @@ contains
 
   !> The nodes at either end of the pad that can move, with their shares of the width.
   subroutine find_free_edge(whole, mesh, foil, edge)
-    type(film_mesh_type), intent(in) :: whole
-    type(local_mesh_type), intent(in) :: mesh
+    type(film_mesh_type), intent(in) :: whole !! the film's mesh
+    type(local_mesh_type), intent(in) :: mesh !! this rank's share of it
     class(foil_model_type), intent(in) :: foil !! with its unknowns placed
-    type(free_edge_type), intent(out) :: edge
+    type(free_edge_type), intent(out) :: edge !! of the top foil
     integer :: node, station, row
     logical :: taken(size(mesh%mesh_node))
     real(wp) :: share(size(mesh%mesh_node))

@@ -57,15 +57,15 @@ contains
   !> Fails when an element is folded over.
   subroutine create_gas_film(whole, mesh_node, cell_nodes, clearance, ambient_pressure, &
                              viscosity, upwind, film, error)
-    type(film_mesh_type), intent(in) :: whole
+    type(film_mesh_type), intent(in) :: whole !! the film's mesh
     integer, intent(in) :: mesh_node(:)        !! number in the whole mesh of each local node
     integer, intent(in) :: cell_nodes(:, :)    !! (4, cells), local nodes
     real(wp), intent(in) :: clearance          !! C [m]
     real(wp), intent(in) :: ambient_pressure   !! p_a [Pa]
     real(wp), intent(in) :: viscosity          !! of the gas [Pa s]
     logical, intent(in) :: upwind              !! SUPG instead of Galerkin
-    type(gas_film_type), intent(out) :: film
-    type(error_type), allocatable, intent(out) :: error
+    type(gas_film_type), intent(out) :: film !! this rank's share of it
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     integer :: i, station, row
 
     film%radius = whole%radius
@@ -162,7 +162,7 @@ contains
   !> Gap at the nodes: tilted shaft and deflected foil [m].
   pure function film_node_gap(self, point, deflection) result(gap)
     class(gas_film_type), intent(in) :: self
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
     real(wp) :: gap(size(deflection))
 
@@ -173,8 +173,8 @@ contains
   !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
   pure function film_excess(self, element, point) result(excess)
     class(gas_film_type), intent(in) :: self
-    integer, intent(in) :: element
-    type(operating_point_type), intent(in) :: point
+    integer, intent(in) :: element !! of this rank
+    type(operating_point_type), intent(in) :: point !! operating point
     real(wp) :: excess(most_film_nodes) !! the first ones are its points'
     integer :: i
 
@@ -192,7 +192,7 @@ contains
     class(gas_film_type), intent(in) :: self
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     logical :: open
     real(wp), dimension(most_film_nodes) :: here, excess
     integer :: element, i, n
@@ -219,7 +219,7 @@ contains
     class(gas_film_type), intent(in) :: self
     real(wp), intent(in) :: pressure(:)    !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)         !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess, share
@@ -246,10 +246,10 @@ contains
   pure subroutine film_element_jacobian(self, element, pressure, gap, point, by_pressure, by_gap, &
                                         by_shaft)
     class(gas_film_type), intent(in) :: self
-    integer, intent(in) :: element
+    integer, intent(in) :: element !! of this rank
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     real(wp), contiguous, intent(out) :: by_pressure(:, :) !! (nodes, nodes) [m3/s]
     real(wp), contiguous, intent(out) :: by_gap(:, :)      !! (nodes, nodes) [Pa m2/s]
     real(wp), intent(out) :: by_shaft(:, :)                !! (nodes, 2 or 4) [Pa m2/s], [Pa m3/s]
@@ -280,7 +280,7 @@ contains
     class(gas_film_type), intent(in) :: self
     real(wp), intent(in) :: pressure(:)  !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)       !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point
+    type(operating_point_type), intent(in) :: point !! operating point
     integer, intent(in) :: coordinate    !! of `shaft_motion`
     real(wp), intent(inout) :: column(:) !! at the nodes [Pa m2/s], [Pa m3/s]
     real(wp), dimension(size(self%shape, 1), size(self%shape, 1)) :: by_pressure, by_gap

@@ -55,8 +55,8 @@ contains
     real(wp), intent(in) :: ambient_pressure !! p_a [Pa]
     real(wp), intent(in) :: viscosity        !! of the gas [Pa s]
     logical, intent(in) :: upwind            !! SUPG instead of Galerkin
-    type(pad_type), intent(inout) :: pad
-    type(error_type), allocatable, intent(out) :: error
+    type(pad_type), intent(inout) :: pad !! film and foil
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     !> rank, from 1, of every column of elements; default: the film is cut by itself
     integer, intent(in), optional :: column_part(:)
 
@@ -77,7 +77,7 @@ contains
 
   !> Puts the foil under the film; it moves into the pad.
   subroutine complete_pad(foil, events, pad)
-    class(foil_model_type), allocatable, intent(inout) :: foil
+    class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
     type(cost_events_type), intent(in) :: events !! of PETSc's log
     type(pad_type), intent(inout) :: pad         !! with its film
     integer :: nodes
@@ -128,7 +128,7 @@ contains
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:)     !! the pad's, in SI
     real(wp), intent(in) :: gap(:)         !! at this rank's nodes [m]
-    type(cost_events_type), intent(in) :: events
+    type(cost_events_type), intent(in) :: events !! of PETSc's log
     real(wp), intent(inout) :: residual(:) !! the pad's, in SI
     real(wp) :: loading(size(unknown)) ! the unknowns, with all pressure that loads the foil
     PetscErrorCode :: ierr

@@ -20,11 +20,11 @@ contains
 
   !> Fills in what never changes, with room for everything else.
   subroutine fill_pad_constant(pad, blocks, foil_block, shaft, matrix)
-    type(pad_type), intent(in) :: pad
-    type(blocks_type), intent(in) :: blocks
+    type(pad_type), intent(in) :: pad !! film and foil
+    type(blocks_type), intent(in) :: blocks !! of unknowns
     integer, intent(in) :: foil_block !! the foil's among them
     integer, intent(in) :: shaft      !! local unknowns before e_x, or `no_shaft`
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     PetscInt :: first, last, row, entries, number(maxval([0, pad%foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
@@ -47,14 +47,14 @@ contains
 
   !> Fills in the derivatives of film and foil, and of the pad's force.
   subroutine fill_pad(pad, point, unknown, gap, shaft, fixed, events, matrix)
-    type(pad_type), intent(in) :: pad
+    type(pad_type), intent(in) :: pad !! film and foil
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
     integer, intent(in) :: shaft       !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: fixed        !! the shaft is fixed
-    type(cost_events_type), intent(in) :: events
-    Mat, intent(in) :: matrix
+    type(cost_events_type), intent(in) :: events !! of PETSc's log
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
     PetscErrorCode :: ierr
 
     PetscCallA(PetscLogEventBegin(events%film, ierr))

@@ -18,7 +18,7 @@ contains
   !> Derivative of all equations by one of the shaft's coordinates at the present point and state, the
   !> unknowns staying: the film's by the rigid gap, of foil and shaft by the asperities' pressure.
   subroutine shaft_column(bearing, coordinate, column)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: coordinate !! of `shaft_motion`: e_x, e_y [m], tilt_x, tilt_y [rad]
     Vec, intent(in) :: column         !! like the residual, scaled, by that unit
 

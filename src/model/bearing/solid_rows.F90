@@ -20,14 +20,14 @@ contains
 
   !> Adds their rows of shaft and foil; none where nothing touches.
   subroutine add_solid_rows(contact, film, foil, shaft, fixed, gap, factor, matrix)
-    type(solid_contact_type), intent(in) :: contact
-    type(gas_film_type), intent(in) :: film
-    class(foil_model_type), intent(in) :: foil
+    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    class(foil_model_type), intent(in) :: foil !! under the film
     integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: fixed     !! the shaft's equations are its position's
     real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
     real(wp), intent(in) :: factor  !! 0: makes room
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     integer :: column(shaft_unknowns + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft
     real(wp) :: slope(shaft_unknowns + 1, size(gap)), rate(size(gap))

@@ -38,7 +38,7 @@ contains
   subroutine create_blocks(block, scalars, blocks)
     type(block_type), intent(in) :: block(:) !! in their order
     integer, intent(in) :: scalars           !! on all ranks together
-    type(blocks_type), intent(out) :: blocks
+    type(blocks_type), intent(out) :: blocks !! of unknowns
     integer, allocatable :: owned(:, :)
     integer :: ranks, b, i, rank
     PetscErrorCode :: ierr
@@ -105,7 +105,7 @@ contains
   subroutine create_matrix(self, entries, matrix)
     class(blocks_type), intent(in) :: self
     PetscInt, intent(in) :: entries(:) !! of each row that this rank owns, without the scalars, at most
-    Mat, intent(out) :: matrix
+    Mat, intent(out) :: matrix !! of all ranks, still empty
     ISLocalToGlobalMapping :: map
     PetscErrorCode :: ierr
 

@@ -34,7 +34,7 @@ contains
   subroutine create_border(owned, scalars, border)
     integer, intent(in) :: owned   !! this rank's unknowns without the scalars
     integer, intent(in) :: scalars !! on all ranks together
-    type(border_type), intent(out) :: border
+    type(border_type), intent(out) :: border !! of the scalars
     PetscErrorCode :: ierr
 
     border%scalars = scalars
@@ -56,7 +56,7 @@ contains
     class(border_type), intent(in) :: self
     PetscInt, intent(in) :: inside(:)  !! entries of this rank's rows, without scalars, in its own columns
     PetscInt, intent(in) :: outside(:) !! and in other ranks' columns, at most
-    Mat, intent(out) :: matrix
+    Mat, intent(out) :: matrix !! of all ranks, still empty
     PetscInt :: own, others
     PetscInt, dimension(self%owned) :: room_inside, room_outside
     PetscErrorCode :: ierr
@@ -94,7 +94,7 @@ contains
   !> The scalars in a vector, on every rank.
   function values(self, vector) result(value)
     class(border_type), intent(in) :: self
-    Vec, intent(in) :: vector
+    Vec, intent(in) :: vector !! of all ranks
     real(wp) :: value(self%scalars)
     PetscScalar, pointer :: all(:)
     PetscErrorCode :: ierr
@@ -110,7 +110,7 @@ contains
   subroutine set_values(self, value, vector)
     class(border_type), intent(in) :: self
     real(wp), intent(in) :: value(:) !! the same on every rank
-    Vec, intent(in) :: vector
+    Vec, intent(in) :: vector !! of all ranks
     PetscScalar, pointer :: all(:)
     PetscErrorCode :: ierr
 

@@ -25,8 +25,8 @@ contains
   !> Prepares the exchange with vectors like a given one.
   subroutine create_exchange(global, vector, exchange)
     PetscInt, intent(in) :: global(:) !! number, from 0, of every local unknown
-    Vec, intent(in) :: vector
-    type(local_exchange_type), intent(out) :: exchange
+    Vec, intent(in) :: vector !! of all ranks
+    type(local_exchange_type), intent(out) :: exchange !! with vectors like that one
     IS :: from
     PetscErrorCode :: ierr
 
@@ -39,8 +39,8 @@ contains
   !> Values of a vector at the local unknowns.
   subroutine get(self, vector, value)
     class(local_exchange_type), intent(in) :: self
-    Vec, intent(in) :: vector
-    real(wp), intent(out) :: value(:)
+    Vec, intent(in) :: vector !! of all ranks
+    real(wp), intent(out) :: value(:) !! one a local unknown
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 
@@ -54,8 +54,8 @@ contains
   !> Writes local values into a vector; where ranks share an unknown their values must agree.
   subroutine put(self, value, vector)
     class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
-    Vec, intent(in) :: vector
+    real(wp), intent(in) :: value(:) !! one a local unknown
+    Vec, intent(in) :: vector !! of all ranks
     PetscErrorCode :: ierr
 
     call self%fill(value)
@@ -66,8 +66,8 @@ contains
   !> Adds every rank's local values to a vector.
   subroutine add(self, value, vector)
     class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
-    Vec, intent(in) :: vector
+    real(wp), intent(in) :: value(:) !! one a local unknown
+    Vec, intent(in) :: vector !! of all ranks
     PetscErrorCode :: ierr
 
     call self%fill(value)
@@ -78,7 +78,7 @@ contains
   !> Fills the local vector.
   subroutine fill(self, value)
     class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:)
+    real(wp), intent(in) :: value(:) !! one a local unknown
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 

@@ -11,7 +11,7 @@ contains
 
   !> Columns and values of one of this rank's rows.
   subroutine copy_row(matrix, row, entries, column, value)
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of all ranks
     PetscInt, intent(in) :: row      !! from 0
     PetscInt, intent(out) :: entries !! of the row
     PetscInt, contiguous, target, intent(inout) :: column(:)             !! from 0, with room for all
@@ -42,7 +42,7 @@ contains
 
   !> Entries of one of this rank's rows.
   function row_length(matrix, row) result(entries)
-    Mat, intent(in) :: matrix
+    Mat, intent(in) :: matrix !! of all ranks
     PetscInt, intent(in) :: row !! from 0
     PetscInt :: entries
     PetscInt :: returned

@@ -28,7 +28,7 @@ contains
   !> must be an answer over the whole width; not a number where the matrix cannot be factorized. Costs
   !> one factorization.
   subroutine angular_stiffness(bearing, newton, stiffness)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     real(wp), intent(out) :: stiffness(2, 2)   !! torque about x, y by tilt about x, y [N m/rad]
 

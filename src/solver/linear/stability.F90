@@ -56,7 +56,7 @@ contains
   !> Bearing, state and matrix are left as they were.
   subroutine find_stability(bearing, stability)
     type(bearing_system_type), intent(inout) :: bearing !! of foils with unknowns of their own
-    type(stability_type), intent(out) :: stability
+    type(stability_type), intent(out) :: stability !! what was found
 
     type(operating_point_type) :: fixed
     type(stability_type) :: plain
@@ -123,7 +123,7 @@ contains
     Mat, intent(in) :: stiffness      !! A
     Vec, intent(in) :: damping        !! B's diagonal, not negative
     logical, intent(in) :: dense_rows !! a few rows of A are almost full
-    type(stability_type), intent(out) :: stability
+    type(stability_type), intent(out) :: stability !! what was found
 
     Mat :: shifted, gather, spread, operator
     KSP :: inner

@@ -63,10 +63,10 @@ contains
 
   !> Prepares what an arc needs, on the path from the bearing's present point to another.
   subroutine create_arc(bearing, newton, last, arc)
-    type(bearing_system_type), target, intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), intent(in) :: newton !! of the bearing: its settings
-    type(operating_point_type), intent(in) :: last
-    type(arc_type), target, intent(inout) :: arc
+    type(operating_point_type), intent(in) :: last !! end of the path
+    type(arc_type), target, intent(inout) :: arc !! a branch, followed
     PetscErrorCode :: ierr
 
     arc%bearing => bearing
@@ -167,7 +167,7 @@ contains
   !> Length of a vector in the arc's measure.
   function length_of(self, vector) result(length)
     class(arc_type), intent(in) :: self
-    Vec, intent(in) :: vector
+    Vec, intent(in) :: vector !! of all ranks
     real(wp) :: length
     Vec :: weighted
     PetscErrorCode :: ierr
@@ -182,8 +182,8 @@ contains
   !> A vector times the weights of the measure.
   subroutine weigh(self, vector, weighted)
     class(arc_type), intent(in) :: self
-    Vec, intent(in) :: vector
-    Vec, intent(in) :: weighted
+    Vec, intent(in) :: vector !! of all ranks
+    Vec, intent(in) :: weighted !! it, weighted
     real(wp) :: lambda
     PetscErrorCode :: ierr
 
@@ -195,8 +195,8 @@ contains
 
   !> Frees what PETSc holds; adds what was spent to the bearing's own Newton method.
   subroutine end_arc(arc, newton)
-    type(arc_type), intent(inout) :: arc
-    type(newton_type), intent(inout) :: newton
+    type(arc_type), intent(inout) :: arc !! a branch, followed
+    type(newton_type), intent(inout) :: newton !! of the bearing
     PetscErrorCode :: ierr
 
     newton%iterations = newton%iterations + arc%newton%iterations

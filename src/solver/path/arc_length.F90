@@ -36,11 +36,11 @@ contains
 
   !> Begins at the bearing's present answer, on the path to another point.
   subroutine begin_arc(bearing, newton, last, sense, arc)
-    type(bearing_system_type), target, intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), intent(in) :: newton !! of the bearing: its settings
-    type(operating_point_type), intent(in) :: last
+    type(operating_point_type), intent(in) :: last !! end of the path
     real(wp), intent(in) :: sense           !! +1: towards that point, -1: away from it
-    type(arc_type), target, intent(inout) :: arc
+    type(arc_type), target, intent(inout) :: arc !! a branch, followed
     PetscErrorCode :: ierr
 
     call create_arc(bearing, newton, last, arc)
@@ -86,8 +86,8 @@ contains
 
   !> One step along the branch; the bearing is at the new answer, or where it was.
   subroutine advance_arc(arc, moved)
-    type(arc_type), target, intent(inout) :: arc
-    logical, intent(out) :: moved
+    type(arc_type), target, intent(inout) :: arc !! a branch, followed
+    logical, intent(out) :: moved !! some contact was
     real(wp) :: length, lambda
     logical :: easy
     PetscErrorCode :: ierr

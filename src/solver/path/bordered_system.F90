@@ -50,9 +50,9 @@ contains
   !> Sets the path up from the bearing's present point, at its present state. The bearing's matrix
   !> must have been filled before.
   subroutine create_bordered_system(bearing, last, path)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(operating_point_type), intent(in) :: last
-    type(bordered_system_type), intent(inout) :: path
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
+    type(operating_point_type), intent(in) :: last !! end of the path
+    type(bordered_system_type), intent(inout) :: path !! with its parameter
     PetscInt :: owned
     PetscErrorCode :: ierr
 
@@ -121,7 +121,7 @@ contains
     class(bordered_system_type), intent(in) :: self
     Vec, intent(in) :: inner
     real(wp), intent(in) :: lambda
-    Vec, intent(in) :: whole
+    Vec, intent(in) :: whole !! with lambda
     call self%border%join(inner, [lambda], whole)
   end subroutine join
 
@@ -196,7 +196,7 @@ contains
   subroutine settle_path(self, state, moved)
     class(bordered_system_type), intent(inout) :: self
     Vec, intent(in) :: state
-    logical, intent(out) :: moved
+    logical, intent(out) :: moved !! some contact was
     real(wp) :: lambda
 
     lambda = self%lambda_of(state)
@@ -220,7 +220,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_bordered_system(path)
-    type(bordered_system_type), intent(inout) :: path
+    type(bordered_system_type), intent(inout) :: path !! with its parameter
     PetscErrorCode :: ierr
 
     if (.not. path%created) return

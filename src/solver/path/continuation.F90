@@ -47,12 +47,12 @@ contains
   !> Each step starts from a straight line through the last two answers. A step that does not
   !> converge is halved and never accepted. On return the state is the last answer.
   subroutine follow_path(bearing, newton, target, first_step, settings, report)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
+    type(newton_type), target, intent(inout) :: newton !! of the bearing
+    type(operating_point_type), intent(in) :: target !! where the path leads
     real(wp), intent(in) :: first_step !! share of the path to try first [1]
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(out) :: report
+    type(path_settings_type), intent(in) :: settings !! limits of the path
+    type(path_report_type), intent(out) :: report !! how far it led
 
     type(operating_point_type) :: start
     type(newton_report_type) :: solved

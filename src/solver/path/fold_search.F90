@@ -34,13 +34,13 @@ contains
   !>
   !> The edge goes on in the sense in which it moved; where that is not known, in both.
   subroutine look_beyond(bearing, newton, target, before, known, wanted, outcome, ahead)
-    type(bearing_system_type), target, intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), target, intent(inout) :: newton !! of the bearing: settings, and what is spent
     type(operating_point_type), intent(in) :: target   !! end of the path
     Vec, intent(in) :: before                !! the answer before the present one
     logical, intent(in) :: known             !! there is one
     real(wp), intent(in) :: wanted           !! share of the path from here to the target [1]
-    integer, intent(out) :: outcome
+    integer, intent(out) :: outcome !! what was found
     real(wp), intent(out) :: ahead           !! share of that path that was gone [1]
 
     type(bordered_system_type), target :: path
