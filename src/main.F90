@@ -9,7 +9,7 @@ program gfb
   use gfb_scene_reading, only: key_table
   use gfb_command_line, only: command_line_type, read_command_line, help_text
   use gfb_provenance, only: version_text
-  use gfb_run_case, only: run_case
+  use gfb_run_case, only: run_case, run_scene
   use gfb_run_groups, only: run_groups
   implicit none (type, external)
 
@@ -37,7 +37,7 @@ program gfb
     else if (line%results) then
       call log%line(results_text())
     else if (line%groups > 0) then
-      call run_groups(line, job, log, status, error)
+      call run_groups(line, job, run_scene, log, status, error)
     else
       call run_case(line, log, converged, error)
       if (.not. converged) status = status_unconverged

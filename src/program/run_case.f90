@@ -1,26 +1,24 @@
 !> One case file from reading to results.
 module gfb_run_case
-  use gfb_errors, only: error_type, fail
-  use gfb_c_library, only: make_folder
+  use gfb_errors, only: error_type
   use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: this_rank, rank_count, any_rank
+  use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
-  use gfb_text_file, only: folder_is_writable
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_direct_solver, only: keep_factors_on_disk
   use gfb_command_line, only: command_line_type
   use gfb_provenance, only: version_text
-  use gfb_run_context, only: run_context_type
+  use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
   use gfb_run_study, only: run_study
   use gfb_studies, only: create_study
   use gfb_check_scene, only: check_scene
   implicit none (type, external)
   private
-  public :: run_case, run_scene, prepare_folder
+  public :: run_case, run_scene
 
 contains
 
@@ -77,20 +75,4 @@ contains
     end if
     call run_study(study, scene, context, summary, error)
   end subroutine run_scene
-
-  !> Makes the folder of the results if it is not there.
-  !>
-  !> Fails when nothing can be written there.
-  subroutine prepare_folder(folder, error)
-    character(len=*), intent(in) :: folder !! its path
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    logical :: refused
-
-    refused = .false.
-    if (this_rank() == 0) then
-      call make_folder(folder)
-      refused = .not. folder_is_writable(folder)
-    end if
-    if (any_rank(refused)) call fail(error, folder//': results cannot be written to this folder')
-  end subroutine prepare_folder
 end module gfb_run_case

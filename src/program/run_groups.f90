@@ -7,11 +7,10 @@ module gfb_run_groups
   use gfb_scene_reading, only: read_scene
   use gfb_job_groups, only: job_type
   use gfb_command_line, only: command_line_type
-  use gfb_run_context, only: run_context_type
+  use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_check_scene, only: check_scene
-  use gfb_run_case, only: prepare_folder
   use gfb_divided_sweep, only: run_divided_sweep
-  use gfb_scene_table, only: run_scene_table
+  use gfb_scene_table, only: run_scene_table, scene_runner
   implicit none (type, external)
   private
   public :: run_groups
@@ -22,9 +21,10 @@ contains
   !>
   !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
   !> members: they are told, and `status` says so.
-  subroutine run_groups(line, job, log, status, error)
+  subroutine run_groups(line, job, run_scene, log, status, error)
     type(command_line_type), intent(in) :: line !! what was typed
     type(job_type), target, intent(inout) :: job !! that is divided
+    procedure(scene_runner) :: run_scene  !! computes one of several cases
     type(run_log_type), intent(in) :: log !! the terminal
     integer, intent(out) :: status        !! exit status of the program
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -52,7 +52,7 @@ contains
     else if (size(scenes) == 1) then
       call run_divided_sweep(scenes(1), context, job, status)
     else
-      call run_scene_table(scenes, line%table, context, job, status)
+      call run_scene_table(scenes, line%table, run_scene, context, job, status)
     end if
   end subroutine run_groups
 

@@ -20,19 +20,32 @@ module gfb_scene_table
   use gfb_study, only: study_type
   use gfb_group_log, only: open_group_log, close_group_log
   use gfb_provenance, only: provenance, version_text
-  use gfb_run_case, only: run_scene
   implicit none (type)
   private
-  public :: run_scene_table
+  public :: run_scene_table, scene_runner
 
   integer, parameter :: status_unconverged = 2
+
+  abstract interface
+    !> Computes and writes what one scene asks for. Fails on files that cannot be written.
+    subroutine scene_runner(scene, branches, context, study, summary, error)
+      import :: scene_type, run_context_type, study_type, quantity_type, error_type
+      type(scene_type), intent(in) :: scene !! what the case file asks for
+      logical, intent(in) :: branches !! all equilibria are looked for
+      type(run_context_type), intent(inout) :: context !! of the run
+      class(study_type), allocatable, intent(out) :: study !! that was done
+      type(quantity_type), allocatable, intent(out) :: summary(:) !! what was written of the answer
+      type(error_type), allocatable, intent(out) :: error !! why it failed
+    end subroutine scene_runner
+  end interface
 
 contains
 
   !> Computes all members, each of which writes its own files, and writes their table.
-  subroutine run_scene_table(scenes, name, context, job, status)
+  subroutine run_scene_table(scenes, name, run_scene, context, job, status)
     type(scene_type), intent(in) :: scenes(:) !! the members
     character(len=*), intent(in) :: name          !! of the table
+    procedure(scene_runner) :: run_scene          !! computes a member
     type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status                !! exit status of the program
@@ -53,7 +66,7 @@ contains
     status = 0
     call job%next_member(member)
     do while (member <= size(scenes))
-      call run_member(scenes(member), context, job, one)
+      call run_member(scenes(member), run_scene, context, job, one)
       call mine%visit('number', member)
       call remember_member(mine, one)
       status = max(status, one%status)
@@ -73,8 +86,9 @@ contains
   end subroutine run_scene_table
 
   !> One member from its case to its files.
-  subroutine run_member(scene, context, job, member)
+  subroutine run_member(scene, run_scene, context, job, member)
     type(scene_type), intent(in) :: scene
+    procedure(scene_runner) :: run_scene
     type(run_context_type), intent(in) :: context
     type(job_type), target, intent(inout) :: job
     type(table_member_type), intent(out) :: member

@@ -10,8 +10,7 @@ module gfb_bearing_restart
   use gfb_natural_order, only: natural_order_type, bearing_order, path_order
   use gfb_operating_point, only: operating_point_type, remember_point
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: bearing_plan_type, build_bearing
-  use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors
+  use gfb_newton, only: newton_type, forget_factors
   use gfb_arc, only: create_arc
   use gfb_arc_memory, only: remember_arc, resume_arc
   use gfb_fold_way, only: fold_way_type, remember_way
@@ -159,14 +158,12 @@ contains
                             size(record%history), '/record/contacts', file)
   end subroutine put_record
 
-  !> Builds a scene's equations and puts them where the file says.
+  !> Puts a scene's equations where the file says.
   !>
-  !> Fails when the mesh cannot be cut, or the file is damaged.
-  subroutine recall_bearing(scene, plan, restart, settings, log, bearing, newton, record, point, error)
+  !> Fails when the file is damaged.
+  subroutine recall_bearing(scene, restart, log, bearing, newton, record, point, error)
     type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
     type(restart_type), intent(in) :: restart
-    type(newton_settings_type), intent(in) :: settings
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
@@ -176,9 +173,6 @@ contains
     type(stored_file_type) :: file
 
     point = 0
-    call build_bearing(scene, plan, bearing, error)
-    if (allocated(error)) return
-    call create_newton(newton, bearing, 'bearing_', settings, log)
     call open_restart(restart, file, error)
     if (allocated(error)) return
     point = file%count('/step/number')

@@ -1,10 +1,11 @@
 !> What formulas say of a strip, beside the shells' answer.
 module gfb_strip_companions
   use gfb_kinds, only: wp
+  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing, fixed_line_corner
+  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness

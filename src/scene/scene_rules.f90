@@ -2,9 +2,10 @@
 module gfb_scene_rules
   use gfb_kinds, only: wp, long
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_line_corner, fixed_edge_none, &
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, &
                                 has_flats, bumps_overlap
   use gfb_case_keys, only: case_keys_type
+  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_contact_case, only: contact_case_type
   use gfb_mesh_case, only: mesh_case_type, most_in_all
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_word, &

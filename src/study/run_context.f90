@@ -2,12 +2,16 @@
 !> whether it resumes from a restart file.
 module gfb_run_context
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
+  use gfb_c_library, only: make_folder
+  use gfb_errors, only: error_type, fail
   use gfb_run_log, only: run_log_type
+  use gfb_petsc_session, only: this_rank, any_rank
   use gfb_scene, only: scene_type
+  use gfb_text_file, only: folder_is_writable
   use gfb_restart, only: restart_type, find_restart_file => find_restart
   implicit none (type, external)
   private
+  public :: prepare_folder
 
   !> Somebody who wants to hear how far a run is, such as a job that is made of many.
   type, abstract, public :: run_listener_type
@@ -61,4 +65,20 @@ contains
 
     if (associated(self%listener)) call self%listener%point_done(words)
   end subroutine point_done
+
+  !> Makes the folder of the results if it is not there.
+  !>
+  !> Fails when nothing can be written there.
+  subroutine prepare_folder(folder, error)
+    character(len=*), intent(in) :: folder !! its path
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    logical :: refused
+
+    refused = .false.
+    if (this_rank() == 0) then
+      call make_folder(folder)
+      refused = .not. folder_is_writable(folder)
+    end if
+    if (any_rank(refused)) call fail(error, folder//': results cannot be written to this folder')
+  end subroutine prepare_folder
 end module gfb_run_context

@@ -6,7 +6,6 @@ module gfb_bearing_builder
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: pad_angle, leading_edge_periodic
-  use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations, shape_on_pad
@@ -16,12 +15,12 @@ module gfb_bearing_builder
   use gfb_solid_contact, only: solid_contact_type
   use gfb_foil_models, only: build_foil
   use gfb_foil_model, only: foil_model_type
-  use gfb_operating_point, only: operating_point_type
+  use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, divide_bearing, film_mesh_of, operating_point
+  public :: build_bearing, divide_bearing, film_mesh_of
 
   !> What the program decided about a scene, and the mesh it asks for.
   type, public :: bearing_plan_type
@@ -102,15 +101,4 @@ contains
       end if
     end associate
   end function film_mesh_of
-
-  !> Where the scene puts the shaft, in SI.
-  pure function operating_point(operation) result(point)
-    type(operation_case_type), intent(in) :: operation !! the scene's
-    type(operating_point_type) :: point
-
-    point%speed = angular_speed(operation%speed_rpm)
-    point%load = operation%load
-    point%eccentricity = operation%eccentricity
-    point%tilt = operation%tilt
-  end function operating_point
 end module gfb_bearing_builder

@@ -1,17 +1,12 @@
-!> What the contacts of bumps have in common, in a strip and in a bearing: laws, lines, directions.
+!> What the contacts of bumps have in common, in a strip and in a bearing: lines and directions.
 module gfb_bump_contacts
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_scene, only: scene_type
-  use gfb_contact_case, only: contact_case_type, case_law_coulomb => law_coulomb, &
-                              case_law_tanh_reset => law_tanh_reset, direction_motion
-  use gfb_strip_load_case, only: bump_stiffness
-  use gfb_contact_law, only: contact_law_type, law_tanh_drag, law_tanh_reset, law_coulomb
   use gfb_contact_set, only: contact_set_type, contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type
   implicit none (type, external)
   private
-  public :: set_contact_laws, bump_contact, crest_name, line_shares, line_length, normal_line_force
+  public :: bump_contact, crest_name, line_shares, line_length, normal_line_force
 
   integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! laws of a set of bumps
   !> of a corner line among the node sets, before its number
@@ -19,44 +14,7 @@ module gfb_bump_contacts
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
 
-  real(wp), parameter :: first_penetration = 1.0e-4_wp !! that counts, over the typical way
-  !> Lent to slaves in the matrix alone, over a bump's stiffness, so that a floating foil leaves it
-  !> regular.
-  real(wp), parameter :: normal_floor = 1.0e-7_wp
-
 contains
-
-  !> Sets what sleeve and top are to the bumps, and what the contacts lend to the matrix.
-  subroutine set_contact_laws(scene, way, contacts)
-    type(scene_type), intent(in) :: scene
-    real(wp), intent(in) :: way !! typical one of a foil [m]
-    type(contact_set_type), intent(inout) :: contacts
-
-    contacts%law = contact_laws(scene%contact)
-    contacts%secant_penetration = first_penetration*way
-    contacts%floor_normal = normal_floor*bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-  end subroutine set_contact_laws
-
-  !> The laws of sleeve and top.
-  pure function contact_laws(contact) result(law)
-    type(contact_case_type), intent(in) :: contact
-    type(contact_law_type) :: law(contact_top)
-    integer :: kind
-
-    select case (contact%friction_law)
-    case (case_law_tanh_reset)
-      kind = law_tanh_reset
-    case (case_law_coulomb)
-      kind = law_coulomb
-    case default
-      kind = law_tanh_drag
-    end select
-    law = contact_law_type(contact%normal_stiffness, contact%exponent, 0.0_wp, &
-                           contact%stick_length, kind, &
-                           one_way=contact%friction_direction == direction_motion)
-    law(contact_sleeve)%friction = contact%friction_sleeve
-    law(contact_top)%friction = contact%friction_top
-  end function contact_laws
 
   !> A contact of a bump's node, with its directions; nothing moves its master yet.
   pure function bump_contact(law, node, line, length) result(point)

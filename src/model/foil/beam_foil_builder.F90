@@ -22,7 +22,8 @@ module gfb_beam_foil_builder
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
+  use gfb_top_mesh, only: top_mesh
+  use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type
   implicit none (type)
   private
@@ -50,7 +51,7 @@ contains
     mine = this_rank() == 0
     foil%ambient_pressure = scene%gas%ambient_pressure
     window = [1, merge(film%stations(), 0, mine)]
-    foil%top%mesh = top_mesh(scene, film, window)
+    foil%top%mesh = top_mesh(film, top_height(scene), window)
     window = [1, merge(size(station_positions(shape_on_pad(scene))), 0, mine)]
     foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, window)
     unknowns = 0

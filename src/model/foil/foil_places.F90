@@ -10,30 +10,24 @@ module gfb_foil_places
   use gfb_bearing_case, only: pad_length
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_foil_mesh, only: top_foil_mesh
-  use gfb_bump_contacts, only: set_contact_laws
+  use gfb_contact_laws, only: set_contact_laws
   use gfb_shell_load, only: pressure_weights
   use gfb_meshed_foil, only: meshed_foil_type
   implicit none (type)
   private
-  public :: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
+  public :: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
 
   real(wp), parameter :: soft_contact = 20.0_wp !! stiffness to begin with, over a bump's
 
 contains
 
-  !> The top foil on the film's nodes; its mid-surface lies above the crests' by half of both
-  !> thicknesses.
-  pure function top_mesh(scene, film, window) result(mesh)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    integer, intent(in), optional :: window(2) !! first and last station of the stretch; default: all
-    type(quad_mesh_type) :: mesh
+  !> Height of the top foil's mid-surface: above the crests' by half of both thicknesses [m].
+  pure function top_height(scene) result(height)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    real(wp) :: height
 
-    mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), scene%bump_foil%height + &
-                         0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness), film%row_axial, film%half, window)
-  end function top_mesh
+    height = scene%bump_foil%height + 0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness)
+  end function top_height
 
   !> Laws of the contacts, and how soft they begin.
   subroutine set_laws(scene, foil)
@@ -42,7 +36,7 @@ contains
     real(wp) :: stiffness !! of a bump, per length of line [N/m2]
 
     stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
-    call set_contact_laws(scene, scene%bearing%clearance, foil%contacts)
+    call set_contact_laws(scene%contact, scene%bump_foil, scene%bearing%clearance, foil%contacts)
     foil%first_hardness = min(1.0_wp, soft_contact*stiffness/(scene%contact%normal_stiffness* &
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
   end subroutine set_laws

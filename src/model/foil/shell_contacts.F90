@@ -12,7 +12,7 @@ module gfb_shell_contacts
   use gfb_projection, only: projection_type, project
   use gfb_shell_foil, only: shell_foil_type
   use gfb_foil_ranges, only: foil_ranges_type
-  use gfb_foil_places, only: top_mesh
+  use gfb_top_mesh, only: top_mesh
   implicit none (type, external)
   private
   public :: add_shell_contacts
@@ -23,8 +23,9 @@ module gfb_shell_contacts
 contains
 
   !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
-  subroutine add_shell_contacts(scene, film, ranges, foil)
-    type(scene_type), intent(in) :: scene
+  subroutine add_shell_contacts(scene, height, film, ranges, foil)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
     type(film_mesh_type), intent(in) :: film
     type(foil_ranges_type), intent(in) :: ranges     !! numbers of its unknowns
     type(shell_foil_type), intent(inout) :: foil     !! with its structures and laws
@@ -43,7 +44,7 @@ contains
       end do
       foil%contacts%point = point(:found)
     end associate
-    call find_masters_of_crests(scene, film, ranges, foil)
+    call find_masters_of_crests(scene, height, film, ranges, foil)
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not held everywhere.
@@ -72,8 +73,9 @@ contains
   end subroutine add_line
 
   !> The top foil's elements above the crests.
-  subroutine find_masters_of_crests(scene, film, ranges, foil)
-    type(scene_type), intent(in) :: scene
+  subroutine find_masters_of_crests(scene, height, film, ranges, foil)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
     type(film_mesh_type), intent(in) :: film
     type(foil_ranges_type), intent(in) :: ranges
     type(shell_foil_type), intent(inout) :: foil
@@ -88,7 +90,7 @@ contains
     crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
     allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
     place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
-    above = top_mesh(scene, film, stations_above(film, place(tangential, :)))
+    above = top_mesh(film, height, stations_above(film, place(tangential, :)))
     before = lbound(above%position, 2) - 1
     call find_masters(place, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
     do i = 1, size(crest)

@@ -5,26 +5,19 @@ module gfb_shell_foil_builder
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_model_case, only: coupling_partitioned, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type
   use gfb_partition, only: division_type
-  use gfb_part_chains, only: strip_columns, strip_kinds
-  use gfb_mesh_dm, only: local_mesh_type, columns_window
+  use gfb_mesh_dm, only: local_mesh_type
   use gfb_matrix_rows, only: copy_row
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
-  use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_assembly, only: create_foil_structure
-  use gfb_foil_builder, only: shape_on_pad, section_of, plate_section, plate_fixed_edge, &
-                              find_symmetry_supports
   use gfb_shell_geometry, only: node_unknowns
   use gfb_shell_foil, only: shell_foil_type
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
+  use gfb_foil_builder, only: build_top, build_bumps
   use gfb_shell_contacts, only: add_shell_contacts
-  use gfb_foil_places, only: top_mesh, set_laws, place_unknowns, add_pressure, size_unknowns
+  use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
   public :: create_shell_foil
@@ -49,7 +42,7 @@ contains
     integer :: v(node_unknowns, size(mesh%mesh_node))
 
     foil%ambient_pressure = scene%gas%ambient_pressure
-    call build_top(scene, film, division, foil%top, error)
+    call build_top(scene, film, top_height(scene), division, foil%top, error)
     if (allocated(error)) return
     call build_bumps(scene, film, division, scene%model%reduction == reduction_guyan, foil%bumps, error)
     if (allocated(error)) return
@@ -58,7 +51,7 @@ contains
     call join_stiffnesses(foil, ranges)
     call set_laws(scene, foil)
     foil%contacts%rows = foil%bumps%mesh%rows
-    call add_shell_contacts(scene, film, ranges, foil)
+    call add_shell_contacts(scene, top_height(scene), film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
     call add_pressure(film, mesh, element_nodes, &
@@ -66,49 +59,6 @@ contains
     call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
     call count_entries(foil, film)
   end subroutine create_shell_foil
-
-  !> The top foil on the film's nodes.
-  subroutine build_top(scene, film, division, top, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(division_type), intent(in) :: division
-    type(foil_structure_type), intent(out) :: top
-    type(error_type), allocatable, intent(out) :: error
-
-    type(quad_mesh_type) :: mesh
-    type(substructure_type) :: none(0)
-    logical, allocatable :: fixed(:, :)
-
-    mesh = top_mesh(scene, film, columns_window(division%film, this_rank() + 1))
-    call find_symmetry_supports(mesh, fixed)
-    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
-    call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
-  end subroutine build_top
-
-  !> The bump strip on the sleeve, from its fixed edge.
-  subroutine build_bumps(scene, film, division, reduced, bumps, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(division_type), intent(in) :: division
-    logical, intent(in) :: reduced
-    type(foil_structure_type), intent(out) :: bumps
-    type(error_type), allocatable, intent(out) :: error
-
-    type(quad_mesh_type) :: mesh
-    type(strip_shape_type) :: shape
-    type(substructure_type), allocatable :: piece(:)
-    integer, allocatable :: column_part(:)
-    logical, allocatable :: fixed(:, :)
-
-    shape = shape_on_pad(scene)
-    column_part = strip_columns(shape, reduced, division%bumps)
-    mesh = bump_strip_mesh(shape, film%row_axial, film%half, columns_window(column_part, this_rank() + 1))
-    piece = strip_substructures(shape, mesh)
-    piece%kind = strip_kinds(shape, film%row_axial, film%half)
-    call find_symmetry_supports(mesh, fixed)
-    fixed(:, node_set(mesh, 'fixed_edge')) = .true.
-    call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)
-  end subroutine build_bumps
 
   !> Foil's numbers of this rank's own rotations.
   function turning(structure, shift) result(list)

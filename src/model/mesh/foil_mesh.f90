@@ -4,6 +4,7 @@
 !> (i - 1)*rows + j, wherever the strip is fixed. A rank needs a stretch of the stations only.
 module gfb_foil_mesh
   use gfb_kinds, only: wp
+  use gfb_fixed_lines, only: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
   use gfb_text, only: text
   use gfb_quad_mesh, only: quad_mesh_type, add_node_set
   use gfb_bump_profile, only: arc_point, arc_normal
@@ -12,9 +13,7 @@ module gfb_foil_mesh
   private
   public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
   public :: crest_positions, aligned_stations, station_positions, dividing_stations
-
-  integer, parameter, public :: begins_with_corner = 1, begins_with_flat = 2, &
-                                begins_with_half_flat = 3
+  public :: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
@@ -28,7 +27,7 @@ module gfb_foil_mesh
   !> A strip: its bumps from the fixed edge on, how it begins there, how finely it is meshed.
   type, public :: strip_shape_type
     type(bump_type), allocatable :: bump(:)  !! in order from the fixed edge
-    integer :: begins = begins_with_corner
+    integer :: begins = fixed_line_corner    !! how, at its fixed edge
     logical :: mirrored = .false.            !! the fixed edge is the one at the largest x
     real(wp) :: edge = 0.0_wp                !! x of the fixed edge [m]
     integer :: arc_elements = 12             !! even, so that a node lies on the crest
@@ -194,17 +193,17 @@ contains
     where (flat <= rounding*shape%bump%pitch) flat = 0.0_wp
     associate (bump => shape%bump, bumps => size(shape%bump), whole => shape%flat_elements, &
                half => (shape%flat_elements + 1)/2)
-      if (shape%begins == begins_with_half_flat) call add_flat(list, n, 0.5_wp*flat(1), half)
+      if (shape%begins == fixed_line_half_flat) call add_flat(list, n, 0.5_wp*flat(1), half)
       do i = 1, bumps
-        if (shape%begins == begins_with_flat) call add_flat(list, n, flat(i), whole)
+        if (shape%begins == fixed_line_flat) call add_flat(list, n, flat(i), whole)
         call add_arc(list, n, bump(i), shape%arc_elements, i)
-        if (shape%begins == begins_with_corner) then
+        if (shape%begins == fixed_line_corner) then
           call add_flat(list, n, flat(i), whole)
-        else if (shape%begins == begins_with_half_flat .and. i < bumps) then
+        else if (shape%begins == fixed_line_half_flat .and. i < bumps) then
           call add_flat(list, n, 0.5_wp*(flat(i) + flat(i + 1)), whole)
         end if
       end do
-      if (shape%begins == begins_with_half_flat) call add_flat(list, n, 0.5_wp*flat(bumps), half)
+      if (shape%begins == fixed_line_half_flat) call add_flat(list, n, 0.5_wp*flat(bumps), half)
     end associate
     list(n)%divides = .true.
     station = list(:n)

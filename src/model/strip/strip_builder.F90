@@ -11,7 +11,8 @@ module gfb_strip_builder
   use gfb_bump_foil_case, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
-  use gfb_bump_contacts, only: set_contact_laws, bump_contact, crest_name, corner_name, line_shares, &
+  use gfb_contact_laws, only: set_contact_laws
+  use gfb_bump_contacts, only: bump_contact, crest_name, corner_name, line_shares, &
                                line_length, contact_sleeve, contact_top
   use gfb_contact_set, only: contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
@@ -58,7 +59,7 @@ contains
       strip%scale%angle = strip%scale%length/foil%half_length
       strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*foil%width/ &
                           scene%mesh%axial_elements
-      call set_contact_laws(scene, strip%scale%length, strip%contacts)
+      call set_contact_laws(scene%contact, scene%bump_foil, strip%scale%length, strip%contacts)
       if (foil%fixed_edge == fixed_edge_none) then
         strip%contacts%floor_tangential = tangential_floor*bump_stiffness(foil)*foil%pitch
       end if

@@ -9,23 +9,24 @@ module gfb_foil_builder
   use gfb_scene_case, only: analysis_modes
   use gfb_bearing_case, only: pad_length
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none, &
-                                fixed_line_flat, fixed_line_half_flat
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none
   use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
+  use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
+  use gfb_top_mesh, only: top_mesh
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, &
                            axial_rows, aligned_stations, crest_positions, dividing_stations, &
-                           begins_with_corner, begins_with_flat, begins_with_half_flat
+                           fixed_line_corner
   use gfb_substructures, only: substructure_type
   use gfb_partition, only: chain_type, division_type, divide, no_chain
-  use gfb_part_chains, only: strip_chain, column_chain, strip_kinds
+  use gfb_part_chains, only: strip_chain, column_chain, strip_kinds, strip_columns
   use gfb_mesh_dm, only: columns_window
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_part, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
+  public :: build_part, build_top, build_bumps, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
             plate_fixed_edge, find_symmetry_supports
 
   integer, parameter, public :: axial = 3         !! component of a displacement
@@ -172,7 +173,7 @@ contains
 
     shape = strip_shape(scene)
     shape%bump = shape%bump(:1)
-    shape%begins = begins_with_corner
+    shape%begins = fixed_line_corner
     shape%mirrored = .false.
   end function single_bump
 
@@ -249,8 +250,7 @@ contains
       shape%bump%half_length = foil%half_length
       shape%bump%height = foil%height
       shape%bump%pitch = max(foil%pitch, 2.0_wp*foil%half_length)
-      if (foil%fixed_line == fixed_line_flat) shape%begins = begins_with_flat
-      if (foil%fixed_line == fixed_line_half_flat) shape%begins = begins_with_half_flat
+      shape%begins = foil%fixed_line
       shape%mirrored = foil%fixed_edge == fixed_edge_trailing
       if (shape%mirrored) shape%edge = sum(shape%bump%pitch)
     end associate
@@ -274,4 +274,51 @@ contains
       section = shell_section_type(foil%thickness, foil%youngs_modulus, foil%poissons_ratio, foil%density)
     end associate
   end function plate_section
+  !> The top foil on the film's nodes.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine build_top(scene, film, height, division, top, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
+    real(wp), intent(in) :: height !! of the mid-surface above the flats' [m]
+    type(division_type), intent(in) :: division !! of film and bumps
+    type(foil_structure_type), intent(out) :: top !! with its equations
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    type(quad_mesh_type) :: mesh
+    type(substructure_type) :: none(0)
+    logical, allocatable :: fixed(:, :)
+
+    mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1))
+    call find_symmetry_supports(mesh, fixed)
+    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
+    call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
+  end subroutine build_top
+
+  !> The bump strip on the sleeve, from its fixed edge.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine build_bumps(scene, film, division, reduced, bumps, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
+    type(division_type), intent(in) :: division !! of film and bumps
+    logical, intent(in) :: reduced !! super-elements are condensed
+    type(foil_structure_type), intent(out) :: bumps !! with its equations
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    type(quad_mesh_type) :: mesh
+    type(strip_shape_type) :: shape
+    type(substructure_type), allocatable :: piece(:)
+    integer, allocatable :: column_part(:)
+    logical, allocatable :: fixed(:, :)
+
+    shape = shape_on_pad(scene)
+    column_part = strip_columns(shape, reduced, division%bumps)
+    mesh = bump_strip_mesh(shape, film%row_axial, film%half, columns_window(column_part, this_rank() + 1))
+    piece = strip_substructures(shape, mesh)
+    piece%kind = strip_kinds(shape, film%row_axial, film%half)
+    call find_symmetry_supports(mesh, fixed)
+    fixed(:, node_set(mesh, 'fixed_edge')) = .true.
+    call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)
+  end subroutine build_bumps
 end module gfb_foil_builder

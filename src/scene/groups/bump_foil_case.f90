@@ -3,6 +3,7 @@ module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_text, only: text
   use gfb_value_rules, only: at_least, between, positive
   implicit none (type, external)
@@ -12,11 +13,9 @@ module gfb_bump_foil_case
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
   integer, parameter, public :: fixed_edge_none = 3
-  integer, parameter, public :: fixed_line_corner = 1    !! begins with an arc, its corner clamped
-  integer, parameter, public :: fixed_line_flat = 2      !! begins with a flat, its edge clamped
-  integer, parameter, public :: fixed_line_half_flat = 3 !! half a flat at each end, edge clamped
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'leading', 'trailing', 'none']
+  !> In the order of `gfb_fixed_lines`.
   character(len=*), parameter :: line_words(*) = [character(len=9) :: 'corner', 'flat', 'half_flat']
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative

@@ -5,6 +5,7 @@ module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
+  use gfb_contact_law, only: law_tanh_drag
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
@@ -14,16 +15,13 @@ module gfb_contact_case
   private
   public :: contact_case_type, read_contact_case
 
-  integer, parameter, public :: law_tanh_drag = 1  !! what sticks is dragged along; the default
-  integer, parameter, public :: law_tanh_reset = 2 !! starts anew at a reversal, as [Gu2020]
-  integer, parameter, public :: law_coulomb = 3    !! elastic stick, then slip
-
   !> against the slip, a vector; the default
   integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
   character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', &
     'motion']
+  !> In the order of the laws' numbers in `gfb_contact_law`.
   character(len=*), parameter :: law_words(*) = [character(len=10) :: 'tanh_drag', 'tanh_reset', &
                                                  'coulomb']
 

@@ -9,25 +9,19 @@
 module gfb_partitioned
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: largest_over_ranks
-  use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_rigid
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: bearing_plan_type, build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, create_newton, &
                         solve_newton, forget_factors, destroy_newton
   use gfb_coupling_side, only: coupling_side_type, create_side
   use gfb_anderson_acceleration, only: anderson_type, create_anderson, accelerate, destroy_anderson
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing
-  use gfb_smaller_start, only: refine
   implicit none (type)
   private
-  public :: start_partitioned, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
+  public :: create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
 
   integer, parameter :: most_loops = 200         !! of film and foil
   integer, parameter :: foil_patience = 5        !! iterations of the foil over those of a solve
@@ -50,57 +44,6 @@ module gfb_partitioned
   end type partitioned_type
 
 contains
-
-  !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.
-  !>
-  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_partitioned(scene, plan, target, newton_settings, path_settings, log, bearing, newton, &
-                               sides, report, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan      !! its meshes
-    type(operating_point_type), intent(in) :: target !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
-    type(bearing_system_type), target, intent(inout) :: bearing !! is built
-    type(newton_type), target, intent(inout) :: newton !! of the coupled equations: only counts here
-    type(partitioned_type), target, intent(inout) :: sides !! are created
-    type(path_report_type), intent(out) :: report !! how it ended
-    type(error_type), allocatable, intent(out) :: error !! why it could not be done
-
-    type(bearing_system_type), target :: rigid
-    type(newton_type), target :: rigid_newton
-    type(scene_type) :: stiff
-    real(wp), allocatable :: unknown(:)
-
-    call build_bearing(scene, plan, bearing, error)
-    if (allocated(error)) return
-    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    stiff = scene
-    stiff%model%foil = foil_rigid
-    call start_bearing(stiff, plan, target, newton_settings, path_settings, log, rigid, rigid_newton, &
-                       report, error)
-    if (allocated(error)) return
-    newton%iterations = rigid_newton%iterations
-    newton%factorizations = rigid_newton%factorizations
-    bearing%point = target
-    bearing%pad(1)%film%flow%upwind = rigid%pad(1)%film%flow%upwind
-    call refine(rigid, bearing)
-    allocate (unknown(bearing%local_size()))
-    call bearing%get_unknowns(unknown)
-    unknown(bearing%pad(1)%foil%first + 1:bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns()) = 0.0_wp ! at rest
-    call bearing%set_unknowns(unknown)
-    call create_partitioned(bearing, newton_settings, log, sides)
-    if (report%converged) then
-      call log%line('partitioned: starts from the film of a rigid foil, found by '// &
-                    text(newton%iterations)//' Newton iterations, and the foil at rest')
-      call follow_partitioned(bearing, newton, target, path_settings, sides, report)
-    else
-      report%reason = 'the film of a rigid foil, where the loops start: '//report%reason
-    end if
-    call destroy_newton(rigid_newton)
-    call rigid%destroy()
-  end subroutine start_partitioned
 
   !> Cuts a bearing into its two sides.
   subroutine create_partitioned(bearing, settings, log, sides)

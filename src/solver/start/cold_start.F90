@@ -19,10 +19,12 @@ module gfb_cold_start
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: try_starts
   use gfb_branch_search, only: seek_branch
-  use gfb_model_case, only: meshes_foils, half_width_auto
+  use gfb_smaller_start, only: refine
+  use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
+  use gfb_model_case, only: meshes_foils, half_width_auto, foil_rigid
   implicit none (type)
   private
-  public :: start_bearing
+  public :: start_bearing, start_partitioned
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of the part of the width that is solved
@@ -81,6 +83,57 @@ contains
       call seek_branch(scene%operation%lift_given, scene%operation%leading_edge_lift, bearing, newton)
     end if
   end subroutine start_bearing
+
+  !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.
+  !>
+  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
+  subroutine start_partitioned(scene, plan, target, newton_settings, path_settings, log, bearing, newton, &
+                               sides, report, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan      !! its meshes
+    type(operating_point_type), intent(in) :: target !! the scene's, or the first of its sweep
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
+    type(newton_type), target, intent(inout) :: newton !! of the coupled equations: only counts here
+    type(partitioned_type), target, intent(inout) :: sides !! are created
+    type(path_report_type), intent(out) :: report !! how it ended
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+
+    type(bearing_system_type), target :: rigid
+    type(newton_type), target :: rigid_newton
+    type(scene_type) :: stiff
+    real(wp), allocatable :: unknown(:)
+
+    call build_bearing(scene, plan, bearing, error)
+    if (allocated(error)) return
+    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
+    stiff = scene
+    stiff%model%foil = foil_rigid
+    call start_bearing(stiff, plan, target, newton_settings, path_settings, log, rigid, rigid_newton, &
+                       report, error)
+    if (allocated(error)) return
+    newton%iterations = rigid_newton%iterations
+    newton%factorizations = rigid_newton%factorizations
+    bearing%point = target
+    bearing%pad(1)%film%flow%upwind = rigid%pad(1)%film%flow%upwind
+    call refine(rigid, bearing)
+    allocate (unknown(bearing%local_size()))
+    call bearing%get_unknowns(unknown)
+    unknown(bearing%pad(1)%foil%first + 1:bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns()) = 0.0_wp ! at rest
+    call bearing%set_unknowns(unknown)
+    call create_partitioned(bearing, newton_settings, log, sides)
+    if (report%converged) then
+      call log%line('partitioned: starts from the film of a rigid foil, found by '// &
+                    text(newton%iterations)//' Newton iterations, and the foil at rest')
+      call follow_partitioned(bearing, newton, target, path_settings, sides, report)
+    else
+      report%reason = 'the film of a rigid foil, where the loops start: '//report%reason
+    end if
+    call destroy_newton(rigid_newton)
+    call rigid%destroy()
+  end subroutine start_partitioned
 
   !> Whether half the elements each way still make a mesh.
   pure function can_coarsen(plan) result(can)

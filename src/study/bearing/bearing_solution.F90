@@ -8,11 +8,12 @@ module gfb_bearing_solution
   use gfb_operation_case, only: operation_case_type
   use gfb_sweep_case, only: operation_at
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_bearing_builder, only: bearing_plan_type, operating_point
-  use gfb_newton, only: newton_settings_type
+  use gfb_scene_point, only: operating_point
+  use gfb_bearing_builder, only: bearing_plan_type, build_bearing
+  use gfb_newton, only: newton_settings_type, create_newton
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing
-  use gfb_partitioned, only: start_partitioned, create_partitioned, destroy_partitioned
+  use gfb_cold_start, only: start_bearing, start_partitioned
+  use gfb_partitioned, only: create_partitioned, destroy_partitioned
   use gfb_bearing_restart, only: recall_bearing
   use gfb_reasons, only: reason_type
   use gfb_run_context, only: run_context_type
@@ -106,8 +107,11 @@ contains
     type(error_type), allocatable, intent(out) :: error
 
     associate (scene => sweep%scene, log => sweep%context%log)
-      call recall_bearing(scene, plan, sweep%context%restart, sweep%tolerances, log, sweep%bearing, sweep%newton, &
-                          sweep%record, next, error)
+      next = 0
+      call build_bearing(scene, plan, sweep%bearing, error)
+      if (allocated(error)) return
+      call create_newton(sweep%newton, sweep%bearing, 'bearing_', sweep%tolerances, log)
+      call recall_bearing(scene, sweep%context%restart, log, sweep%bearing, sweep%newton, sweep%record, next, error)
       if (.not. allocated(error) .and. sweep%partitioned) then
         call create_partitioned(sweep%bearing, sweep%tolerances, log, sweep%sides)
       end if

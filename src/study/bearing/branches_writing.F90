@@ -10,7 +10,7 @@ module gfb_branches_writing
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: operating_point
+  use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type
   use gfb_branch_list, only: branch_search_type, take_branch
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name

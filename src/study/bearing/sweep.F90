@@ -11,7 +11,7 @@ module gfb_sweep
   use gfb_petsc_session, only: wall_time
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: operating_point
+  use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned

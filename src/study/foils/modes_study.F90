@@ -4,10 +4,8 @@ module gfb_modes_study
   use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
   use gfb_petsc_session, only: largest_over_ranks
   use gfb_scene, only: scene_type
   use gfb_modes_case, only: part_strip
@@ -18,13 +16,11 @@ module gfb_modes_study
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   use gfb_free_motions, only: free_motions
   use gfb_mode_energies, only: sharpen_modes
-  use gfb_craig_bampton, only: craig_bampton_type, craig_bampton
-  use gfb_reduced_strip, only: assembled_eigenvalues
-  use gfb_case_file, only: case_array_type, fill_array
   use gfb_reasons, only: reason_few_modes
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
-  use gfb_modes_writing, only: modes_result_type, write_modes, rigid, turn
+  use gfb_reduced_modes, only: reduce_strip
+  use gfb_modes_writing, only: modes_result_type, write_modes, rigid
   implicit none (type)
   private
 
@@ -114,67 +110,6 @@ contains
     call destroy_modes(self%result%modes)
     call destroy_foil_structure(self%component)
   end subroutine discard_modes
-
-  !> Craig-Bampton matrices of the strip for the result file, and the frequencies they give.
-  subroutine reduce_strip(strip, modes_kept, wanted, shift, log, arrays, frequencies, error)
-    type(foil_structure_type), intent(in) :: strip
-    integer, intent(in) :: modes_kept !! of every super-element
-    integer, intent(in) :: wanted     !! frequencies
-    real(wp), intent(in) :: shift     !! [1/s2]
-    type(run_log_type), intent(in) :: log
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(quantity_type), allocatable, intent(inout) :: frequencies(:)
-    type(error_type), allocatable, intent(out) :: error
-
-    type(craig_bampton_type), allocatable :: kinds(:)
-    real(wp), allocatable :: eigenvalue(:)
-    integer :: i
-
-    call craig_bampton(strip, modes_kept, kinds, error)
-    if (allocated(error)) return
-    eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
-    call list_matrices(strip, kinds, arrays)
-    do i = 1, size(eigenvalue)
-      call add_result(frequencies, 'craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), 0.0_wp))/turn)
-    end do
-    call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
-                  ' modes each, written to /craig_bampton')
-  end subroutine reduce_strip
-
-  !> The matrices of every kind, each on the rank that computed it, for the result file.
-  subroutine list_matrices(strip, kinds, arrays)
-    type(foil_structure_type), intent(in) :: strip
-    type(craig_bampton_type), intent(inout) :: kinds(:) !! the matrices leave them
-    type(case_array_type), allocatable, intent(out) :: arrays(:)
-    integer :: i
-
-    allocate (arrays(2*size(kinds) + 1))
-    do i = 1, size(kinds)
-      call add_matrix('stiffness', kinds(i)%stiffness, arrays(2*i - 1))
-      call add_matrix('mass', kinds(i)%mass, arrays(2*i))
-    end do
-    call fill_array('/craig_bampton/kind_of_substructure', '1', 'kind of each super-element, from the smallest x on', &
-                    reshape(real(strip%substructure%kind, wp), [1, size(strip%substructure)]), arrays(size(arrays)))
-
-  contains
-
-    !> One matrix of a kind.
-    subroutine add_matrix(name, matrix, array)
-      character(len=*), intent(in) :: name
-      real(wp), allocatable, intent(inout) :: matrix(:, :)
-      type(case_array_type), intent(inout) :: array
-
-      array%path = '/craig_bampton/kind_'//text(i)//'/'//name
-      array%unit = 'mixed SI'
-      array%meaning = 'retained unknowns, then modes'
-      array%rows = kinds(i)%retained + kinds(i)%modes
-      if (kinds(i)%mine) then
-        call move_alloc(matrix, array%values)
-      else
-        allocate (array%values(array%rows, 0))
-      end if
-    end subroutine add_matrix
-  end subroutine list_matrices
 
   !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
   function plate_eigenvalue(component) result(eigenvalue)

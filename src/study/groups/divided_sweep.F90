@@ -13,8 +13,6 @@ module gfb_divided_sweep
   use gfb_division, only: stretch_of
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
-  use gfb_result_table, only: with_stretches
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
@@ -29,7 +27,7 @@ module gfb_divided_sweep
   use gfb_job_groups, only: job_type
   use gfb_group_log, only: open_group_log, close_group_log
   use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
-                               seam_words, place_text
+                               seam_words, place_text, add_origin
   implicit none (type)
   private
   public :: run_divided_sweep
@@ -256,20 +254,13 @@ contains
     type(stretch_type), intent(in) :: stretches(:)
     type(scene_type), intent(in) :: scene
     type(quantity_type), allocatable :: list(:)
-    character(len=:), allocatable :: words
     integer :: i
 
     list = provenance(context%command)
     do i = 1, size(list)
       if (list(i)%name == 'ranks') list(i)%number = real(job%ranks, wp)
     end do
-    words = 'all begin with the answer to which the stretch before leads'
-    do i = 2, size(stretches)
-      if (seam_words(scene, stretches(i - 1), stretches(i)) /= '') words = 'not all begin with the answer '// &
-                                                                    'to which the stretch before leads'
-    end do
-    call add_result(list, 'groups', job%groups, with_stretches)
-    if (job%groups > 1) call add_result(list, 'stretches', words)
+    call add_origin(scene, job%groups, stretches, list)
   end function origin
 
   !> Which stretches end early, and why.

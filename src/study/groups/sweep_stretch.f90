@@ -5,7 +5,8 @@ module gfb_sweep_stretch
   use gfb_memory, only: memory_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: compared_names, result_unit
-  use gfb_result_table, only: name_length
+  use gfb_result_table, only: name_length, with_stretches
+  use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_row_memory, only: remember_rows, remember_arrays
@@ -15,7 +16,7 @@ module gfb_sweep_stretch
   implicit none (type, external)
   private
   public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
-            place_text
+            place_text, add_origin
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -170,6 +171,24 @@ contains
       end do
     end do
   end subroutine merge_arrays
+
+  !> Adds how the sweep was divided, and whether its stretches meet.
+  subroutine add_origin(scene, groups, stretches, list)
+    type(scene_type), intent(in) :: scene          !! with the whole sweep
+    integer, intent(in) :: groups                  !! of ranks
+    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(quantity_type), allocatable, intent(inout) :: list(:) !! what the files say of their origin
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = 'all begin with the answer to which the stretch before leads'
+    do i = 2, size(stretches)
+      if (seam_words(scene, stretches(i - 1), stretches(i)) /= '') words = 'not all begin with '// &
+                                                    'the answer to which the stretch before leads'
+    end do
+    call add_result(list, 'groups', groups, with_stretches)
+    if (groups > 1) call add_result(list, 'stretches', words)
+  end subroutine add_origin
 
   !> What is to be said of the seam between two stretches; nothing where the first leads to the same
   !> answer as that with which the second begins.

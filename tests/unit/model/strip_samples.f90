@@ -3,7 +3,7 @@ module strip_samples
   use gfb_kinds, only: wp
   use gfb_quad_mesh, only: quad_mesh_type, node_set
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, begins_with_corner
+                           axial_rows, fixed_line_corner
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
@@ -30,7 +30,7 @@ contains
     integer :: i
 
     shape%bump = [(bump_type(half_length, height, pitch), i=1, bumps)]
-    shape%begins = begins_with_corner
+    shape%begins = fixed_line_corner
     shape%arc_elements = 6
     shape%flat_elements = 2
   end function plain_strip

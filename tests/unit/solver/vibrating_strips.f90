@@ -3,7 +3,7 @@ module vibrating_strips
   use gfb_kinds, only: wp
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, begins_with_corner
+                           axial_rows, fixed_line_corner
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
@@ -36,7 +36,7 @@ contains
     integer :: i
 
     shape%bump = [(bump_type(half_length, height, pitch), i=1, bumps)]
-    shape%begins = begins_with_corner
+    shape%begins = fixed_line_corner
     shape%arc_elements = elements(1)
     shape%flat_elements = elements(2)
     mesh = bump_strip_mesh(shape, axial_rows(width, elements(3), .false.), .false.)

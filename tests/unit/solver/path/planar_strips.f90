@@ -4,7 +4,7 @@ module planar_strips
   use gfb_errors, only: error_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, begins_with_corner
+                           axial_rows, fixed_line_corner
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_assembly, only: create_foil_structure
@@ -80,7 +80,7 @@ contains
     integer :: i
 
     shape%bump = [(bump_type(half_length, height, pitch), i=1, size(planar%pressure))]
-    shape%begins = begins_with_corner
+    shape%begins = fixed_line_corner
     shape%arc_elements = 12*planar%refinement
     shape%flat_elements = 3*planar%refinement
     mesh = bump_strip_mesh(shape, axial_rows(width, axial_elements, .false.), .false.)
