@@ -44,9 +44,9 @@ contains
 
   !> Begins to unpack.
   pure subroutine open_memory(numbers, words, memory)
-    real(wp), intent(in) :: numbers(:)    !! as `numbers` gave them, each in its component's unit
+    real(wp), intent(in) :: numbers(:) !! as `numbers` gave them, each in its component's unit [SI]
     character(len=*), intent(in) :: words !! as `words` gave them
-    type(memory_type), intent(out) :: memory
+    type(memory_type), intent(out) :: memory !! unpacks these, from the first on
 
     memory%packs = .false.
     memory%number = numbers
@@ -55,7 +55,7 @@ contains
 
   !> All numbers that were packed.
   pure function numbers(self) result(list)
-    class(memory_type), intent(in) :: self
+    class(memory_type), intent(in) :: self !! the memory
     real(wp), allocatable :: list(:) !! each in its component's unit
 
     allocate (list(0))
@@ -64,7 +64,7 @@ contains
 
   !> Names, kinds and shapes that were packed, one a line, and the texts.
   pure function words(self) result(lines)
-    class(memory_type), intent(in) :: self
+    class(memory_type), intent(in) :: self !! the memory
     character(len=:), allocatable :: lines
 
     lines = ''
@@ -73,30 +73,30 @@ contains
 
   !> Whether all that was packed has been taken.
   pure function is_used_up(self) result(empty)
-    class(memory_type), intent(in) :: self
+    class(memory_type), intent(in) :: self !! the memory
     logical :: empty
     empty = self%numbers_done == size(self%number) .and. self%letters_done == len(self%letters)
   end function is_used_up
 
   !> Ends unpacking: something that is left over does not fit either.
   pure subroutine finish(self)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
 
     if (.not. self%packs) self%failed = self%failed .or. .not. self%is_used_up()
   end subroutine finish
 
   !> Says whose components follow, where a memory holds several of a type.
   pure subroutine part(self, name)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the part
     call self%pass_line('in '//name)
   end subroutine part
 
   !> A real number.
   pure subroutine visit_real(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
-    real(wp), intent(inout) :: value     !! in the component's unit
+    real(wp), intent(inout) :: value !! written on unpacking, in its unit [SI]
     real(wp) :: number(1)
 
     number = value
@@ -107,9 +107,9 @@ contains
 
   !> Real numbers.
   pure subroutine visit_reals(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
-    real(wp), intent(inout) :: value(:)  !! in the component's unit
+    real(wp), intent(inout) :: value(:) !! written on unpacking, in its unit [SI]
 
     call self%pass_line(name//' real'//extents(shape(value)))
     call self%pass_numbers(value)
@@ -117,9 +117,9 @@ contains
 
   !> A matrix of real numbers.
   pure subroutine visit_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name   !! of the component
-    real(wp), intent(inout) :: value(:, :) !! in the component's unit
+    real(wp), intent(inout) :: value(:, :) !! written on unpacking, in its unit [SI]
     real(wp) :: number(size(value))
 
     number = reshape(value, shape(number))
@@ -130,9 +130,9 @@ contains
 
   !> A whole number.
   pure subroutine visit_integer(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
-    integer, intent(inout) :: value
+    integer, intent(inout) :: value !! written on unpacking
     integer :: number(1)
 
     number = value
@@ -143,7 +143,7 @@ contains
 
   !> A matrix of whole numbers.
   pure subroutine visit_integer_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
     integer, intent(inout) :: value(:, :)
     integer :: number(size(value))
@@ -156,7 +156,7 @@ contains
 
   !> Yes or no.
   pure subroutine visit_logical(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
     logical, intent(inout) :: value
     integer :: number(1)
@@ -169,7 +169,7 @@ contains
 
   !> A text of any length, or none.
   pure subroutine visit_text(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
     character(len=:), allocatable, intent(inout) :: value
     integer :: length(1)
@@ -196,9 +196,9 @@ contains
 
   !> Real numbers, as many as there are.
   pure subroutine visit_sized_reals(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name                !! of the component
-    real(wp), allocatable, intent(inout) :: value(:) !! in the component's unit
+    real(wp), allocatable, intent(inout) :: value(:) !! allocated on unpacking, in its unit [SI]
     integer :: extent(1)
     logical :: there
 
@@ -216,9 +216,9 @@ contains
 
   !> A matrix of real numbers, as large as it is.
   pure subroutine visit_sized_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name                   !! of the component
-    real(wp), allocatable, intent(inout) :: value(:, :) !! in the component's unit
+    real(wp), allocatable, intent(inout) :: value(:, :) !! allocated on unpacking, in its unit [SI]
     real(wp), allocatable :: number(:)
     integer :: extent(2)
     logical :: there
@@ -240,9 +240,9 @@ contains
 
   !> Whole numbers, as many as there are.
   pure subroutine visit_sized_integers(self, name, value)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: name !! of the component
-    integer, allocatable, intent(inout) :: value(:)
+    integer, allocatable, intent(inout) :: value(:) !! allocated on unpacking
     integer :: extent(1)
     logical :: there
 
@@ -260,7 +260,7 @@ contains
 
   !> Adds a line, or takes the next one, which must be the same.
   pure subroutine pass_line(self, line)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: line !! name, kind and shape
 
     if (self%packs) then
@@ -273,7 +273,7 @@ contains
 
   !> Adds a line with a shape, or takes the next one, which must be the same but for the extents.
   pure subroutine pass_shape(self, start, extent, there)
-    class(memory_type), intent(inout) :: self
+    class(memory_type), intent(inout) :: self !! the memory
     character(len=*), intent(in) :: start !! name and kind
     integer, intent(inout) :: extent(:)   !! read while the memory unpacks
     logical, intent(inout) :: there       !! it is allocated; read while the memory unpacks
@@ -303,8 +303,8 @@ contains
 
   !> Adds numbers, or takes the next ones.
   pure subroutine pass_numbers(self, value)
-    class(memory_type), intent(inout) :: self
-    real(wp), intent(inout) :: value(:) !! in the component's unit
+    class(memory_type), intent(inout) :: self !! the memory
+    real(wp), intent(inout) :: value(:) !! written on unpacking, in its unit [SI]
     real(wp), allocatable :: more(:)
     integer :: last
 
@@ -329,8 +329,8 @@ contains
 
   !> Adds whole numbers, or takes the next ones.
   pure subroutine pass_whole_numbers(self, value)
-    class(memory_type), intent(inout) :: self
-    integer, intent(inout) :: value(:)
+    class(memory_type), intent(inout) :: self !! the memory
+    integer, intent(inout) :: value(:) !! written on unpacking
     real(wp) :: number(size(value))
 
     number = real(value, wp)
@@ -341,8 +341,8 @@ contains
 
   !> Adds to the words.
   pure subroutine add_letters(self, letters)
-    class(memory_type), intent(inout) :: self
-    character(len=*), intent(in) :: letters
+    class(memory_type), intent(inout) :: self !! the memory
+    character(len=*), intent(in) :: letters !! to be added at the end
     character(len=:), allocatable :: more
     integer :: last
 
@@ -359,7 +359,7 @@ contains
 
   !> The next line of the words; empty where there is none.
   pure function next_line(self) result(line)
-    class(memory_type), intent(in) :: self
+    class(memory_type), intent(in) :: self !! the memory
     character(len=:), allocatable :: line
     integer :: length
 

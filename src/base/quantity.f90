@@ -31,34 +31,37 @@ contains
 
   !> A real number.
   pure function number_quantity(name, number, unit, meaning) result(quantity)
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: number  !! in `unit`
-    character(len=*), intent(in) :: unit, meaning
+    character(len=*), intent(in) :: name    !! of the result
+    real(wp), intent(in) :: number          !! its value, in `unit` [SI]
+    character(len=*), intent(in) :: unit    !! of SI, or '1'
+    character(len=*), intent(in) :: meaning !! what the number is, in one line
     type(quantity_type) :: quantity
     quantity = quantity_type(name, unit, meaning, quantity_number, number, '')
   end function number_quantity
 
   !> A whole number.
   pure function count_quantity(name, number, meaning) result(quantity)
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: number
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: name    !! of the result
+    integer, intent(in) :: number           !! its value
+    character(len=*), intent(in) :: meaning !! what is counted, in one line
     type(quantity_type) :: quantity
     quantity = quantity_type(name, '1', meaning, quantity_count, real(number, wp), '')
   end function count_quantity
 
   !> A word.
   pure function word_quantity(name, word, meaning) result(quantity)
-    character(len=*), intent(in) :: name, word, meaning
+    character(len=*), intent(in) :: name    !! of the result
+    character(len=*), intent(in) :: word    !! its value
+    character(len=*), intent(in) :: meaning !! what the word says, in one line
     type(quantity_type) :: quantity
     quantity = quantity_type(name, '', meaning, quantity_word, 0.0_wp, word)
   end function word_quantity
 
   !> Yes or no.
   pure function truth_quantity(name, truth, meaning) result(quantity)
-    character(len=*), intent(in) :: name
-    logical, intent(in) :: truth
-    character(len=*), intent(in) :: meaning
+    character(len=*), intent(in) :: name    !! of the result
+    logical, intent(in) :: truth            !! its value
+    character(len=*), intent(in) :: meaning !! what is true or not, in one line
     type(quantity_type) :: quantity
     quantity = quantity_type(name, '1', meaning, quantity_truth, merge(1.0_wp, 0.0_wp, truth), '')
   end function truth_quantity
@@ -89,7 +92,7 @@ contains
 
   !> `name = value [unit]`; the number reads back exactly.
   pure function quantity_line(self) result(line)
-    class(quantity_type), intent(in) :: self
+    class(quantity_type), intent(in) :: self !! the quantity
     character(len=:), allocatable :: line
 
     select case (self%kind)

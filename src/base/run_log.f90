@@ -22,7 +22,7 @@ contains
 
   !> One event.
   subroutine run_log_line(self, words)
-    class(run_log_type), intent(in) :: self
+    class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
     if (.not. self%active) return
@@ -32,7 +32,7 @@ contains
 
   !> One line of a table of iterations.
   subroutine run_log_detail(self, words)
-    class(run_log_type), intent(in) :: self
+    class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
     if (self%verbose) call self%line('    '//words)
@@ -40,7 +40,7 @@ contains
 
   !> Begins a part of the log.
   subroutine run_log_heading(self, words)
-    class(run_log_type), intent(in) :: self
+    class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
     call self%line('')
@@ -50,7 +50,7 @@ contains
 
   !> What the user should know although the run goes on.
   subroutine run_log_warning(self, words)
-    class(run_log_type), intent(in) :: self
+    class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
     call self%line('warning: '//words)
@@ -58,7 +58,7 @@ contains
 
   !> What ends the run, on the error stream.
   subroutine run_log_complaint(self, words)
-    class(run_log_type), intent(in) :: self
+    class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
     if (.not. self%active) return

@@ -58,7 +58,7 @@ contains
   !> Fails when the element is folded over or its nodes run clockwise (determinant not positive).
   pure subroutine film_geometry(position, geometry, error)
     real(wp), intent(in) :: position(:, :) !! (2, 4 or 9) node positions (x, z) [m]
-    type(film_geometry_type), intent(out) :: geometry
+    type(film_geometry_type), intent(out) :: geometry !! the element at its points
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
     real(wp) :: parent(2, size(position, 2)), jacobian(2, 2), inverse(2, 2), det, weight, intervals

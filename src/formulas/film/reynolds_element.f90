@@ -41,8 +41,8 @@ contains
   !> with `flow%upwind`. It is for bilinear elements: the second derivatives of the pressure in R
   !> vanish on parallelograms there, not so in biquadratic ones.
   pure subroutine reynolds_residual(geometry, flow, pressure, gap, excess, source, residual)
-    type(film_geometry_type), intent(in) :: geometry
-    type(film_flow_type), intent(in) :: flow
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
     real(wp), contiguous, intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
     real(wp), contiguous, intent(in) :: gap(:)       !! film thickness at the nodes [m]
     real(wp), contiguous, intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
@@ -98,8 +98,8 @@ contains
   !> Exact derivatives of `reynolds_residual` by the nodal pressures and gaps, and by the excess.
   pure subroutine reynolds_jacobian(geometry, flow, pressure, gap, excess, source, by_pressure, &
                                     by_gap, by_excess)
-    type(film_geometry_type), intent(in) :: geometry
-    type(film_flow_type), intent(in) :: flow
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
     real(wp), contiguous, intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
     real(wp), contiguous, intent(in) :: gap(:)      !! film thickness at the nodes [m]
     real(wp), contiguous, intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
@@ -220,7 +220,7 @@ contains
   !>
   !> $$ Pe = \frac{U h \ell}{2 k}, \quad k = \frac{p h^3}{12 \mu} $$
   pure function cell_peclet(flow, stream_length, pressure, gap) result(peclet)
-    type(film_flow_type), intent(in) :: flow
+    type(film_flow_type), intent(in) :: flow !! viscosity and speed of the film
     real(wp), intent(in) :: stream_length !! l, the element's length along x [m]
     real(wp), intent(in) :: pressure      !! p [Pa]
     real(wp), intent(in) :: gap           !! h [m]

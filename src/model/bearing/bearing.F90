@@ -86,7 +86,7 @@ contains
 
   !> Sizes of the local equations at an operating point, in SI.
   pure function equation_scale(self, point) result(scale)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     type(operating_point_type), intent(in) :: point !! whose speed and load count
     real(wp) :: scale(self%local_size())
     integer :: i
@@ -99,7 +99,7 @@ contains
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
   pure function force_scale(self, point) result(force)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     type(operating_point_type), intent(in), optional :: point !! default: the present one
     real(wp) :: force
 
@@ -112,7 +112,7 @@ contains
 
   !> Gap at this rank's film nodes, pad by pad, for local unknowns [m].
   function bearing_gap(self, unknown, point) result(gap)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(operating_point_type), intent(in), optional :: point !! default: the present one
     real(wp) :: gap(self%film_nodes())
@@ -127,7 +127,7 @@ contains
 
   !> Pressure of the shaft's asperities at this rank's film nodes, pad by pad [Pa].
   function solid_pressure(self, unknown) result(pressure)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp) :: pressure(self%film_nodes()), gap(self%film_nodes())
     integer :: i
@@ -142,7 +142,7 @@ contains
 
   !> The operating point with the eccentricity that is found or fixed.
   pure function bearing_position(self, unknown, asked) result(point)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(operating_point_type), intent(in), optional :: asked !! default: the present one
     type(operating_point_type) :: point
@@ -154,7 +154,7 @@ contains
 
   !> Eccentricity at the present state, found or fixed [m].
   function bearing_eccentricity(self) result(eccentricity)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: eccentricity(2)
     real(wp) :: unknown(self%local_size())
 
@@ -166,7 +166,7 @@ contains
 
   !> Smallest gap at the present state, over all ranks [m].
   function smallest_gap(self) result(gap)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: gap
     real(wp) :: unknown(self%local_size()), depth(1)
 
@@ -177,7 +177,7 @@ contains
 
   !> Force and torque of films and asperities at the present state, over all ranks [N], [N m].
   function reaction(self) result(force)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: force(film_forces)
     real(wp) :: unknown(self%local_size())
 
@@ -188,7 +188,7 @@ contains
   !> A field of the first pad's film, known at each rank's nodes, at any nodes of the whole mesh.
   function film_values(bearing, value, wanted) result(found)
     class(bearing_type), intent(in) :: bearing !! pads and shaft
-    real(wp), intent(in) :: value(:)     !! at the local nodes
+    real(wp), intent(in) :: value(:)     !! at the local film nodes, in any unit [SI]
     integer, intent(in) :: wanted(:)     !! nodes of the whole mesh
     real(wp) :: found(size(wanted))
     real(wp) :: own(1, count(bearing%pad(1)%mesh%owned))
@@ -201,7 +201,7 @@ contains
 
   !> Local unknowns at a state, in SI.
   subroutine get_unknowns(self, unknown, state)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(out) :: unknown(:) !! in SI
     Vec, intent(in), optional :: state  !! scaled; default: the present one
 
@@ -215,14 +215,14 @@ contains
 
   !> Makes local unknowns, in SI, the present state.
   subroutine set_unknowns(self, unknown)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! in SI
     call self%exchange%put(unknown/self%unknown_scale, self%state)
   end subroutine set_unknowns
 
   !> Adds every rank's local unknowns, in SI, up in a scaled vector.
   subroutine add_up_unknowns(self, unknown, vector)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! in SI
     Vec, intent(in) :: vector          !! scaled
     PetscErrorCode :: ierr
@@ -233,21 +233,21 @@ contains
 
   !> Local unknowns of this rank.
   pure function local_size(self) result(unknowns)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     integer :: unknowns
     unknowns = self%blocks%local_unknowns()
   end function local_size
 
   !> Film nodes of this rank on all pads.
   pure function film_nodes(self) result(nodes)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     integer :: nodes
     nodes = self%pad(size(self%pad))%last_node
   end function film_nodes
 
   !> Whether foils have meshes of their own.
   pure function is_meshed(self) result(meshed)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     logical :: meshed
     integer :: i
 
@@ -259,7 +259,7 @@ contains
 
   !> This rank's share of the pads' force on the sleeve and torque on the shaft [N], [N m].
   pure function local_force(self, unknown, gap) result(force)
-    class(bearing_type), intent(in) :: self
+    class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     real(wp) :: force(film_forces), share(film_forces, size(self%pad))

@@ -158,9 +158,9 @@ contains
   !> whole width, a ring closed by its first station.
   subroutine film_block(bearing, value, first, last, block)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    real(wp), intent(in) :: value(:)   !! at the local nodes
+    real(wp), intent(in) :: value(:)   !! at the local film nodes, in any unit [SI]
     integer, intent(in) :: first, last !! nodes of the pad this rank takes, from 1
-    real(wp), allocatable, intent(out) :: block(:)
+    real(wp), allocatable, intent(out) :: block(:) !! of these nodes, in the same unit [SI]
 
     integer, allocatable :: wanted(:)
     integer :: i, rows, row, station
@@ -178,7 +178,7 @@ contains
 
   !> Packs or unpacks an answer.
   pure subroutine remember_answer(memory, answer)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! packs or unpacks
     type(bearing_answer_type), intent(inout) :: answer !! written where the memory unpacks
 
     call memory%visit('eccentricity', answer%eccentricity)

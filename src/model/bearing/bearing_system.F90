@@ -126,7 +126,7 @@ contains
 
   !> Residual of all equations at the present operating point.
   subroutine evaluate_bearing(self, state, residual, valid)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     Vec, intent(in) :: state      !! scaled
     Vec, intent(in) :: residual   !! scaled
     logical, intent(out) :: valid !! gap and pressure are positive
@@ -135,7 +135,7 @@ contains
 
   !> Residual of all equations at an operating point.
   subroutine evaluate_at(self, point, state, residual, valid)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     type(operating_point_type), intent(in) :: point !! operating point
     Vec, intent(in) :: state      !! scaled
     Vec, intent(in) :: residual   !! scaled
@@ -210,14 +210,14 @@ contains
 
   !> Derivative of all equations at the present operating point.
   subroutine linearise_bearing(self, state)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     Vec, intent(in) :: state !! scaled
     call self%linearise_at(self%point, self%shaft_fixed, state)
   end subroutine linearise_bearing
 
   !> Derivative of all equations at an operating point.
   subroutine linearise_at(self, point, fixed, state)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     type(operating_point_type), intent(in) :: point !! operating point
     logical, intent(in) :: fixed !! the shaft is fixed
     Vec, intent(in) :: state    !! scaled
@@ -253,7 +253,7 @@ contains
 
   !> Moves the linearisation points of the foils' contacts to where the foils have gone.
   subroutine settle_bearing(self, state, moved)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     Vec, intent(in) :: state !! scaled
     logical, intent(out) :: moved !! some contact was
     real(wp) :: unknown(self%local_size())
@@ -281,7 +281,7 @@ contains
 
   !> A new Newton step begins where the foils' contacts are.
   subroutine begin_bearing_step(self)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     integer :: i
 
     do i = 1, size(self%pad)
@@ -291,7 +291,7 @@ contains
 
   !> Work of the residual forces on the foils along a step, scaled.
   function work_on_foils(self, residual, step) result(work)
-    class(bearing_system_type), intent(in) :: self
+    class(bearing_system_type), intent(in) :: self !! the bearing's equations
     Vec, intent(in) :: residual, step !! scaled
     real(wp) :: work
     real(wp) :: share(size(self%pad))
@@ -315,7 +315,7 @@ contains
 
   !> Ends a load step of the scene: friction carries its slip along.
   subroutine commit_bearing(self)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     real(wp) :: unknown(self%local_size())
     integer :: i
 
@@ -329,7 +329,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_bearing(self)
-    class(bearing_system_type), intent(inout) :: self
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     PetscErrorCode :: ierr
     integer :: i
 

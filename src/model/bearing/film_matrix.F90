@@ -62,7 +62,7 @@ contains
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     integer, intent(in) :: shaft   !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: fixed    !! the shaft is fixed
-    real(wp), intent(in) :: factor !! 0: makes room
+    real(wp), intent(in) :: factor !! of the weights; 0: makes room [1]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     PetscInt :: row(shaft_unknowns)

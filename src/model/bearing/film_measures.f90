@@ -58,7 +58,7 @@ contains
   !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
   pure function film_integral(film, value) result(integral)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: value(:) !! at the nodes
+    real(wp), intent(in) :: value(:) !! at the local film nodes, in any unit [SI]
     real(wp) :: integral
     integer :: element
 

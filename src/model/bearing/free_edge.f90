@@ -109,9 +109,9 @@ contains
 
   !> Adds a force that lifts the whole width of the edge evenly to the local residual.
   pure subroutine add_pull(self, pull, residual)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     real(wp), intent(in) :: pull           !! on the whole width, towards the shaft [N]
-    real(wp), intent(inout) :: residual(:) !! one a local unknown of the bearing
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
     integer :: i
 
     do i = 1, size(self%unknown)
@@ -123,11 +123,11 @@ contains
 
   !> Adds the forces of springs that keep every node of the edge at a height to the local residual.
   pure subroutine add_hold(self, stiffness, height, unknown, residual)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     real(wp), intent(in) :: stiffness      !! of the whole width [N/m]
     real(wp), intent(in) :: height         !! above the edge at rest [m]
     real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
-    real(wp), intent(inout) :: residual(:) !! one a local unknown of the bearing
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
     real(wp) :: lift
     integer :: i
 
@@ -143,7 +143,7 @@ contains
 
   !> Derivative of those forces after the unknown of one node, for a stiffness of one [1].
   elemental function hold_stiffness(self, i) result(stiffness)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     integer, intent(in) :: i !! node of the edge
     real(wp) :: stiffness
     stiffness = self%solved*self%share(i)*self%rate(i)**2
@@ -151,17 +151,17 @@ contains
 
   !> Neighbours on this rank that move on their own; none where the edge cannot bend along the axis.
   pure function pairs(self)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     integer :: pairs
     pairs = size(self%distance)
   end function pairs
 
   !> Adds the forces of a string along the edge, \( T (v_a - v_b)/d \) between neighbours.
   pure subroutine add_tension(self, tension, unknown, residual)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     real(wp), intent(in) :: tension        !! T [N]
     real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
-    real(wp), intent(inout) :: residual(:) !! one a local unknown of the bearing
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
     real(wp) :: force
     integer :: i
 
@@ -176,11 +176,11 @@ contains
 
   !> Derivatives of these forces, for one pair of neighbours, and where they stand.
   pure subroutine tension_block(self, i, tension, number, block)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     integer, intent(in) :: i           !! pair
     real(wp), intent(in) :: tension    !! T [N]
     integer, intent(out) :: number(2)   !! local unknowns of the bearing
-    real(wp), intent(out) :: block(2, 2)
+    real(wp), intent(out) :: block(2, 2) !! in the order of `number` [N/m]
 
     number = self%neighbours(:, i)
     associate (rate => self%pair_rate(:, i), stiffness => tension/self%distance(i))
@@ -191,7 +191,7 @@ contains
 
   !> This rank's part of the mean displacement of the edge towards the shaft [m].
   pure function lift(self, unknown)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     real(wp) :: lift
     lift = sum(self%share*self%rate*(unknown(self%unknown) - self%origin))
@@ -199,7 +199,7 @@ contains
 
   !> Derivatives of the mean lift after the local unknowns of the bearing.
   pure function lift_rates(self, unknowns) result(rates)
-    class(free_edge_type), intent(in) :: self
+    class(free_edge_type), intent(in) :: self !! the free edge
     integer, intent(in) :: unknowns !! local ones
     real(wp) :: rates(unknowns)
     integer :: i

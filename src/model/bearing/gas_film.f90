@@ -129,7 +129,7 @@ contains
 
   !> The gas as the shaft drags it at an operating point.
   pure function flow_at(self, point) result(flow)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     type(operating_point_type), intent(in) :: point !! whose speed counts
     type(film_flow_type) :: flow
 
@@ -139,7 +139,7 @@ contains
 
   !> Flow through a cell, that of the pressure and that of the motion: the size of an equation.
   pure function cell_flow(self, point) result(size_of_flow)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp) :: size_of_flow                        !! p h times a volume a time [Pa m3/s]
     type(film_flow_type) :: flow
@@ -154,14 +154,14 @@ contains
 
   !> Ambient pressure on the bearing's shadow: the size of a force [N].
   pure function shadow(self) result(force)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp) :: force
     force = self%ambient_pressure*self%radius*self%copies*self%width
   end function shadow
 
   !> Gap at the nodes: tilted shaft and deflected foil [m].
   pure function film_node_gap(self, point, deflection) result(gap)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
     real(wp) :: gap(size(deflection))
@@ -172,7 +172,7 @@ contains
 
   !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
   pure function film_excess(self, element, point) result(excess)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     integer, intent(in) :: element !! of this rank
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp) :: excess(most_film_nodes) !! the first ones are its points'
@@ -189,7 +189,7 @@ contains
 
   !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.
   pure function is_open(self, pressure, gap, point) result(open)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
@@ -216,7 +216,7 @@ contains
 
   !> Adds the film's equations of this rank's elements; none at nodes of given pressure.
   pure subroutine film_residual(self, pressure, gap, point, residual)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:)    !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)         !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
@@ -245,7 +245,7 @@ contains
   !> the shaft's coordinates, as many as there is room for.
   pure subroutine film_element_jacobian(self, element, pressure, gap, point, by_pressure, by_gap, &
                                         by_shaft)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     integer, intent(in) :: element !! of this rank
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
@@ -277,7 +277,7 @@ contains
 
   !> Adds the derivatives of the film's equations by one of the shaft's coordinates.
   pure subroutine film_shaft_column(self, pressure, gap, point, coordinate, column)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:)  !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)       !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
@@ -298,7 +298,7 @@ contains
 
   !> This rank's share of force and torque of the whole bearing [N], [N m].
   pure function film_node_force(self, pressure) result(force)
-    class(gas_film_type), intent(in) :: self
+    class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp) :: force(film_forces)
 

@@ -23,7 +23,7 @@ contains
 
   !> The point at a fraction of the straight path from one to another, or on beyond either.
   elemental function point_between(first, last, fraction) result(point)
-    type(operating_point_type), intent(in) :: first, last
+    type(operating_point_type), intent(in) :: first, last !! the ends of the path
     real(wp), intent(in) :: fraction !! 0 at the first, 1 at the last [1]
     type(operating_point_type) :: point
 
@@ -43,7 +43,7 @@ contains
 
   !> Packs or unpacks a point.
   pure subroutine remember_point(memory, point)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! packs or unpacks
     type(operating_point_type), intent(inout) :: point !! written where the memory unpacks
 
     call memory%visit('speed', point%speed)

@@ -93,7 +93,7 @@ contains
 
   !> Gap at this rank's nodes [m].
   pure function pad_gap(self, point, unknown) result(gap)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     type(operating_point_type), intent(in) :: point !! the shaft's position
     real(wp), intent(in) :: unknown(:)              !! the pad's, in SI
     real(wp) :: gap(size(self%mesh%mesh_node))
@@ -103,7 +103,7 @@ contains
 
   !> All pressure that loads shaft and foil, the film's and the asperities', at this rank's nodes [Pa].
   pure function loading(self, unknown, gap) result(pressure)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
     real(wp) :: pressure(size(gap))
@@ -114,7 +114,7 @@ contains
 
   !> This rank's share of the force on the sleeve and the torque on the shaft [N], [N m].
   pure function pad_force(self, unknown, gap) result(force)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
     real(wp) :: force(film_forces)
@@ -124,7 +124,7 @@ contains
 
   !> Adds the equations of film and foil; the film must be open.
   subroutine pad_residual(self, point, unknown, gap, events, residual)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:)     !! the pad's, in SI
     real(wp), intent(in) :: gap(:)         !! at this rank's nodes [m]
@@ -153,7 +153,7 @@ contains
 
   !> Sizes of the unknowns, in SI.
   pure function unknown_scale(self) result(scale)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     real(wp) :: scale(self%last - self%first)
 
     scale(:self%foil%first) = self%film%ambient_pressure
@@ -163,7 +163,7 @@ contains
   !> Sizes of the equations at an operating point, in SI: a film equation is measured by the flow
   !> through a cell.
   pure function equation_scale(self, point) result(scale)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp) :: scale(self%last - self%first)
 
@@ -175,7 +175,7 @@ contains
 
   !> Entries that the rows this rank owns need at most: film nodes around, and the foil.
   pure function row_entries(self) result(entries)
-    class(pad_type), intent(in) :: self
+    class(pad_type), intent(in) :: self !! the pad
     PetscInt :: entries(self%mesh%owned_unknowns + self%foil%owned)
 
     entries(:self%mesh%owned_unknowns) = int((2*self%whole%order + 1)**2 + self%foil%couplings, pint)

@@ -26,7 +26,7 @@ contains
     integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
     logical, intent(in) :: fixed     !! the shaft's equations are its position's
     real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
-    real(wp), intent(in) :: factor  !! 0: makes room
+    real(wp), intent(in) :: factor  !! of the derivatives; 0: makes room [1]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     integer :: column(shaft_unknowns + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft

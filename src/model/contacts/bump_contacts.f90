@@ -36,7 +36,7 @@ contains
 
   !> Name of a bump's crest line among the mesh's node sets.
   pure function crest_name(bump) result(name)
-    integer, intent(in) :: bump
+    integer, intent(in) :: bump !! number of the bump, from 1
     character(len=:), allocatable :: name
     name = 'crest_'//text(bump)
   end function crest_name
@@ -44,7 +44,7 @@ contains
   !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to
   !> one.
   pure function line_shares(mesh, line) result(share)
-    type(quad_mesh_type), intent(in) :: mesh
+    type(quad_mesh_type), intent(in) :: mesh !! of the strip
     integer, intent(in) :: line(:) !! nodes in order of z
     real(wp) :: share(size(line))
     integer :: i, n
@@ -59,7 +59,7 @@ contains
 
   !> Length of a line [m].
   pure function line_length(mesh, line) result(length)
-    type(quad_mesh_type), intent(in) :: mesh
+    type(quad_mesh_type), intent(in) :: mesh !! of the strip
     integer, intent(in) :: line(:) !! nodes in order of z
     real(wp) :: length
     length = mesh%position(axial, line(size(line))) - mesh%position(axial, line(1))
@@ -67,7 +67,7 @@ contains
 
   !> Normal force of a contact per length of its line [N/m].
   pure function normal_line_force(contacts, i) result(force)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! of this rank
     integer, intent(in) :: i !! contact
     real(wp) :: force !! [N/m]
 

@@ -11,7 +11,7 @@ contains
 
   !> Packs or unpacks the memory of a contact.
   pure subroutine remember_contact(memory, point)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! packs or unpacks
     type(contact_point_type), intent(inout) :: point !! written where the memory unpacks
 
     call memory%visit('shift', point%shift)
@@ -25,7 +25,7 @@ contains
 
   !> The memory of this rank's contacts. The words are the same for all contacts and on all ranks.
   pure subroutine pack_contacts(contacts, words, column)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! of this rank
     character(len=:), allocatable, intent(out) :: words !! that say what the numbers are
     real(wp), allocatable, intent(out) :: column(:, :)  !! (numbers, contacts) [m], [N], [N/m]
     type(memory_type) :: memory
@@ -47,7 +47,7 @@ contains
   pure subroutine unpack_contacts(words, column, contacts, failed)
     character(len=*), intent(in) :: words    !! as `pack_contacts` gave them
     real(wp), intent(in) :: column(:, :)     !! the same, (numbers, contacts) [m], [N], [N/m]
-    type(contact_set_type), intent(inout) :: contacts
+    type(contact_set_type), intent(inout) :: contacts !! of this rank, with the laws they had
     logical, intent(inout) :: failed         !! words or numbers do not fit
     type(memory_type) :: memory
     integer :: i

@@ -71,8 +71,8 @@ contains
 
   !> Law of a contact, softened where a homotopy asks for it.
   pure function law_of(self, point) result(law)
-    class(contact_set_type), intent(in) :: self
-    type(contact_point_type), intent(in) :: point
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    type(contact_point_type), intent(in) :: point !! one of the set's contacts
     type(contact_law_type) :: law
 
     law = self%law(point%law)
@@ -83,7 +83,7 @@ contains
 
   !> Slip and penetration of a contact, (s_1, s_2, delta) [m].
   pure function approach(self, i, displacement) result(value)
-    class(contact_set_type), intent(in) :: self
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i                    !! contact
     real(wp), intent(in) :: displacement(:)     !! of the set's unknowns [m]
     real(wp) :: value(spatial)
@@ -105,7 +105,7 @@ contains
   !> The part of the way from one displacement to another, or on beyond it, after which a contact
   !> opens or closes; huge where it never does.
   pure function next_change(self, i, here, ahead) result(way)
-    class(contact_set_type), intent(in) :: self
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i                      !! contact
     real(wp), intent(in) :: here(:), ahead(:)     !! of the set's unknowns [m]
     real(wp) :: way
@@ -121,10 +121,10 @@ contains
 
   !> Adds the derivatives of a contact's penetration after the set's unknowns, times a factor.
   pure subroutine add_penetration_rate(self, i, factor, rate)
-    class(contact_set_type), intent(in) :: self
-    integer, intent(in) :: i
-    real(wp), intent(in) :: factor
-    real(wp), intent(inout) :: rate(:)
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i !! contact
+    real(wp), intent(in) :: factor !! of the derivatives [1]
+    real(wp), intent(inout) :: rate(:) !! by each of the set's unknowns [1]
     integer :: k
 
     associate (point => self%point(i))
@@ -150,7 +150,7 @@ contains
 
   !> Moves every contact's place on its law to where the foils have gone.
   pure subroutine settle(self, displacement)
-    class(contact_set_type), intent(inout) :: self
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     type(contact_law_type) :: law
     real(wp) :: now(spatial), slope(2)
@@ -181,7 +181,7 @@ contains
 
   !> A new Newton step begins where the contacts are.
   pure subroutine drop_anchor(self)
-    class(contact_set_type), intent(inout) :: self
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
     integer :: i
 
     do i = 1, size(self%point)
@@ -206,7 +206,7 @@ contains
 
   !> Adds the contacts' forces on slaves and masters.
   pure subroutine add_forces(self, displacement, force)
-    class(contact_set_type), intent(in) :: self
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     real(wp), intent(inout) :: force(:)     !! on them [N]
     real(wp) :: on_slave(spatial)
@@ -238,8 +238,8 @@ contains
 
   !> The set's unknowns of a contact: slave, then master nodes; 0 where they are held.
   pure function point_unknowns(self, i) result(unknown)
-    class(contact_set_type), intent(in) :: self
-    integer, intent(in) :: i
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i !! contact
     integer, allocatable :: unknown(:)
 
     associate (point => self%point(i))
@@ -249,8 +249,8 @@ contains
 
   !> Stiffness of a contact, -(force by displacement), in the order of `point_unknowns` [N/m].
   pure function point_block(self, i) result(block)
-    class(contact_set_type), intent(in) :: self
-    integer, intent(in) :: i
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i !! contact
     real(wp), allocatable :: block(:, :)
     real(wp) :: own(spatial, spatial), weight(size(self%point(i)%share) + 1)
     integer :: k, m
@@ -276,7 +276,7 @@ contains
 
   !> Ends a load step: friction carries its slip along as its law says.
   pure subroutine commit(self, displacement)
-    class(contact_set_type), intent(inout) :: self
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     real(wp) :: now(spatial), pressing, total(2)
     integer :: i
@@ -297,7 +297,7 @@ contains
 
   !> Work done against friction since the last commit, by the trapezoid rule [J].
   pure function friction_work(self, displacement) result(work)
-    class(contact_set_type), intent(in) :: self
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     real(wp) :: work
     real(wp) :: now(spatial)
@@ -315,7 +315,7 @@ contains
 
   !> Energy stored in the penetrations [J].
   pure function penalty_energy(self) result(energy)
-    class(contact_set_type), intent(in) :: self
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
     real(wp) :: energy
     integer :: i
 
@@ -330,8 +330,8 @@ contains
 
   !> Whether a contact is open, sticks or slips.
   elemental function state_of(self, i) result(state)
-    class(contact_set_type), intent(in) :: self
-    integer, intent(in) :: i
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i !! contact
     integer :: state
     real(wp) :: pressing
 

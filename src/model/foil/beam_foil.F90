@@ -42,24 +42,24 @@ contains
 
   !> The foil's own numbers: the first rank has all of them.
   function beam_natural_numbers(self) result(number)
-    class(beam_foil_type), intent(in) :: self
+    class(beam_foil_type), intent(in) :: self !! the beam foil
     integer, allocatable :: number(:)
     number = self%global_unknown(self%own_place)
   end function beam_natural_numbers
 
   !> Top foil and bump foil.
   function beam_surfaces(self) result(list)
-    class(beam_foil_type), intent(in) :: self
+    class(beam_foil_type), intent(in) :: self !! the beam foil
     type(foil_surface_type), allocatable :: list(:)
     list = both_surfaces(self%top, self%bumps)
   end function beam_surfaces
 
   !> The unknown of a node's station.
   pure function beam_own_unknown(self, surface, component, node) result(number)
-    class(beam_foil_type), intent(in) :: self
-    integer, intent(in) :: surface
-    integer, intent(in) :: component
-    integer, intent(in) :: node
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    integer, intent(in) :: surface !! which of `surfaces`
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node !! of the surface's whole mesh
     integer :: number
 
     if (surface == bump_surface) then
@@ -72,9 +72,9 @@ contains
 
   !> Displacements of all this rank's nodes of both foils: every node as its station.
   subroutine beam_displacements(self, unknown, top, bumps)
-    class(beam_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
 
     associate (owned => unknown(self%first + self%own_place))
       top = moved(owned, self%top_number(:, stations_of(self%top)))
@@ -106,16 +106,16 @@ contains
 
   !> Stresses of beams.
   function stresses_of_beams(self, surface, moved) result(value)
-    class(beam_foil_type), intent(in) :: self
-    type(foil_surface_type), intent(in) :: surface
-    real(wp), intent(in) :: moved(:, :)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's two
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) displacements [m], [rad]
     real(wp), allocatable :: value(:, :)
     value = beam_stresses(surface, moved)
   end function stresses_of_beams
 
   !> This rank's contacts, those of a line spread over its nodes.
   function beam_contacts(self) result(contacts)
-    class(beam_foil_type), intent(in) :: self
+    class(beam_foil_type), intent(in) :: self !! the beam foil
     type(contact_set_type) :: contacts
     integer :: i, rows
 
@@ -146,7 +146,7 @@ contains
 
   !> Unknowns of the bump foil.
   function beam_sizes(self) result(list)
-    class(beam_foil_type), intent(in) :: self
+    class(beam_foil_type), intent(in) :: self !! the beam foil
     type(quantity_type), allocatable :: list(:)
 
     allocate (list(0))
@@ -155,7 +155,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine beam_destroy(self)
-    class(beam_foil_type), intent(inout) :: self
+    class(beam_foil_type), intent(inout) :: self !! the beam foil
     call self%free_matrix()
   end subroutine beam_destroy
 end module gfb_beam_foil

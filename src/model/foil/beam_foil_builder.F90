@@ -39,11 +39,11 @@ contains
 
   !> Both foils under a film.
   subroutine create_beam_foil(scene, film, mesh, element_nodes, foil)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(local_mesh_type), intent(in) :: mesh  !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :) !! (nodes, elements) its elements, local nodes
-    type(beam_foil_type), intent(out) :: foil
+    type(beam_foil_type), intent(out) :: foil !! top foil and bumps, ready for the bearing
 
     integer :: unknowns, window(2), i
     logical :: mine

@@ -71,41 +71,41 @@ module gfb_foil_model
     !> Adds the foil's equations to the local residual of the bearing.
     subroutine add_residual(self, unknown, residual)
       import :: foil_model_type, wp
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
-      real(wp), intent(inout) :: residual(:) !! one a local unknown
+      real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
     end subroutine add_residual
 
     !> Adds the derivatives of the foil's equations to the bearing's matrix, by local numbers.
     subroutine add_jacobian(self, unknown, jacobian)
       import :: foil_model_type, wp, tMat
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-      Mat, intent(in) :: jacobian
+      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     end subroutine add_jacobian
 
     !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
     !> what does.
     subroutine add_constant(self, jacobian)
       import :: foil_model_type, tMat
-      class(foil_model_type), intent(in) :: self
-      Mat, intent(in) :: jacobian
+      class(foil_model_type), intent(in) :: self !! the foil
+      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     end subroutine add_constant
 
     !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
     !> node that depends on up to three unknowns of the bearing.
     subroutine add_load_rates(self, column, slope, jacobian)
       import :: foil_model_type, wp, tMat
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
-      real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by them
-      Mat, intent(in) :: jacobian
+      real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     end subroutine add_load_rates
 
     !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
     subroutine estimate(self, unknown)
       import :: foil_model_type, wp
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
     end subroutine estimate
 
@@ -113,7 +113,7 @@ module gfb_foil_model
     !> ranks, equations that are forces, and edges that can lift.
     pure function is_meshed(self) result(meshed)
       import :: foil_model_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       logical :: meshed
     end function is_meshed
 
@@ -121,14 +121,14 @@ module gfb_foil_model
     !> they do not depend on how many ranks there are. All ranks ask.
     function natural_numbers(self) result(number)
       import :: foil_model_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       integer, allocatable :: number(:)
     end function natural_numbers
 
     !> The surfaces that are meshed, this rank's part of each; none where nothing is.
     function surfaces(self) result(list)
       import :: foil_model_type, foil_surface_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       type(foil_surface_type), allocatable :: list(:)
     end function surfaces
 
@@ -136,7 +136,7 @@ module gfb_foil_model
     !> condensed.
     pure function own_unknown(self, surface, component, node) result(number)
       import :: foil_model_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       integer, intent(in) :: surface   !! which of `surfaces`
       integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
       integer, intent(in) :: node      !! of the surface's whole mesh
@@ -146,7 +146,7 @@ module gfb_foil_model
     !> Displacements and stresses of each of `surfaces`. All ranks ask.
     function motions(self, unknown) result(list)
       import :: foil_model_type, surface_motion_type, wp
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
       type(surface_motion_type), allocatable :: list(:)
     end function motions
@@ -154,21 +154,21 @@ module gfb_foil_model
     !> This rank's contacts, each of one node of the surface that has them.
     function nodal_contacts(self) result(contacts)
       import :: foil_model_type, contact_set_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       type(contact_set_type) :: contacts
     end function nodal_contacts
 
     !> Sizes that the summary shows.
     function sizes(self) result(list)
       import :: foil_model_type, quantity_type
-      class(foil_model_type), intent(in) :: self
+      class(foil_model_type), intent(in) :: self !! the foil
       type(quantity_type), allocatable :: list(:)
     end function sizes
 
     !> Frees what PETSc holds; may be called twice.
     subroutine destroy(self)
       import :: foil_model_type
-      class(foil_model_type), intent(inout) :: self
+      class(foil_model_type), intent(inout) :: self !! the foil
     end subroutine destroy
   end interface
 
@@ -176,7 +176,7 @@ contains
 
   !> Tells the foil where its unknowns stand among those of the bearing.
   pure subroutine place(self, first)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     integer, intent(in) :: first !! local unknowns before the foil's first
 
     self%first = first
@@ -186,14 +186,14 @@ contains
 
   !> Unknowns of the foil that this rank's nodes and equations need.
   pure function local_unknowns(self) result(unknowns)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     integer :: unknowns
     unknowns = size(self%global_unknown)
   end function local_unknowns
 
   !> The foil's part of the bearing's local unknowns.
   pure function own_part(self, unknown) result(part)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     real(wp) :: part(self%local_unknowns())
     part = unknown(self%first + 1:self%first + size(part))
@@ -201,7 +201,7 @@ contains
 
   !> Deflection at the local film nodes, positive away from the shaft [m].
   pure function deflection(self, unknown) result(moved)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     real(wp) :: moved(size(self%source))
     integer :: node
@@ -215,14 +215,14 @@ contains
 
   !> Whether the foil has contacts, on whatever rank: they open, close and rub.
   pure function has_contacts(self) result(has)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     logical :: has
     has = allocated(self%contacts%law)
   end function has_contacts
 
   !> Linearises every contact where the foils have gone.
   subroutine settle(self, unknown, moved, settled)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     logical, intent(out) :: moved      !! there are contacts
     logical, intent(out) :: settled    !! each of this rank is linearised where it is
@@ -239,27 +239,27 @@ contains
 
   !> A new Newton step begins where the contacts are.
   subroutine begin_step(self)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     call self%contacts%drop_anchor()
   end subroutine begin_step
 
   !> Ends a load step of the scene: friction carries its slip along.
   subroutine commit(self, unknown)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     call self%contacts%commit(self%own_part(unknown))
   end subroutine commit
 
   !> Makes the contacts softer than the scene has them, for a first answer.
   subroutine set_hardness(self, hardness)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     real(wp), intent(in) :: hardness !! factor of their normal stiffness [1]
     self%contacts%hardness = hardness
   end subroutine set_hardness
 
   !> Makes the contacts two-way (adhesive), for a first answer.
   subroutine set_adhesion(self, adhesion)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     real(wp), intent(in) :: adhesion !! stiffness against opening over that against closing [1]
     self%contacts%adhesion = adhesion
   end subroutine set_adhesion
@@ -267,7 +267,7 @@ contains
   !> Whether the matrix has a stiffness at contacts that are open: it keeps Newton's steps short, but
   !> is no derivative.
   subroutine set_lending(self, lends)
-    class(foil_model_type), intent(inout) :: self
+    class(foil_model_type), intent(inout) :: self !! the foil
     logical, intent(in) :: lends !! it has
     self%contacts%lends = lends
   end subroutine set_lending
@@ -275,14 +275,14 @@ contains
   !> The hardness to begin with: bumps that float between open and closed find their state at once; 1
   !> where there is nothing to soften.
   pure function softest(self) result(hardness)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp) :: hardness !! [1]
     hardness = self%first_hardness
   end function softest
 
   !> Length of this rank's crest lines that touches nothing, and of all of them [m].
   pure function crest_lengths(self) result(length)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp) :: length(2)
     integer :: i
 
@@ -299,7 +299,7 @@ contains
   !> The part of the way between two states, or on beyond, after which the first of this rank's
   !> contacts opens or closes; huge where none does.
   pure function next_contact_change(self, here, ahead) result(way)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
     real(wp) :: way                           !! [1]
     integer :: i
@@ -314,10 +314,10 @@ contains
   !> at once, the derivatives of their penetrations after the bearing's local unknowns, in the sense in
   !> which they go; and how far they go before they change.
   pure subroutine add_penetration_rates(self, here, ahead, way, rate, distance, closes)
-    class(foil_model_type), intent(in) :: self
+    class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
     real(wp), intent(in) :: way               !! part of the way to the first change [1]
-    real(wp), intent(inout) :: rate(:)        !! one a local unknown
+    real(wp), intent(inout) :: rate(:)        !! by each local unknown [1]
     real(wp), intent(inout) :: distance       !! sum of the penetrations' sizes [m]
     logical, intent(inout) :: closes          !! one of them closes
     real(wp), parameter :: together = 1.0e-6_wp !! relative

@@ -26,13 +26,13 @@ contains
   !>
   !> Fails where an element of a foil is degenerate.
   subroutine build_foil(scene, film, mesh, element_nodes, division, foil, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(local_mesh_type), intent(in) :: mesh   !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :)  !! (nodes, elements) its elements, local nodes
     type(division_type), intent(in) :: division !! of film and bumps
-    class(foil_model_type), allocatable, intent(out) :: foil
-    type(error_type), allocatable, intent(out) :: error
+    class(foil_model_type), allocatable, intent(out) :: foil !! of the model asked for, ready for the bearing
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     type(rigid_foil_type), allocatable :: rigid
     type(foundation_foil_type), allocatable :: foundation

@@ -31,8 +31,8 @@ contains
 
   !> Laws of the contacts, and how soft they begin.
   subroutine set_laws(scene, foil)
-    type(scene_type), intent(in) :: scene
-    class(meshed_foil_type), intent(inout) :: foil
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    class(meshed_foil_type), intent(inout) :: foil !! its contacts get their laws
     real(wp) :: stiffness !! of a bump, per length of line [N/m2]
 
     stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
@@ -43,7 +43,7 @@ contains
 
   !> Gives the unknowns that this rank needs their places, and the contacts and film nodes theirs.
   subroutine place_unknowns(foil, first, sunk)
-    class(meshed_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil !! with its contacts' unknowns in the foil's own numbers
     integer, intent(in) :: first   !! foil's unknowns of the ranks before this one
     integer, intent(in) :: sunk(:) !! (film nodes of this rank) foil's number of v there, from 1; 0: held
 
@@ -120,11 +120,11 @@ contains
 
   !> What the film's elements push, and the weights of their nodal pressures in the forces.
   subroutine add_pressure(film, mesh, element_nodes, yields, foil)
-    type(film_mesh_type), intent(in) :: film
-    type(local_mesh_type), intent(in) :: mesh
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(local_mesh_type), intent(in) :: mesh !! this rank's part of it
     integer, intent(in) :: element_nodes(:, :) !! (4 or 9, elements), local nodes
     logical, intent(in) :: yields !! pressures follow the foil: film and foil in turns, or asperities
-    class(meshed_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil !! its unknowns are numbered
 
     integer, parameter :: corners = 4 !! of a bilinear element
     integer :: i, nodes, station(size(element_nodes, 1)), row(size(element_nodes, 1))
@@ -149,10 +149,10 @@ contains
 
   !> Sizes of displacements and forces.
   subroutine size_unknowns(scene, film, turning, foil)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     integer, intent(in) :: turning(:) !! foil's numbers of this rank's rotations; it needs no others
-    class(meshed_foil_type), intent(inout) :: foil
+    class(meshed_foil_type), intent(inout) :: foil !! gets the sizes of its unknowns and equations
     real(wp) :: force, scale(size(foil%global_unknown))
 
     scale = 1.0_wp

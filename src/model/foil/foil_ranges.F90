@@ -39,7 +39,7 @@ contains
 
   !> Foil's number, from 1, of an unknown of the top foil, from 0; 0 where there is none.
   elemental function number_of_top(self, number) result(of_foil)
-    class(foil_ranges_type), intent(in) :: self
+    class(foil_ranges_type), intent(in) :: self !! both foils' numbers
     integer, intent(in) :: number !! of the structure, from 0; negative: none
     integer :: of_foil
     integer :: owner
@@ -53,7 +53,7 @@ contains
 
   !> The same of an unknown of the bumps.
   elemental function number_of_bumps(self, number) result(of_foil)
-    class(foil_ranges_type), intent(in) :: self
+    class(foil_ranges_type), intent(in) :: self !! both foils' numbers
     integer, intent(in) :: number !! of the structure, from 0; negative: none
     integer :: of_foil
 

@@ -51,10 +51,10 @@ contains
 
   !> The foundation that a scene asks for.
   subroutine build_foundation(scene, film, mesh, foil)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(local_mesh_type), intent(in) :: mesh !! this rank's part of it
-    type(foundation_foil_type), intent(out) :: foil
+    type(foundation_foil_type), intent(out) :: foil !! ready for the bearing
     real(wp) :: stiffness
 
     stiffness = foundation_stiffness(scene%model, scene%bump_foil)
@@ -68,8 +68,8 @@ contains
 
   !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
   pure function foundation_stiffness(model, bump_foil) result(stiffness)
-    type(model_case_type), intent(in) :: model
-    type(bump_foil_case_type), intent(in) :: bump_foil
+    type(model_case_type), intent(in) :: model !! gives the stiffness, or leaves it to the formula
+    type(bump_foil_case_type), intent(in) :: bump_foil !! shape and material of the bumps
     real(wp) :: stiffness
 
     stiffness = model%foundation_stiffness
@@ -83,7 +83,7 @@ contains
     integer, intent(in) :: nodes                !! film nodes of this rank
     real(wp), intent(in) :: stiffness           !! K [N/m3]
     real(wp), intent(in) :: ambient_pressure    !! p_a [Pa]
-    type(foundation_foil_type), intent(out) :: foil
+    type(foundation_foil_type), intent(out) :: foil !! without unknowns of its own
     integer :: i
 
     foil%stiffness = stiffness
@@ -98,13 +98,13 @@ contains
   !> Springs that feel the mean pressure along the axis.
   subroutine create_mean_foundation(film, mesh, rank, ranks, stiffness, ambient_pressure, &
                                     clearance, foil)
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(local_mesh_type), intent(in) :: mesh   !! this rank's part of it
     integer, intent(in) :: rank, ranks          !! this one, from 0, and their number
     real(wp), intent(in) :: stiffness           !! K [N/m3]
     real(wp), intent(in) :: ambient_pressure    !! p_a [Pa]
     real(wp), intent(in) :: clearance           !! C, the size of a deflection [m]
-    type(foundation_foil_type), intent(out) :: foil
+    type(foundation_foil_type), intent(out) :: foil !! with an unknown a station
 
     integer, allocatable :: local_of(:)
     real(wp), allocatable :: weight(:)
@@ -147,9 +147,9 @@ contains
 
   !> Equations of the stations: spring pressure less mean overpressure [Pa].
   subroutine foundation_residual(self, unknown, residual)
-    class(foundation_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    real(wp), intent(inout) :: residual(:)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
     integer :: i, node, equation
 
     do i = 1, size(self%owned_station)
@@ -166,9 +166,9 @@ contains
 
   !> Derivatives of the stations' equations.
   subroutine foundation_jacobian(self, unknown, jacobian)
-    class(foundation_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    Mat, intent(in) :: jacobian
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscErrorCode :: ierr
     PetscInt :: row(1), column(1)
     integer :: i
@@ -186,10 +186,10 @@ contains
 
   !> The mean of a pressure that depends on other unknowns.
   subroutine foundation_load_rates(self, column, slope, jacobian)
-    class(foundation_foil_type), intent(in) :: self
-    integer, intent(in) :: column(:, :)
-    real(wp), intent(in) :: slope(:, :)
-    Mat, intent(in) :: jacobian
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscErrorCode :: ierr
     PetscInt :: row(1), place(size(column, 1))
     integer :: i
@@ -203,8 +203,8 @@ contains
 
   !> Deflection of the stations under the pressures as they are.
   subroutine foundation_estimate(self, unknown)
-    class(foundation_foil_type), intent(in) :: self
-    real(wp), intent(inout) :: unknown(:)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing [SI]
     real(wp) :: mean(self%stations), total(self%stations)
     integer :: i, node, station
     PetscErrorCode :: ierr
@@ -224,65 +224,65 @@ contains
 
   !> Nothing of the matrix is constant and elastic.
   subroutine foundation_constant(self, jacobian)
-    class(foundation_foil_type), intent(in) :: self
-    Mat, intent(in) :: jacobian
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
   end subroutine foundation_constant
 
   !> No mesh of its own.
   pure function foundation_is_meshed(self) result(meshed)
-    class(foundation_foil_type), intent(in) :: self
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     logical :: meshed
     meshed = .false.
   end function foundation_is_meshed
 
   !> The numbers of the stations whose equations this rank begins; none under local pressure.
   function foundation_natural_numbers(self) result(number)
-    class(foundation_foil_type), intent(in) :: self
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     integer, allocatable :: number(:)
     number = self%global_unknown(self%owned_station)
   end function foundation_natural_numbers
 
   !> No surfaces.
   function foundation_surfaces(self) result(list)
-    class(foundation_foil_type), intent(in) :: self
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     type(foil_surface_type), allocatable :: list(:)
     allocate (list(0))
   end function foundation_surfaces
 
   !> No surface has an unknown.
   pure function foundation_own_unknown(self, surface, component, node) result(number)
-    class(foundation_foil_type), intent(in) :: self
-    integer, intent(in) :: surface
-    integer, intent(in) :: component
-    integer, intent(in) :: node
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    integer, intent(in) :: surface !! which of `surfaces`
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node !! of the surface's whole mesh
     integer :: number
     number = 0
   end function foundation_own_unknown
 
   !> No surfaces, no motions.
   function foundation_motions(self, unknown) result(list)
-    class(foundation_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     type(surface_motion_type), allocatable :: list(:)
     allocate (list(0))
   end function foundation_motions
 
   !> No contacts.
   function foundation_contacts(self) result(contacts)
-    class(foundation_foil_type), intent(in) :: self
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     type(contact_set_type) :: contacts
     contacts = self%contacts
   end function foundation_contacts
 
   !> No sizes to show.
   function foundation_sizes(self) result(list)
-    class(foundation_foil_type), intent(in) :: self
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     type(quantity_type), allocatable :: list(:)
     allocate (list(0))
   end function foundation_sizes
 
   !> Nothing to free.
   subroutine foundation_destroy(self)
-    class(foundation_foil_type), intent(inout) :: self
+    class(foundation_foil_type), intent(inout) :: self !! the elastic foundation
   end subroutine foundation_destroy
 end module gfb_foundation_foil

@@ -43,16 +43,16 @@ module gfb_meshed_foil
     !> Displacements of all this rank's nodes of both foils, condensed ones recovered. All ranks ask.
     subroutine split_displacements(self, unknown, top, bumps)
       import :: meshed_foil_type, wp
-      class(meshed_foil_type), intent(in) :: self
+      class(meshed_foil_type), intent(in) :: self !! the foil
       real(wp), intent(in) :: unknown(:)            !! local unknowns of the bearing, in SI
       real(wp), allocatable, intent(out) :: top(:, :)   !! (5, local nodes) [m], [rad]
-      real(wp), allocatable, intent(out) :: bumps(:, :) !! the same of the bump foil
+      real(wp), allocatable, intent(out) :: bumps(:, :) !! the same of the bump foil [m], [rad]
     end subroutine split_displacements
 
     !> Stresses of a surface's elements on this rank.
     function stresses(self, surface, moved) result(value)
       import :: meshed_foil_type, foil_surface_type, wp
-      class(meshed_foil_type), intent(in) :: self
+      class(meshed_foil_type), intent(in) :: self !! the foil
       type(foil_surface_type), intent(in) :: surface !! one of the foil's two
       real(wp), intent(in) :: moved(:, :)            !! (5, local nodes) [m], [rad]
       real(wp), allocatable :: value(:, :)           !! (8, elements of this rank) [Pa]
@@ -77,9 +77,9 @@ contains
 
   !> Elastic forces, pressure and contacts.
   subroutine meshed_residual(self, unknown, residual)
-    class(meshed_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    real(wp), intent(inout) :: residual(:)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
 
     real(wp) :: contact(self%local_unknowns()), load(size(self%pressed, 1))
     PetscScalar, pointer :: values(:)
@@ -115,9 +115,9 @@ contains
 
   !> Stiffness of the contacts as they are linearised.
   subroutine meshed_jacobian(self, unknown, jacobian)
-    class(meshed_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    Mat, intent(in) :: jacobian
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscErrorCode :: ierr
     integer :: i
 
@@ -145,8 +145,8 @@ contains
 
   !> Pressure on the top foil, and room for the contacts.
   subroutine meshed_constant(self, jacobian)
-    class(meshed_foil_type), intent(in) :: self
-    Mat, intent(in) :: jacobian
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscInt :: row(size(self%pressed, 1)), column(size(self%pressed, 1))
     PetscErrorCode :: ierr
     integer :: i
@@ -165,10 +165,10 @@ contains
 
   !> Load of a pressure that depends on other unknowns.
   subroutine meshed_load_rates(self, column, slope, jacobian)
-    class(meshed_foil_type), intent(in) :: self
-    integer, intent(in) :: column(:, :)
-    real(wp), intent(in) :: slope(:, :)
-    Mat, intent(in) :: jacobian
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(size(column, 1), size(self%pressed, 1), size(self%pressed, 1))
     PetscInt :: row(size(self%pressed, 1)), place(size(column, 1), size(self%pressed, 1))
@@ -191,21 +191,21 @@ contains
 
   !> The foils stay where they are: contacts find their way from there.
   subroutine meshed_estimate(self, unknown)
-    class(meshed_foil_type), intent(in) :: self
-    real(wp), intent(inout) :: unknown(:)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing [SI]
   end subroutine meshed_estimate
 
   !> Both foils have meshes.
   pure function meshed_is_meshed(self) result(meshed)
-    class(meshed_foil_type), intent(in) :: self
+    class(meshed_foil_type), intent(in) :: self !! the foil
     logical :: meshed
     meshed = .true.
   end function meshed_is_meshed
 
   !> Displacements and stresses of both foils.
   function meshed_motions(self, unknown) result(list)
-    class(meshed_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     type(surface_motion_type), allocatable :: list(:)
     type(foil_surface_type), allocatable :: surface(:)
     integer :: i
@@ -220,7 +220,7 @@ contains
 
   !> Frees the matrix and its vectors; may be called twice.
   subroutine free_matrix(self)
-    class(meshed_foil_type), intent(inout) :: self
+    class(meshed_foil_type), intent(inout) :: self !! the foil
     PetscErrorCode :: ierr
 
     if (.not. self%has_matrix) return

@@ -34,7 +34,7 @@ contains
   !> A rigid surface under a film.
   subroutine create_rigid_foil(nodes, foil)
     integer, intent(in) :: nodes !! film nodes of this rank
-    type(rigid_foil_type), intent(out) :: foil
+    type(rigid_foil_type), intent(out) :: foil !! without unknowns
 
     allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
     allocate (foil%row_entries(0))
@@ -44,93 +44,93 @@ contains
 
   !> Nothing to add: the surface has no equations.
   subroutine rigid_residual(self, unknown, residual)
-    class(rigid_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    real(wp), intent(inout) :: residual(:)
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
   end subroutine rigid_residual
 
   !> Nothing to add: the surface has no equations.
   subroutine rigid_jacobian(self, unknown, jacobian)
-    class(rigid_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    Mat, intent(in) :: jacobian
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
   end subroutine rigid_jacobian
 
   !> Nothing to estimate: the surface has no unknowns.
   subroutine rigid_estimate(self, unknown)
-    class(rigid_foil_type), intent(in) :: self
-    real(wp), intent(inout) :: unknown(:)
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing [SI]
   end subroutine rigid_estimate
 
   !> Nothing to add: the surface has no equations.
   subroutine rigid_load_rates(self, column, slope, jacobian)
-    class(rigid_foil_type), intent(in) :: self
-    integer, intent(in) :: column(:, :)
-    real(wp), intent(in) :: slope(:, :)
-    Mat, intent(in) :: jacobian
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
   end subroutine rigid_load_rates
 
   !> Nothing of the matrix is constant and elastic.
   subroutine rigid_constant(self, jacobian)
-    class(rigid_foil_type), intent(in) :: self
-    Mat, intent(in) :: jacobian
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
   end subroutine rigid_constant
 
   !> No mesh of its own.
   pure function rigid_is_meshed(self) result(meshed)
-    class(rigid_foil_type), intent(in) :: self
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
     logical :: meshed
     meshed = .false.
   end function rigid_is_meshed
 
   !> No unknowns, no numbers.
   function rigid_natural_numbers(self) result(number)
-    class(rigid_foil_type), intent(in) :: self
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
     integer, allocatable :: number(:)
     allocate (number(0))
   end function rigid_natural_numbers
 
   !> No surfaces.
   function rigid_surfaces(self) result(list)
-    class(rigid_foil_type), intent(in) :: self
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
     type(foil_surface_type), allocatable :: list(:)
     allocate (list(0))
   end function rigid_surfaces
 
   !> No surface has an unknown.
   pure function rigid_own_unknown(self, surface, component, node) result(number)
-    class(rigid_foil_type), intent(in) :: self
-    integer, intent(in) :: surface
-    integer, intent(in) :: component
-    integer, intent(in) :: node
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    integer, intent(in) :: surface !! which of `surfaces`
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node !! of the surface's whole mesh
     integer :: number
     number = 0
   end function rigid_own_unknown
 
   !> No surfaces, no motions.
   function rigid_motions(self, unknown) result(list)
-    class(rigid_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     type(surface_motion_type), allocatable :: list(:)
     allocate (list(0))
   end function rigid_motions
 
   !> No contacts.
   function rigid_contacts(self) result(contacts)
-    class(rigid_foil_type), intent(in) :: self
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
     type(contact_set_type) :: contacts
     contacts = self%contacts
   end function rigid_contacts
 
   !> No sizes to show.
   function rigid_sizes(self) result(list)
-    class(rigid_foil_type), intent(in) :: self
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
     type(quantity_type), allocatable :: list(:)
     allocate (list(0))
   end function rigid_sizes
 
   !> Nothing to free.
   subroutine rigid_destroy(self)
-    class(rigid_foil_type), intent(inout) :: self
+    class(rigid_foil_type), intent(inout) :: self !! the rigid foil
   end subroutine rigid_destroy
 end module gfb_rigid_foil

@@ -35,7 +35,7 @@ contains
 
   !> The top foil's numbers, then those of the bumps.
   function shell_natural_numbers(self) result(number)
-    class(shell_foil_type), intent(in) :: self
+    class(shell_foil_type), intent(in) :: self !! the shell foil
     integer, allocatable :: number(:), top(:), bumps(:)
 
     top = self%top%natural_numbers()
@@ -45,17 +45,17 @@ contains
 
   !> Top foil and bump foil.
   function shell_surfaces(self) result(list)
-    class(shell_foil_type), intent(in) :: self
+    class(shell_foil_type), intent(in) :: self !! the shell foil
     type(foil_surface_type), allocatable :: list(:)
     list = both_surfaces(self%top%foil_surface_type, self%bumps%foil_surface_type)
   end function shell_surfaces
 
   !> The structure's number, among those of both.
   pure function shell_own_unknown(self, surface, component, node) result(number)
-    class(shell_foil_type), intent(in) :: self
-    integer, intent(in) :: surface
-    integer, intent(in) :: component
-    integer, intent(in) :: node
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    integer, intent(in) :: surface !! which of `surfaces`
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node !! of the surface's whole mesh
     integer :: number
 
     if (surface == bump_surface) then
@@ -69,9 +69,9 @@ contains
 
   !> Displacements of all this rank's nodes of both foils, condensed ones recovered.
   subroutine shell_displacements(self, unknown, top, bumps)
-    class(shell_foil_type), intent(in) :: self
-    real(wp), intent(in) :: unknown(:)
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
     integer :: mine
 
     mine = self%top%part%owned_unknowns
@@ -99,23 +99,23 @@ contains
 
   !> Stresses of shells.
   function stresses_of_shells(self, surface, moved) result(value)
-    class(shell_foil_type), intent(in) :: self
-    type(foil_surface_type), intent(in) :: surface
-    real(wp), intent(in) :: moved(:, :)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's two
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) displacements [m], [rad]
     real(wp), allocatable :: value(:, :)
     value = shell_stresses(surface, moved)
   end function stresses_of_shells
 
   !> The contacts as they are: each is of one node of the bumps.
   function shell_contacts(self) result(contacts)
-    class(shell_foil_type), intent(in) :: self
+    class(shell_foil_type), intent(in) :: self !! the shell foil
     type(contact_set_type) :: contacts
     contacts = self%contacts
   end function shell_contacts
 
   !> Unknowns of the bump foil, full and retained, and its super-elements.
   function shell_sizes(self) result(list)
-    class(shell_foil_type), intent(in) :: self
+    class(shell_foil_type), intent(in) :: self !! the shell foil
     type(quantity_type), allocatable :: list(:)
     integer :: rows
 
@@ -129,7 +129,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine shell_destroy(self)
-    class(shell_foil_type), intent(inout) :: self
+    class(shell_foil_type), intent(inout) :: self !! the shell foil
 
     call self%free_matrix()
     call destroy_foil_structure(self%top)

@@ -30,13 +30,13 @@ contains
   !>
   !> Fails where an element is degenerate.
   subroutine create_shell_foil(scene, film, mesh, element_nodes, division, foil, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :)       !! (nodes, elements) its elements, local nodes
     type(division_type), intent(in) :: division      !! of film and bumps
-    type(shell_foil_type), intent(out) :: foil
-    type(error_type), allocatable, intent(out) :: error
+    type(shell_foil_type), intent(out) :: foil !! top foil and bumps, ready for the bearing
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     type(foil_ranges_type) :: ranges
     integer :: v(node_unknowns, size(mesh%mesh_node))

@@ -105,7 +105,7 @@ contains
 
   !> Largest load over the mean one [1].
   pure function balance(self)
-    class(division_type), intent(in) :: self
+    class(division_type), intent(in) :: self !! the division
     real(wp) :: balance
     balance = real(maxval(self%load), wp)*self%parts/real(max(1, sum(self%load)), wp)
   end function balance

@@ -39,14 +39,14 @@ contains
 
   !> Nodes of the whole mesh.
   pure function whole_nodes(self) result(nodes)
-    class(quad_mesh_type), intent(in) :: self
+    class(quad_mesh_type), intent(in) :: self !! the mesh
     integer :: nodes
     nodes = self%stations*self%rows
   end function whole_nodes
 
   !> Elements of the whole mesh.
   pure function whole_elements(self) result(elements)
-    class(quad_mesh_type), intent(in) :: self
+    class(quad_mesh_type), intent(in) :: self !! the mesh
     integer :: elements
     elements = max(0, self%stations - 1)*(self%rows - 1)
   end function whole_elements

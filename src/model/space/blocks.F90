@@ -65,7 +65,7 @@ contains
 
   !> Number, from 0, among all unknowns of a block's own one.
   pure function global_number(self, block, number) result(global)
-    class(blocks_type), intent(in) :: self
+    class(blocks_type), intent(in) :: self !! the blocks of unknowns
     integer, intent(in) :: block  !! from 1
     integer, intent(in) :: number !! the block's own, from 1
     integer :: global
@@ -96,14 +96,14 @@ contains
 
   !> Local unknowns of this rank, with the scalars.
   pure function local_unknowns(self) result(unknowns)
-    class(blocks_type), intent(in) :: self
+    class(blocks_type), intent(in) :: self !! the blocks of unknowns
     integer :: unknowns
     unknowns = size(self%global)
   end function local_unknowns
 
   !> A matrix that is filled by local numbers, with room for given entries and for the scalars.
   subroutine create_matrix(self, entries, matrix)
-    class(blocks_type), intent(in) :: self
+    class(blocks_type), intent(in) :: self !! the blocks of unknowns
     PetscInt, intent(in) :: entries(:) !! of each row that this rank owns, without the scalars, at most
     Mat, intent(out) :: matrix !! of all ranks, still empty
     ISLocalToGlobalMapping :: map

@@ -46,14 +46,14 @@ contains
 
   !> This rank's unknowns without the scalars.
   pure function inner(self) result(owned)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     integer :: owned
     owned = self%owned - merge(self%scalars, 0, self%last_rank)
   end function inner
 
   !> A matrix with room for given numbers of entries, and for the scalars' rows and columns.
   subroutine create_matrix(self, inside, outside, matrix)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     PetscInt, intent(in) :: inside(:)  !! entries of this rank's rows, without scalars, in its own columns
     PetscInt, intent(in) :: outside(:) !! and in other ranks' columns, at most
     Mat, intent(out) :: matrix !! of all ranks, still empty
@@ -76,7 +76,7 @@ contains
 
   !> Writes a vector into the row of a scalar of a matrix, full of entries: every rank its own columns.
   subroutine set_row(self, scalar, vector, matrix)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     integer, intent(in) :: scalar !! from 1
     Vec, intent(in) :: vector     !! with the scalars
     Mat, intent(in) :: matrix     !! to be assembled by the caller
@@ -93,7 +93,7 @@ contains
 
   !> The scalars in a vector, on every rank.
   function values(self, vector) result(value)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     Vec, intent(in) :: vector !! of all ranks
     real(wp) :: value(self%scalars)
     PetscScalar, pointer :: all(:)
@@ -108,8 +108,8 @@ contains
 
   !> Sets the scalars in a vector.
   subroutine set_values(self, value, vector)
-    class(border_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! the same on every rank
+    class(border_type), intent(in) :: self !! the scalar unknowns
+    real(wp), intent(in) :: value(:) !! one a scalar, the same on every rank, scaled
     Vec, intent(in) :: vector !! of all ranks
     PetscScalar, pointer :: all(:)
     PetscErrorCode :: ierr
@@ -121,9 +121,9 @@ contains
 
   !> Puts a vector without the scalars and values of them together.
   subroutine join(self, part, value, whole)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     Vec, intent(in) :: part          !! without the scalars
-    real(wp), intent(in) :: value(:) !! the same on every rank
+    real(wp), intent(in) :: value(:) !! one a scalar, the same on every rank, scaled
     Vec, intent(in) :: whole         !! with them
     PetscScalar, pointer :: all(:), inside(:)
     PetscErrorCode :: ierr
@@ -138,7 +138,7 @@ contains
 
   !> The part of a vector without the scalars.
   subroutine split(self, whole, part)
-    class(border_type), intent(in) :: self
+    class(border_type), intent(in) :: self !! the scalar unknowns
     Vec, intent(in) :: whole !! with the scalars
     Vec, intent(in) :: part  !! without them
     PetscScalar, pointer :: all(:), inside(:)

@@ -33,7 +33,7 @@ contains
 
   !> Asks PETSc for the events, which are registered once a run: PETSc has room for few classes.
   subroutine register_cost_events(events)
-    type(cost_events_type), intent(out) :: events
+    type(cost_events_type), intent(out) :: events !! of assembly, film, foil and contact
     character(len=*), parameter :: name(4) = [character(len=12) :: 'gfb assembly', 'gfb film', 'gfb foil', 'gfb contact']
     PetscLogEvent :: event(size(name))
     PetscClassId :: class
@@ -55,7 +55,7 @@ contains
 
   !> What follows belongs to a stage of the run, until it is left.
   subroutine enter_stage(name)
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! of the stage, as PETSc's log shows it
     PetscLogStage :: stage
     PetscErrorCode :: ierr
 

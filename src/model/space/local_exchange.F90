@@ -38,9 +38,9 @@ contains
 
   !> Values of a vector at the local unknowns.
   subroutine get(self, vector, value)
-    class(local_exchange_type), intent(in) :: self
+    class(local_exchange_type), intent(in) :: self !! the exchange
     Vec, intent(in) :: vector !! of all ranks
-    real(wp), intent(out) :: value(:) !! one a local unknown
+    real(wp), intent(out) :: value(:) !! one a local unknown, in the vector's units [SI]
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 
@@ -53,8 +53,8 @@ contains
 
   !> Writes local values into a vector; where ranks share an unknown their values must agree.
   subroutine put(self, value, vector)
-    class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! one a local unknown
+    class(local_exchange_type), intent(in) :: self !! the exchange
+    real(wp), intent(in) :: value(:) !! one a local unknown, in the vector's units [SI]
     Vec, intent(in) :: vector !! of all ranks
     PetscErrorCode :: ierr
 
@@ -65,8 +65,8 @@ contains
 
   !> Adds every rank's local values to a vector.
   subroutine add(self, value, vector)
-    class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! one a local unknown
+    class(local_exchange_type), intent(in) :: self !! the exchange
+    real(wp), intent(in) :: value(:) !! one a local unknown, in the vector's units [SI]
     Vec, intent(in) :: vector !! of all ranks
     PetscErrorCode :: ierr
 
@@ -77,8 +77,8 @@ contains
 
   !> Fills the local vector.
   subroutine fill(self, value)
-    class(local_exchange_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! one a local unknown
+    class(local_exchange_type), intent(in) :: self !! the exchange
+    real(wp), intent(in) :: value(:) !! one a local unknown, in the vector's units [SI]
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 
@@ -89,7 +89,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine destroy(self)
-    class(local_exchange_type), intent(inout) :: self
+    class(local_exchange_type), intent(inout) :: self !! the exchange
     PetscErrorCode :: ierr
 
     PetscCallA(VecScatterDestroy(self%ghosts, ierr))

@@ -58,7 +58,7 @@ contains
     integer, intent(in) :: stations, rows  !! of the whole mesh
     logical, intent(in) :: periodic        !! the last station's neighbour is the first
     integer, intent(in) :: column_part(:)  !! rank, from 1, of every column of elements
-    type(local_mesh_type), intent(out) :: mesh
+    type(local_mesh_type), intent(out) :: mesh !! this rank's part
     !> unknowns at the nodes, under their numbers in the whole mesh, at least of this rank's columns;
     !> default: one each
     integer, allocatable, intent(in), optional :: node_unknowns(:)

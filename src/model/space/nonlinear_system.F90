@@ -30,16 +30,16 @@ module gfb_nonlinear_system
     !> Residual at a state; `valid` is false on a rank that cannot evaluate it there.
     subroutine evaluate(self, state, residual, valid)
       import :: nonlinear_system_type, tVec
-      class(nonlinear_system_type), intent(inout) :: self
+      class(nonlinear_system_type), intent(inout) :: self !! the equations
       Vec, intent(in) :: state    !! scaled
       Vec, intent(in) :: residual !! scaled
-      logical, intent(out) :: valid
+      logical, intent(out) :: valid !! the residual is there, on this rank
     end subroutine evaluate
 
     !> Fills the system's matrix with the derivative at a state.
     subroutine linearise(self, state)
       import :: nonlinear_system_type, tVec
-      class(nonlinear_system_type), intent(inout) :: self
+      class(nonlinear_system_type), intent(inout) :: self !! the equations
       Vec, intent(in) :: state !! scaled
     end subroutine linearise
   end interface
@@ -49,22 +49,22 @@ contains
   !> Called after every step: what is linearised at a place of its own moves there. The residual
   !> changes with it. Says so in `moved`; here nothing does.
   subroutine settle(self, state, moved)
-    class(nonlinear_system_type), intent(inout) :: self
+    class(nonlinear_system_type), intent(inout) :: self !! the equations
     Vec, intent(in) :: state !! scaled
-    logical, intent(out) :: moved
+    logical, intent(out) :: moved !! something may have moved: the residual is another
     moved = .false.
   end subroutine settle
 
   !> Called before every step; `settle` may be called for several trials of it. Here nothing is
   !> kept.
   subroutine begin_step(self)
-    class(nonlinear_system_type), intent(inout) :: self
+    class(nonlinear_system_type), intent(inout) :: self !! the equations
   end subroutine begin_step
 
   !> Work of a structure's residual forces along a step, scaled; where a structure is in equilibrium
   !> it changes its sign along the step. Here there is none.
   function virtual_work(self, residual, step) result(work)
-    class(nonlinear_system_type), intent(in) :: self
+    class(nonlinear_system_type), intent(in) :: self !! the equations
     Vec, intent(in) :: residual, step !! scaled
     real(wp) :: work
     work = 0.0_wp

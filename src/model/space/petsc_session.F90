@@ -86,7 +86,7 @@ contains
 
   !> Sum of each number over all ranks.
   function sum_over_ranks(numbers) result(total)
-    real(wp), intent(in) :: numbers(:)
+    real(wp), intent(in) :: numbers(:) !! of this rank, as many on every rank, in any unit [SI]
     real(wp) :: total(size(numbers))
     PetscErrorCode :: ierr
     call MPI_Allreduce(numbers, total, size(numbers), MPI_DOUBLE_PRECISION, MPI_SUM, PETSC_COMM_WORLD, ierr)
@@ -94,7 +94,7 @@ contains
 
   !> Largest of each number over all ranks.
   function largest_over_ranks(numbers) result(largest)
-    real(wp), intent(in) :: numbers(:)
+    real(wp), intent(in) :: numbers(:) !! of this rank, as many on every rank, in any unit [SI]
     real(wp) :: largest(size(numbers))
     PetscErrorCode :: ierr
     call MPI_Allreduce(numbers, largest, size(numbers), MPI_DOUBLE_PRECISION, MPI_MAX, PETSC_COMM_WORLD, ierr)
@@ -109,7 +109,7 @@ contains
 
   !> Whether something is true on any rank.
   function any_rank(truth) result(any_true)
-    logical, intent(in) :: truth
+    logical, intent(in) :: truth !! of this rank
     logical :: any_true
     PetscErrorCode :: ierr
     call MPI_Allreduce(truth, any_true, 1, MPI_LOGICAL, MPI_LOR, PETSC_COMM_WORLD, ierr)
@@ -117,7 +117,7 @@ contains
 
   !> Makes a failure on one rank a failure on all.
   subroutine share_failure(error)
-    type(error_type), allocatable, intent(inout) :: error
+    type(error_type), allocatable, intent(inout) :: error !! of this rank; on return of all, if one failed
 
     if (any_rank(allocated(error)) .and. .not. allocated(error)) then
       call fail(error, 'another rank failed', status_machine)
@@ -128,7 +128,7 @@ contains
   function fetch_entries(total, number, value, wanted) result(fetched)
     integer, intent(in) :: total         !! entries of all ranks
     integer, intent(in) :: number(:)     !! of the entries this rank gives, from 1
-    real(wp), intent(in) :: value(:, :)  !! (components, entries given)
+    real(wp), intent(in) :: value(:, :)  !! (components, entries given) in any unit [SI]
     integer, intent(in) :: wanted(:)     !! numbers of the entries this rank gets, from 1
     real(wp) :: fetched(size(value, 1), size(wanted))
 

@@ -43,9 +43,9 @@ contains
 
   !> Begins at the unloaded strip.
   subroutine start_recorder(strip, bumps, recorder)
-    type(strip_system_type), intent(in) :: strip
-    integer, intent(in) :: bumps
-    type(strip_recorder_type), intent(out) :: recorder
+    type(strip_system_type), intent(in) :: strip !! at rest
+    integer, intent(in) :: bumps !! number of bumps
+    type(strip_recorder_type), intent(out) :: recorder !! at the unloaded strip
     PetscErrorCode :: ierr
 
     recorder%bumps = bumps
@@ -57,9 +57,9 @@ contains
 
   !> Goes on from the strip's present state, whose answer is known.
   subroutine resume_recorder(strip, answer, recorder)
-    type(strip_system_type), intent(in) :: strip
-    type(strip_answer_type), intent(in) :: answer
-    type(strip_recorder_type), intent(inout) :: recorder
+    type(strip_system_type), intent(in) :: strip !! at the state of the answer
+    type(strip_answer_type), intent(in) :: answer !! that steps go on from
+    type(strip_recorder_type), intent(inout) :: recorder !! has been started
     PetscErrorCode :: ierr
 
     recorder%last = answer
@@ -69,10 +69,10 @@ contains
   !> The answer of a step that has converged and is not committed yet; works go on from the last
   !> one.
   subroutine read_answer(strip, full_force, recorder, answer)
-    type(strip_system_type), intent(inout) :: strip
+    type(strip_system_type), intent(inout) :: strip !! at a step that has converged
     real(wp), intent(in) :: full_force !! on all crests where it is given [N]
-    type(strip_recorder_type), intent(inout) :: recorder
-    type(strip_answer_type), intent(out) :: answer
+    type(strip_recorder_type), intent(inout) :: recorder !! at the last step; on return at this one
+    type(strip_answer_type), intent(out) :: answer !! of this step
 
     real(wp) :: widths, done
     real(wp), allocatable :: displacement(:)
@@ -151,7 +151,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine destroy_recorder(recorder)
-    type(strip_recorder_type), intent(inout) :: recorder
+    type(strip_recorder_type), intent(inout) :: recorder !! its vectors are freed
     PetscErrorCode :: ierr
 
     PetscCallA(VecDestroy(recorder%state, ierr))
@@ -160,7 +160,7 @@ contains
 
   !> Packs or unpacks an answer; one that is unpacked knows its number of bumps.
   pure subroutine remember_answer(memory, answer)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! packs or unpacks
     type(strip_answer_type), intent(inout) :: answer !! written where the memory unpacks
 
     call memory%visit('factor', answer%factor)

@@ -42,10 +42,10 @@ contains
   !>
   !> Fails where an element is degenerate.
   subroutine build_strip(scene, plan, strip, error)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    type(strip_system_type), intent(out) :: strip
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(foil_plan_type), intent(in) :: plan !! what the program decided about the foil
+    type(strip_system_type), intent(out) :: strip !! unloaded
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     call build_structure(scene, plan, strip%foil, error)
     if (allocated(error)) return

@@ -73,7 +73,7 @@ contains
 
   !> Prepares vectors and matrices; foil, contacts, plate and scale have been set.
   subroutine create_strip_system(strip)
-    type(strip_system_type), intent(inout) :: strip
+    type(strip_system_type), intent(inout) :: strip !! with foil, contacts, plate and scale
     PetscErrorCode :: ierr
 
     call create_border(strip%foil%part%owned_unknowns, merge(1, 0, strip%plate == plate_forced), strip%border)
@@ -196,10 +196,10 @@ contains
 
   !> Equilibrium: elastic forces less those of contacts and load, scaled.
   subroutine evaluate(self, state, residual, valid)
-    class(strip_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    Vec, intent(in) :: residual
-    logical, intent(out) :: valid
+    class(strip_system_type), intent(inout) :: self !! the strip
+    Vec, intent(in) :: state !! scaled
+    Vec, intent(in) :: residual !! scaled
+    logical, intent(out) :: valid   !! true: nothing can fail
     real(wp) :: displacement(size(self%local_unit)), force(size(self%local_unit))
     PetscErrorCode :: ierr
 
@@ -227,8 +227,8 @@ contains
 
   !> The matrix with the contacts as they are linearised.
   subroutine linearise(self, state)
-    class(strip_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
+    class(strip_system_type), intent(inout) :: self !! the strip
+    Vec, intent(in) :: state !! scaled
     PetscErrorCode :: ierr
     integer :: i
 
@@ -245,7 +245,7 @@ contains
 
   !> Finds the motions that an iterative solver needs.
   subroutine find_motions(self)
-    class(strip_system_type), intent(inout) :: self
+    class(strip_system_type), intent(inout) :: self !! the strip
 
     call create_rigid_modes(self%foil, self%unit, self%elastic, self%motions)
     self%has_motions = .true.
@@ -253,9 +253,9 @@ contains
 
   !> Linearises every contact where the strip has gone.
   subroutine settle(self, state, moved)
-    class(strip_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    logical, intent(out) :: moved
+    class(strip_system_type), intent(inout) :: self !! the strip
+    Vec, intent(in) :: state !! scaled
+    logical, intent(out) :: moved !! true: contacts may have
     real(wp) :: displacement(size(self%local_unit))
 
     call self%contact_displacements(state, displacement)
@@ -266,14 +266,14 @@ contains
 
   !> A new Newton step begins where the contacts are.
   subroutine begin_step(self)
-    class(strip_system_type), intent(inout) :: self
+    class(strip_system_type), intent(inout) :: self !! the strip
     call self%contacts%drop_anchor()
   end subroutine begin_step
 
   !> Work of the residual forces along a step, scaled.
   function virtual_work(self, residual, step) result(work)
-    class(strip_system_type), intent(in) :: self
-    Vec, intent(in) :: residual, step
+    class(strip_system_type), intent(in) :: self !! the strip
+    Vec, intent(in) :: residual, step !! scaled
     real(wp) :: work
     PetscScalar :: product
     PetscErrorCode :: ierr
@@ -284,8 +284,8 @@ contains
 
   !> Sets the share of the full load.
   subroutine set_factor(self, factor)
-    class(strip_system_type), intent(inout) :: self
-    real(wp), intent(in) :: factor
+    class(strip_system_type), intent(inout) :: self !! the strip
+    real(wp), intent(in) :: factor !! share of the full load [1]
     integer :: i
 
     self%factor = factor
@@ -299,7 +299,7 @@ contains
 
   !> Ends a load step: friction carries its slip along.
   subroutine commit(self)
-    class(strip_system_type), intent(inout) :: self
+    class(strip_system_type), intent(inout) :: self !! the strip
     real(wp) :: displacement(size(self%local_unit))
 
     call self%contact_displacements(self%state, displacement)
@@ -308,9 +308,9 @@ contains
 
   !> Displacements of the contacts' unknowns [m].
   subroutine contact_displacements(self, state, displacement)
-    class(strip_system_type), intent(in) :: self
-    Vec, intent(in) :: state
-    real(wp), intent(out) :: displacement(:)
+    class(strip_system_type), intent(in) :: self !! the strip
+    Vec, intent(in) :: state !! scaled
+    real(wp), intent(out) :: displacement(:) !! of each of the contacts' unknowns [m]
 
     call self%exchange%get(state, displacement)
     displacement = displacement*self%local_unit
@@ -318,8 +318,8 @@ contains
 
   !> Displacements and rotations of the foil's unknowns [m], [1]; the caller destroys the vector.
   subroutine foil_solution(self, solution)
-    class(strip_system_type), intent(in) :: self
-    Vec, intent(out) :: solution
+    class(strip_system_type), intent(in) :: self !! the strip
+    Vec, intent(out) :: solution !! of each of the foil's unknowns [m], [1]
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(self%state, solution, ierr))
@@ -328,7 +328,7 @@ contains
 
   !> Displacement of the plate towards the sleeve [m]; zero without one.
   function plate_travel(self) result(displacement)
-    class(strip_system_type), intent(in) :: self
+    class(strip_system_type), intent(in) :: self !! the strip
     real(wp) :: displacement
 
     displacement = 0.0_wp
@@ -339,7 +339,7 @@ contains
 
   !> Energy of the foil's deformation [J].
   function strain_energy(self) result(stored)
-    class(strip_system_type), intent(in) :: self
+    class(strip_system_type), intent(in) :: self !! the strip
     real(wp) :: stored
     PetscScalar :: product
     PetscErrorCode :: ierr
@@ -353,7 +353,7 @@ contains
   !> that its matrix gives is from that of the strains. It is round-off, and large in thin foils
   !> alone.
   function stiffness_round_off(self) result(error)
-    class(strip_system_type), intent(in) :: self
+    class(strip_system_type), intent(in) :: self !! the strip
     real(wp) :: error
     type(error_type), allocatable :: degenerate
     real(wp) :: exact(1, 1)
@@ -369,7 +369,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_strip_system(strip)
-    type(strip_system_type), intent(inout) :: strip
+    type(strip_system_type), intent(inout) :: strip !! its vectors and matrices are freed
     PetscErrorCode :: ierr
 
     if (.not. strip%created) return

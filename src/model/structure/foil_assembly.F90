@@ -29,14 +29,14 @@ contains
   !> Fails where an element is clockwise or degenerate.
   subroutine create_foil_structure(mesh, section, fixed, substructure, reduced, structure, error, column_part)
     type(quad_mesh_type), intent(in) :: mesh          !! this rank's columns at least
-    type(shell_section_type), intent(in) :: section
+    type(shell_section_type), intent(in) :: section !! thickness and material
     !> (5, nodes) held by supports or symmetry, under the mesh's numbers
     logical, allocatable, intent(in) :: fixed(:, :)
     !> every column in one of them, in order; none where nothing is condensed
     type(substructure_type), intent(in) :: substructure(:)
     logical, intent(in) :: reduced                    !! condense the substructures
-    type(foil_structure_type), intent(out) :: structure
-    type(error_type), allocatable, intent(out) :: error
+    type(foil_structure_type), intent(out) :: structure !! with its stiffness
+    type(error_type), allocatable, intent(out) :: error !! error, if the foil cannot be cut or an element is degenerate
     !> rank, from 1, of every column of elements; default: the foil is cut by itself
     integer, intent(in), optional :: column_part(:)
     integer, allocatable :: first(:)
@@ -165,9 +165,9 @@ contains
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine assemble_mass(structure, matrix, error)
-    type(foil_structure_type), intent(in) :: structure
-    Mat, intent(out) :: matrix
-    type(error_type), allocatable, intent(out) :: error
+    type(foil_structure_type), intent(in) :: structure !! not condensed
+    Mat, intent(out) :: matrix !! of the numbered unknowns
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     real(wp) :: block(shell_unknowns, shell_unknowns)
     PetscErrorCode :: ierr

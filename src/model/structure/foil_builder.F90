@@ -47,10 +47,10 @@ contains
   !>
   !> Fails where an element is degenerate, or when METIS does.
   subroutine build_part(scene, plan, part, error)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    type(foil_structure_type), intent(out) :: part
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(foil_plan_type), intent(in) :: plan !! what the program decided about the foil
+    type(foil_structure_type), intent(out) :: part !! the structure that vibrates
+    type(error_type), allocatable, intent(out) :: error !! error, if the foil cannot be cut or an element is degenerate
 
     type(division_type) :: division
     type(quad_mesh_type) :: mesh
@@ -80,7 +80,7 @@ contains
   !> What a foil without a film is cut into: a strip's pieces, or the columns of a part of the
   !> foils.
   function foil_chain(scene, rows, reduced) result(pieces)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     integer, intent(in) :: rows    !! nodes of a station
     logical, intent(in) :: reduced !! substructures are condensed
     type(chain_type) :: pieces
@@ -193,7 +193,7 @@ contains
 
   !> Name of the top foil's nodes that are clamped.
   pure function plate_fixed_edge(scene) result(name)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=:), allocatable :: name
 
     name = 'trailing_edge'
@@ -202,7 +202,7 @@ contains
 
   !> Stations of the top foil, above the crests where the case asks for that.
   function plate_stations(scene) result(x)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     real(wp), allocatable :: x(:)
     real(wp) :: length
     integer :: i
@@ -220,7 +220,7 @@ contains
 
   !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent.
   pure subroutine find_symmetry_supports(mesh, fixed)
-    type(quad_mesh_type), intent(in) :: mesh
+    type(quad_mesh_type), intent(in) :: mesh !! of a foil
     logical, allocatable, intent(out) :: fixed(:, :) !! (5, nodes), under the mesh's numbers
     integer :: node
 
@@ -233,7 +233,7 @@ contains
 
   !> Shape of a bearing's strip, laid from its fixed edge.
   function shape_on_pad(scene) result(shape)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
 
     shape = strip_shape(scene)
@@ -242,7 +242,7 @@ contains
 
   !> Shape of a scene's strip, its leading end at x = 0.
   function strip_shape(scene) result(shape)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
 
     associate (foil => scene%bump_foil)
@@ -260,14 +260,14 @@ contains
 
   !> What the bump foil is made of.
   pure function section_of(foil) result(section)
-    type(bump_foil_case_type), intent(in) :: foil
+    type(bump_foil_case_type), intent(in) :: foil !! thickness and material
     type(shell_section_type) :: section
     section = shell_section_type(foil%thickness, foil%youngs_modulus, foil%poissons_ratio, foil%density)
   end function section_of
 
   !> What the top foil is made of.
   pure function plate_section(scene) result(section)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what the case file asks for
     type(shell_section_type) :: section
 
     associate (foil => scene%top_foil)

@@ -24,7 +24,7 @@ contains
   !> Place of each free unknown of a kept node at its node, 0 for all others.
   pure subroutine number_slots(free, substructure, reduced, slot)
     logical, allocatable, intent(in) :: free(:, :)    !! (5, nodes) not held by a support
-    type(substructure_type), intent(in) :: substructure(:)
+    type(substructure_type), intent(in) :: substructure(:) !! all of the foil's
     logical, intent(in) :: reduced                    !! only retained nodes are kept
     integer, allocatable, intent(out) :: slot(:, :)   !! (5, nodes)
     logical :: kept(lbound(free, 2):ubound(free, 2))
@@ -52,13 +52,13 @@ contains
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine condense_piece(mesh, section, free, substructure, explicitly, super, error)
-    type(quad_mesh_type), intent(in) :: mesh
-    type(shell_section_type), intent(in) :: section
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
-    type(substructure_type), intent(in) :: substructure
+    type(substructure_type), intent(in) :: substructure !! to be condensed
     logical, intent(in) :: explicitly !! the condensed matrix too
-    type(super_element_type), intent(out) :: super
-    type(error_type), allocatable, intent(out) :: error
+    type(super_element_type), intent(out) :: super !! what the substructure becomes
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
     logical, allocatable :: is_retained(:)
     Mat :: stiffness
     PetscErrorCode :: ierr
@@ -75,13 +75,13 @@ contains
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine assemble_piece(mesh, section, free, substructure, mass, matrix, error)
-    type(quad_mesh_type), intent(in) :: mesh
-    type(shell_section_type), intent(in) :: section
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
-    type(substructure_type), intent(in) :: substructure
+    type(substructure_type), intent(in) :: substructure !! whose matrix it is
     logical, intent(in) :: mass       !! instead of stiffness
-    Mat, intent(out) :: matrix
-    type(error_type), allocatable, intent(out) :: error
+    Mat, intent(out) :: matrix !! of all its unknowns, on this rank alone
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     integer :: number(node_unknowns, size(substructure%nodes))
     logical :: has(node_unknowns, size(substructure%nodes))
@@ -119,7 +119,7 @@ contains
   !> Which of a substructure's unknowns are kept.
   pure function retained_in_piece(free, substructure) result(is_retained)
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
-    type(substructure_type), intent(in) :: substructure
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical, allocatable :: is_retained(:)
 
     is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(free, substructure))
@@ -129,7 +129,7 @@ contains
   !> does not make it another kind, and the free ones inside.
   pure function piece_unknowns(free, substructure) result(has)
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
-    type(substructure_type), intent(in) :: substructure
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical :: has(node_unknowns, size(substructure%nodes))
 
     has = free .or. spread(substructure%retained, 1, node_unknowns)
@@ -137,8 +137,8 @@ contains
 
   !> Where an element of a mesh is.
   pure function element_geometry(mesh, element) result(geometry)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: element
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    integer, intent(in) :: element !! number in the whole mesh
     type(shell_geometry_type) :: geometry
 
     associate (nodes => mesh%element_nodes(:, element))
@@ -154,9 +154,9 @@ contains
   !> What couples unknowns of this rank only goes straight into the rank's own block, which costs an
   !> eighth less a value than by the matrix of all ranks.
   subroutine add_symmetric_block(matrix, number, block)
-    Mat, intent(in) :: matrix
-    integer, intent(in) :: number(:)
-    real(wp), intent(in) :: block(size(number)*size(number))
+    Mat, intent(in) :: matrix !! of the foil, over all ranks
+    integer, intent(in) :: number(:) !! of the block's unknowns, from 0
+    real(wp), intent(in) :: block(size(number)*size(number)) !! row by row, stiffness or mass [SI]
     Mat :: own
     PetscInt :: index(size(number)), first, last
     PetscErrorCode :: ierr
@@ -177,7 +177,7 @@ contains
     integer, intent(in) :: entries     !! of a row, at most
     logical, intent(in) :: at_seam(:)  !! (unknowns of this rank) coupled to other ranks' unknowns
     integer, intent(in) :: unknowns    !! of all ranks
-    Mat, intent(out) :: matrix
+    Mat, intent(out) :: matrix !! empty, preallocated
     PetscInt :: inside(size(at_seam)), outside(size(at_seam)), owned
     PetscErrorCode :: ierr
 

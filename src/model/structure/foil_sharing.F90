@@ -17,9 +17,9 @@ contains
   !> Fails when METIS does.
   subroutine cut_columns(first, ranks, column_part, error)
     integer, intent(in) :: first(:) !! first column of every piece, and one beyond the last
-    integer, intent(in) :: ranks
+    integer, intent(in) :: ranks !! number of ranks
     integer, allocatable, intent(out) :: column_part(:) !! rank, from 1, of every column
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! error, if METIS fails
     type(division_type) :: division
     integer :: i, pieces
 
@@ -37,7 +37,7 @@ contains
   pure subroutine share_kinds(kind, part, ranks, has, maker)
     integer, intent(in) :: kind(:) !! of the substructures
     integer, intent(in) :: part(:) !! rank, from 1, of the substructures
-    integer, intent(in) :: ranks
+    integer, intent(in) :: ranks !! number of ranks
     logical, allocatable, intent(out) :: has(:, :)  !! (ranks, kinds)
     integer, allocatable, intent(out) :: maker(:) !! (kinds) rank, from 1
     integer :: burden(ranks), i
@@ -60,7 +60,7 @@ contains
     logical, intent(in) :: has(:)  !! (ranks)
     integer, intent(in) :: maker   !! rank, from 1
     integer, intent(in) :: order   !! of the matrix
-    real(wp), allocatable, intent(inout) :: matrix(:, :) !! there on the rank that made it
+    real(wp), allocatable, intent(inout) :: matrix(:, :) !! there on the rank that made it [SI]
     integer, parameter :: tag = 1
     integer :: rank, entries, status(MPI_STATUS_SIZE)
     PetscErrorCode :: ierr

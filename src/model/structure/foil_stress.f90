@@ -20,7 +20,7 @@ contains
 
   !> Stresses of this rank's shells.
   function shell_stresses(foil, moved) result(value)
-    class(foil_surface_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil !! this rank's part of a surface
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
     real(wp) :: value(components, size(foil%my_elements)) !! [Pa]
 
@@ -42,7 +42,7 @@ contains
 
   !> Stresses of this rank's beams. They keep their width, so there is stress along the axis too.
   pure function beam_stresses(foil, moved) result(value)
-    class(foil_surface_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil !! this rank's part of a surface
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes), every node as its station [m], [rad]
     real(wp) :: value(components, size(foil%my_elements)) !! [Pa]
 

@@ -45,7 +45,7 @@ contains
 
   !> Entries of a row of the foil's matrix, at most.
   pure function row_entries(self) result(entries)
-    class(foil_structure_type), intent(in) :: self
+    class(foil_structure_type), intent(in) :: self !! the foil
     integer :: entries
     integer :: i, retained
 
@@ -60,7 +60,7 @@ contains
 
   !> Global numbers, from 0, of all components at any nodes; -1 where there is none. All ranks ask.
   function numbers_at(self, nodes) result(number)
-    class(foil_structure_type), intent(in) :: self
+    class(foil_structure_type), intent(in) :: self !! the foil
     integer, intent(in) :: nodes(:) !! of the whole mesh
     integer :: number(node_unknowns, size(nodes))
     real(wp) :: known(node_unknowns, count(self%part%owned))
@@ -78,7 +78,7 @@ contains
 
   !> Global number, from 0, of a component at a node of this rank; -1 where it has none.
   pure function unknown(self, component, node) result(number)
-    class(foil_structure_type), intent(in) :: self
+    class(foil_structure_type), intent(in) :: self !! the foil
     integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
     integer, intent(in) :: node      !! of the whole mesh
     integer :: number
@@ -92,7 +92,7 @@ contains
   !> Natural numbers, from 1, of the unknowns this rank owns, in the order of the vectors: node by node
   !> over the whole mesh, with gaps where nothing has a number.
   function natural_numbers(self) result(number)
-    class(foil_structure_type), intent(in) :: self
+    class(foil_structure_type), intent(in) :: self !! the foil
     integer, allocatable :: number(:), unknown(:), natural(:)
     integer :: node, component, found, here
 
@@ -116,7 +116,7 @@ contains
 
   !> Displacements of all nodes of this rank, those of condensed nodes recovered.
   subroutine displacements(self, solution, moved)
-    class(foil_structure_type), intent(in) :: self
+    class(foil_structure_type), intent(in) :: self !! the foil
     Vec, intent(in) :: solution         !! of the numbered unknowns
     real(wp), intent(out) :: moved(:, :) !! (5, local nodes) [m], [rad]
 
@@ -182,7 +182,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_foil_structure(structure)
-    type(foil_structure_type), intent(inout) :: structure
+    type(foil_structure_type), intent(inout) :: structure !! its matrices are freed
     PetscErrorCode :: ierr
     integer :: kind
 

@@ -30,7 +30,7 @@ contains
 
   !> Whether this rank owns a node.
   pure function owns(self, node) result(mine)
-    class(foil_surface_type), intent(in) :: self
+    class(foil_surface_type), intent(in) :: self !! the surface
     integer, intent(in) :: node !! of the whole mesh
     logical :: mine
 

@@ -33,7 +33,7 @@ contains
 
   !> The matrix that takes motions of patches to unknowns: rigid ones, smoothed.
   subroutine create_rigid_modes(foil, unit, stiffness, motions)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! whose unknowns they move
     Vec, intent(in) :: unit      !! one scaled unknown is so much [m] or [1]
     Mat, intent(in) :: stiffness !! scaled
     Mat, intent(out) :: motions  !! (unknowns, motions)
@@ -168,8 +168,8 @@ contains
 
   !> Rigid motions of a node: three displacements, three rotations about a point.
   pure function node_motions(mesh, node, middle) result(motion)
-    type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: node
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    integer, intent(in) :: node !! number in the whole mesh
     real(wp), intent(in) :: middle(space)    !! the point [m]
     real(wp) :: motion(node_unknowns, modes) !! [1], [m]; of the node's rotations [1/m], [1]
     real(wp) :: arm(space)

@@ -15,7 +15,7 @@ contains
   subroutine form_schur_complement(stiffness, is_retained, condensed)
     Mat, intent(in) :: stiffness                        !! of a substructure, on this rank alone
     logical, intent(in) :: is_retained(:)               !! one an unknown
-    real(wp), allocatable, intent(out) :: condensed(:, :) !! (retained, retained)
+    real(wp), allocatable, intent(out) :: condensed(:, :) !! (retained, retained) stiffness [SI]
 
     IS :: retained
     KSP :: solver

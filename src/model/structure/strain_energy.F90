@@ -28,10 +28,10 @@ contains
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine strain_products(foil, motion, energy, error, force)
-    type(foil_structure_type), intent(in) :: foil
+    type(foil_structure_type), intent(in) :: foil !! that is strained
     Vec, intent(in) :: motion(:)          !! of the numbered unknowns [m], [rad]
     real(wp), intent(out) :: energy(:, :) !! (motions, motions), symmetric [J]
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
     Vec, intent(in), optional :: force(:) !! the elastic forces of each motion [N], [N m]
 
     real(wp), allocatable :: moved(:, :, :)

@@ -38,7 +38,7 @@ contains
     Mat, intent(in) :: stiffness              !! of the substructure, on this rank alone
     logical, intent(in) :: is_retained(:)     !! one an unknown
     character(len=*), intent(in) :: prefix    !! of PETSc's options
-    type(super_element_type), intent(out) :: super
+    type(super_element_type), intent(out) :: super !! with its condensed matrix
 
     call hold_blocks(stiffness, is_retained, prefix, super)
     call form_explicitly(stiffness, is_retained, super)
@@ -49,7 +49,7 @@ contains
     Mat, intent(in) :: stiffness              !! of the substructure, on this rank alone
     logical, intent(in) :: is_retained(:)     !! one an unknown
     character(len=*), intent(in) :: prefix    !! of PETSc's options
-    type(super_element_type), intent(out) :: super
+    type(super_element_type), intent(out) :: super !! without its condensed matrix
 
     IS :: retained, interior
     PetscErrorCode :: ierr
@@ -92,7 +92,7 @@ contains
   subroutine form_explicitly(stiffness, is_retained, super)
     Mat, intent(in) :: stiffness          !! of the substructure
     logical, intent(in) :: is_retained(:) !! one an unknown
-    type(super_element_type), intent(inout) :: super
+    type(super_element_type), intent(inout) :: super !! gets its condensed matrix
     Mat :: dense
     PetscScalar, pointer :: values(:, :)
     PetscErrorCode :: ierr
@@ -110,9 +110,9 @@ contains
 
   !> Displacements of all unknowns of the substructure from those of the retained ones.
   subroutine recover(self, retained, all_unknowns)
-    class(super_element_type), intent(in) :: self
-    real(wp), intent(in) :: retained(:)      !! q_B
-    real(wp), intent(out) :: all_unknowns(:) !! of the substructure
+    class(super_element_type), intent(in) :: self !! the super-element
+    real(wp), intent(in) :: retained(:)      !! q_B [m], [rad]
+    real(wp), intent(out) :: all_unknowns(:) !! of the substructure [m], [rad]
 
     KSP :: inner
     Vec :: boundary, force, moved
@@ -140,15 +140,15 @@ contains
 
   !> Stiffness of the interior; a borrowed handle, not to be destroyed.
   subroutine interior_stiffness(self, matrix)
-    class(super_element_type), intent(in) :: self
-    Mat, intent(out) :: matrix
+    class(super_element_type), intent(in) :: self !! the super-element
+    Mat, intent(out) :: matrix !! K_II
     matrix = self%block_ii
   end subroutine interior_stiffness
 
   !> Interior displacements for a unit of each retained unknown, \( -K_{II}^{-1} K_{IB} \), [Gu2020]
   !> eq. 4.
   function constraint_modes(self) result(modes)
-    class(super_element_type), intent(in) :: self
+    class(super_element_type), intent(in) :: self !! the super-element
     real(wp) :: modes(size(self%interior), size(self%retained))
     KSP :: inner
     Mat :: coupling, solution
@@ -169,7 +169,7 @@ contains
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_super_element(super)
-    type(super_element_type), intent(inout) :: super
+    type(super_element_type), intent(inout) :: super !! its matrices are freed
     PetscErrorCode :: ierr
 
     if (.not. super%created) return

@@ -36,7 +36,7 @@ contains
 
   !> One real number.
   subroutine real_key(self, name, value, unit, meaning, rule, required, default, given)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), intent(inout) :: value !! [its unit] the default on entry
     character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
@@ -54,7 +54,7 @@ contains
 
   !> A fixed number of real numbers; all of them must be given.
   subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), intent(inout) :: values(:) !! [their unit] the defaults on entry
     character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
@@ -80,7 +80,7 @@ contains
 
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
   subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), allocatable, intent(out) :: values(:) !! [their unit] as many as the file gives
     integer, intent(in) :: most                 !! values at most
@@ -105,7 +105,7 @@ contains
 
   !> One whole number.
   subroutine integer_key(self, name, value, meaning, rule, required, default, given)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry
     character(len=*), intent(in) :: meaning !! of the key, a sentence
@@ -133,7 +133,7 @@ contains
 
   !> Yes or no.
   subroutine logical_key(self, name, value, meaning, default)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     logical, intent(inout) :: value             !! the default on entry
     character(len=*), intent(in) :: meaning !! of the key, a sentence
@@ -157,7 +157,7 @@ contains
 
   !> Free text.
   subroutine string_key(self, name, value, meaning)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     character(len=:), allocatable, intent(inout) :: value !! the default on entry
     character(len=*), intent(in) :: meaning !! of the key, a sentence
@@ -183,7 +183,7 @@ contains
 
   !> One of several words, as its number in their list.
   subroutine choice_key(self, name, value, words, meaning, required)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry; 0 where none was read
     character(len=*), intent(in) :: words(:)    !! blank-padded
@@ -200,7 +200,7 @@ contains
 
   !> Several of several words.
   subroutine words_key(self, name, chosen, words, meaning)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     logical, intent(inout) :: chosen(:)         !! one a word; the default on entry
     character(len=*), intent(in) :: words(:)    !! blank-padded
@@ -221,7 +221,7 @@ contains
 
   !> A key that the rest of the scene has no use for: its echo must not show a value.
   subroutine useless_key(self, name, meaning, why)
-    class(case_keys_type), intent(inout) :: self
+    class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name, meaning !! of the key; what it means
     character(len=*), intent(in) :: why !! it must not be given
     integer, allocatable :: elements(:)

@@ -47,7 +47,7 @@ contains
 
   !> Scans the text of a case file.
   subroutine open_text(self, words, file)
-    class(case_reader_type), intent(out) :: self
+    class(case_reader_type), intent(out) :: self !! the case file being read
     character(len=*), intent(in) :: words !! the whole file
     character(len=*), intent(in) :: file  !! its name, for complaints
 
@@ -57,7 +57,7 @@ contains
 
   !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
   subroutine start_group(self, name, required, optional, present_in_file, misplaced)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: name !! of the key
     logical, intent(in), optional :: required !! its absence is a mistake
     logical, intent(in), optional :: optional !! without it, what it describes is not there
@@ -85,26 +85,26 @@ contains
 
   !> Ends a group.
   subroutine finish_group(self)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     call self%notes%finish_group()
   end subroutine finish_group
 
   !> After the last group: complains about names that do not exist, and about what is missing.
   subroutine finish(self)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     call self%book%check_names(self%file, self%complaints)
   end subroutine finish
 
   !> All mistakes as one error; none where the file is right.
   subroutine report(self, error)
-    class(case_reader_type), intent(in) :: self
+    class(case_reader_type), intent(in) :: self !! the case file being read
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     if (self%complaints%count > 0) call fail(error, self%complaints%report(), status_input)
   end subroutine report
 
   !> Complains about a key whose value does not fit the rest of the scene.
   subroutine complain(self, group, key, rule, element)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: group, key !! names in the case file
     character(len=*), intent(in) :: rule      !! what it should be
     integer, intent(in), optional :: element  !! of a list
@@ -138,7 +138,7 @@ contains
 
   !> Whether a key stands in the file, be it misspelt; not before `finish`.
   function meant(self, group, key)
-    class(case_reader_type), intent(in) :: self
+    class(case_reader_type), intent(in) :: self !! the case file being read
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
     meant = self%book%is_meant(group, key)
@@ -146,14 +146,14 @@ contains
 
   !> Whether the key read last stands in the file without a mistake.
   pure function last_key_is_right(self) result(right)
-    class(case_reader_type), intent(in) :: self
+    class(case_reader_type), intent(in) :: self !! the case file being read
     logical :: right
     right = self%key%given .and. self%complaints%count == self%complaints_before
   end function last_key_is_right
 
   !> Notes what a key is.
   subroutine describe(self, name, type_words, unit, meaning)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: name, type_words !! of the key; kind of value, in words
     character(len=*), intent(in) :: unit    !! '1' for a pure number, empty for words
     character(len=*), intent(in) :: meaning !! of the key, a sentence
@@ -166,7 +166,7 @@ contains
 
   !> Finds a key's values and notes what the table says of it.
   subroutine begin_key(self, value_words, most, elements, required, default, given)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: value_words      !! the default in figures
     integer, intent(in) :: most                      !! values at most, or `single`
     integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
@@ -189,7 +189,7 @@ contains
 
   !> Writes the echo of the key.
   subroutine end_key(self, value_words, is_set)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set  !! a value that is a default is more than a placeholder
     call self%notes%add_line(self%key, value_words, is_set)
@@ -197,7 +197,7 @@ contains
 
   !> Reads and checks one real number.
   subroutine take_real(self, item, element, value, rule)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     integer, intent(in) :: item                !! the value's number in the file
     integer, intent(in) :: element             !! of a list, 0 for a single value
     real(wp), intent(inout) :: value !! [its unit] unchanged where a rule is broken
@@ -216,7 +216,7 @@ contains
 
   !> Reads one word of a list of choices.
   subroutine take_choice(self, item, element, words, value)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     integer, intent(in) :: item             !! the value's number in the file
     integer, intent(in) :: element          !! of a list, 0 for a single value
     character(len=*), intent(in) :: words(:) !! that may be chosen
@@ -242,7 +242,7 @@ contains
 
   !> Complains about one value of the key; nothing where there is no problem.
   subroutine complain_value(self, item, element, problem)
-    class(case_reader_type), intent(inout) :: self
+    class(case_reader_type), intent(inout) :: self !! the case file being read
     integer, intent(in) :: item               !! the value's number in the file
     integer, intent(in) :: element            !! of a list, 0 for a single value
     character(len=*), intent(in) :: problem   !! the rule that is broken

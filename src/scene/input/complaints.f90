@@ -29,7 +29,7 @@ contains
 
   !> Adds a mistake.
   pure subroutine add_complaint(self, line, words)
-    class(complaints_type), intent(inout) :: self
+    class(complaints_type), intent(inout) :: self !! the mistakes so far
     integer, intent(in) :: line           !! of the file, 0 where it has no place
     character(len=*), intent(in) :: words !! what is wrong, and the rule
     type(complaint_type), allocatable :: longer(:)
@@ -48,7 +48,7 @@ contains
 
   !> The mistakes in the order of their lines, one a line.
   pure function report_complaints(self) result(words)
-    class(complaints_type), intent(in) :: self
+    class(complaints_type), intent(in) :: self !! the mistakes so far
     character(len=:), allocatable :: words
     integer, allocatable :: order(:)
     integer :: i

@@ -37,7 +37,7 @@ contains
 
   !> Adds a group.
   pure subroutine add_group(self, group, line, required)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     character(len=*), intent(in) :: group !! of the file
     integer, intent(in) :: line      !! of the file, 0 where it is absent
     logical, intent(in) :: required !! a case without it is wrong
@@ -55,7 +55,7 @@ contains
 
   !> Adds a key.
   pure subroutine add_key(self, group, key, given, required, meaning)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical, intent(in) :: given     !! it stands in the file
     logical, intent(in) :: required !! a case without it is wrong
@@ -72,7 +72,7 @@ contains
 
   !> Line of a group in the file, 0 where it is absent.
   pure function group_line(self, group) result(line)
-    class(key_book_type), intent(in) :: self
+    class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group !! of the file
     integer :: line
     integer :: i
@@ -84,7 +84,7 @@ contains
 
   !> Whether a key stands in the file, be it misspelt.
   pure function is_meant(self, group, key) result(meant)
-    class(key_book_type), intent(in) :: self
+    class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
     meant = any(self%key_groups == group .and. self%key_names == key .and. &
@@ -93,7 +93,7 @@ contains
 
   !> Complains about unknown groups and keys, and about missing ones that no misspelling explains.
   subroutine check_names(self, file, complaints)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     type(namelist_file_type), intent(in) :: file !! the case file, scanned
     type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     character(len=:), allocatable :: group_name
@@ -127,7 +127,7 @@ contains
 
   !> Complains about a group that does not exist or stands in the file before.
   subroutine check_group(self, file, i, complaints)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     type(namelist_file_type), intent(in) :: file
     integer, intent(in) :: i
     type(complaints_type), intent(inout) :: complaints
@@ -170,7 +170,7 @@ contains
 
   !> Whether a group of this name exists.
   pure function is_group(self, name) result(exists)
-    class(key_book_type), intent(in) :: self
+    class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: name
     logical :: exists
     exists = any(self%group_names == name)
@@ -178,7 +178,7 @@ contains
 
   !> Complains about a key that does not exist.
   subroutine check_key(self, file, i, complaints)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     type(namelist_file_type), intent(in) :: file
     integer, intent(in) :: i
     type(complaints_type), intent(inout) :: complaints
@@ -208,7 +208,7 @@ contains
 
   !> Notes that the file means to have a group.
   subroutine excuse_group(self, name)
-    class(key_book_type), intent(inout) :: self
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
     character(len=*), intent(in) :: name
     where (self%group_names == name) self%groups%misspelt = .true.
   end subroutine excuse_group

@@ -37,7 +37,7 @@ contains
 
   !> Begins a group.
   pure subroutine start_group(self, name, is_echoed)
-    class(key_notes_type), intent(inout) :: self
+    class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
     character(len=*), intent(in) :: name !! of the key
     logical, intent(in) :: is_echoed !! false for an optional group that is absent
 
@@ -58,13 +58,13 @@ contains
 
   !> Ends a group.
   pure subroutine finish_group(self)
-    class(key_notes_type), intent(inout) :: self
+    class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
     if (self%is_echoed) self%echo = self%echo//'/'//new_line('a')
   end subroutine finish_group
 
   !> Adds the row of a key.
   pure subroutine add_row(self, key, value_words)
-    class(key_notes_type), intent(inout) :: self
+    class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
     type(key_type), intent(in) :: key !! of the group
     character(len=*), intent(in) :: value_words !! default in figures
     character(len=:), allocatable :: default
@@ -78,7 +78,7 @@ contains
 
   !> Adds the line of a key.
   pure subroutine add_line(self, key, value_words, is_set)
-    class(key_notes_type), intent(inout) :: self
+    class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
     type(key_type), intent(in) :: key !! of the group
     character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set !! a value with a default in words is more than a placeholder

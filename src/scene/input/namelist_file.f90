@@ -51,7 +51,7 @@ contains
 
   !> Name of a group in lower case.
   pure function group_name(self, group) result(name)
-    class(namelist_file_type), intent(in) :: self
+    class(namelist_file_type), intent(in) :: self !! the scanned file
     integer, intent(in) :: group !! of the file
     character(len=:), allocatable :: name
     name = lower_case(self%words(self%groups(group)%first:self%groups(group)%last))
@@ -59,7 +59,7 @@ contains
 
   !> Key of an entry in lower case.
   pure function key_name(self, entry) result(name)
-    class(namelist_file_type), intent(in) :: self
+    class(namelist_file_type), intent(in) :: self !! the scanned file
     integer, intent(in) :: entry !! number of the key in the file
     character(len=:), allocatable :: name
     name = lower_case(self%words(self%entries(entry)%first:self%entries(entry)%last))
@@ -67,7 +67,7 @@ contains
 
   !> A value; of a string what stands between the quotes, doubled ones made single.
   pure function value_text(self, value) result(words)
-    class(namelist_file_type), intent(in) :: self
+    class(namelist_file_type), intent(in) :: self !! the scanned file
     integer, intent(in) :: value !! number of the value in the file
     character(len=:), allocatable :: words
     character(len=1) :: quote
@@ -91,7 +91,7 @@ contains
 
   !> A value as typed, fit for a complaint.
   pure function value_shown(self, value) result(words)
-    class(namelist_file_type), intent(in) :: self
+    class(namelist_file_type), intent(in) :: self !! the scanned file
     integer, intent(in) :: value !! number of the value in the file
     character(len=:), allocatable :: words
     words = values_shown(self, value, value)
@@ -99,7 +99,7 @@ contains
 
   !> Neighbouring values as typed, fit for a complaint.
   pure function values_shown(self, first_value, last_value) result(words)
-    class(namelist_file_type), intent(in) :: self
+    class(namelist_file_type), intent(in) :: self !! the scanned file
     integer, intent(in) :: first_value, last_value !! their numbers in the file
     character(len=:), allocatable :: words
     integer :: first, last
