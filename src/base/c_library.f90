@@ -93,7 +93,7 @@ contains
     call c_exit(int(status, c_int))
   end subroutine exit_with_status
 
-  !> Largest memory this process has held [B].
+  !> Largest memory this process has used [B].
   function peak_memory() result(bytes)
     real(wp) :: bytes
     integer(c_long) :: usage(usage_words)

@@ -8,7 +8,7 @@
 !> Source: grid convergence index, [Roache1994]; F_s and q after [OberkampfRoy2010]: F_s = 1.25
 !> where p is within a tenth of the elements' order, otherwise 3; q is p, but not above the
 !> elements' order. On two meshes q is that order, and F_s = 3. Where the values do not approach a
-!> limit in that way three times the differences themselves stand for the error.
+!> limit like that three times the differences themselves stand for the error.
 module gfb_grid_convergence
   use gfb_kinds, only: wp
   implicit none (type, external)

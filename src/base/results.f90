@@ -27,7 +27,7 @@ contains
 
     call check_kind(name, quantity_number)
     call add_quantity(list, number_quantity(name, number, result_unit(name), &
-      result_meaning(name, phrase)))
+                                            result_meaning(name, phrase)))
   end subroutine add_number
 
   !> A whole number.

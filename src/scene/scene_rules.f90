@@ -100,7 +100,7 @@ contains
     end if
   end subroutine check_stability
 
-  !> A run can be gone on with where it has steps.
+  !> A run can be resumed where it has steps.
   subroutine check_restart(keys, output, sweep, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(output_case_type), intent(in) :: output !! what `&output` asks for
@@ -280,19 +280,19 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
-    real(wp) :: way
+    real(wp) :: approach
     integer :: point
 
     if (model%foil /= foil_rigid) return
     if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
     if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x) then
-      way = way_to_pad(bearing, operation)
-      if (way >= bearing%clearance) call complain(guilty_key(operation))
+      approach = approach_to_pad(bearing, operation)
+      if (approach >= bearing%clearance) call complain(guilty_key(operation))
       return
     end if
     do point = 1, size(sweep%values)
-      way = way_to_pad(bearing, operation_at(operation, sweep, point))
-      if (way >= bearing%clearance) call complain('values', point)
+      approach = approach_to_pad(bearing, operation_at(operation, sweep, point))
+      if (approach >= bearing%clearance) call complain('values', point)
     end do
 
   contains
@@ -305,13 +305,13 @@ contains
 
       group = 'operation'
       if (present(point)) group = 'sweep'
-      call keys%complain(trim(group), key, 'moves the shaft by '//text(way, 4)// &
+      call keys%complain(trim(group), key, 'moves the shaft by '//text(approach, 4)// &
                          ' m towards the pad, which must stay below the clearance of '// &
                          text(bearing%clearance)//' m in a rigid bearing', point)
     end subroutine complain
   end subroutine check_rigid_position
 
-  !> The key that tells where the shaft is held, or how it is tilted.
+  !> The key that tells where the shaft is fixed, or how it is tilted.
   pure function guilty_key(operation) result(key)
     type(operation_case_type), intent(in) :: operation
     character(len=:), allocatable :: key
@@ -319,35 +319,36 @@ contains
     if (any(abs(operation%eccentricity) > 0.0_wp)) key = 'eccentricity'
   end function guilty_key
 
-  !> Way of the shaft towards the pad, the larger one of both ends [m].
-  pure function way_to_pad(bearing, operation) result(way)
+  !> Displacement of the shaft towards the pad, the larger one of both ends [m].
+  pure function approach_to_pad(bearing, operation) result(approach)
     type(bearing_case_type), intent(in) :: bearing
     type(operation_case_type), intent(in) :: operation
-    real(wp) :: way
+    real(wp) :: approach
     real(wp) :: z
 
     associate (e => operation%eccentricity, tilt => operation%tilt)
       z = 0.5_wp*bearing%length
-      way = max(way_at_end(bearing, e + z*[tilt(2), -tilt(1)]), &
-                way_at_end(bearing, e - z*[tilt(2), -tilt(1)]))
+      approach = max(approach_at_end(bearing, e + z*[tilt(2), -tilt(1)]), &
+                     approach_at_end(bearing, e - z*[tilt(2), -tilt(1)]))
     end associate
-  end function way_to_pad
+  end function approach_to_pad
 
-  !> Way towards the pad at one end of the bearing; nothing is in the way where the pad is not.
-  pure function way_at_end(bearing, eccentricity) result(way)
+  !> Displacement towards the pad at one end of the bearing; towards the
+  !> pad's edges where the thinnest gap would not be on the pad.
+  pure function approach_at_end(bearing, eccentricity) result(approach)
     type(bearing_case_type), intent(in) :: bearing
     real(wp), intent(in) :: eccentricity(2) !! of the sleeve relative to the shaft at that end [m]
-    real(wp) :: way
+    real(wp) :: approach
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: thinnest
 
     thinnest = modulo(atan2(-eccentricity(2), -eccentricity(1)), turn)
     if (thinnest >= bearing%leading_edge_angle) then
-      way = norm2(eccentricity)
+      approach = norm2(eccentricity)
     else
       associate (angle => bearing%leading_edge_angle)
-        way = max(-eccentricity(1), -eccentricity(1)*cos(angle) - eccentricity(2)*sin(angle))
+        approach = max(-eccentricity(1), -eccentricity(1)*cos(angle) - eccentricity(2)*sin(angle))
       end associate
     end if
-  end function way_at_end
+  end function approach_at_end
 end module gfb_scene_rules

@@ -2,7 +2,7 @@
 !>
 !> In the manner of [LeLez2007]: three displacements a bump (crest along x, crest along v, foot
 !> towards the next bump along x) and Coulomb friction at feet and crests. Derived anew: half arcs
-!> are exact circular beams, flats are beams that bend between two corners held on the sleeve, and
+!> are exact circular beams, flats are beams that bend between two corners fixed to the sleeve, and
 !> the turns of corners and crests are eliminated. All per metre of width; x runs from bump 1 to the
 !> last, v away from the sleeve.
 module gfb_bump_chain
@@ -49,14 +49,14 @@ module gfb_bump_chain
     real(wp), allocatable :: corner_reaction(:, :) !! (2, N), left, right, along v [N]
     integer, allocatable :: crest_state(:)         !! (N)
     integer, allocatable :: foot_state(:)          !! (0:N)
-    logical :: lifted = .false.    !! a corner that is not clamped is held down, not pressed
-    logical :: converged = .false. !! all laws hold; else the last attempt
+    logical :: lifted = .false.    !! a corner that is not clamped is pulled down, not pressed
+    logical :: converged = .false. !! all laws are satisfied; else the last attempt
   end type bump_chain_solution_type
 
-  !> Places of the displacements of the whole chain.
+  !> Numbers of the displacements of the whole chain.
   type :: freedoms_type
     integer, allocatable :: foot(:)    !! (0:N)
-    integer, allocatable :: rise(:, :) !! (2, N), v of the corners, held
+    integer, allocatable :: rise(:, :) !! (2, N), v of the corners, fixed
     integer, allocatable :: turn(:, :) !! (2, N), of the corners; shared where there is no flat
     integer, allocatable :: crest(:)   !! (N), x; v and turn follow
     integer :: total = 0               !! how many
@@ -137,13 +137,13 @@ contains
     end associate
   end function chain_section
 
-  !> Stiffness of all displacements, those that are held included.
+  !> Stiffness of all displacements, fixed ones included.
   pure function chain_stiffness(chain, freedoms) result(stiffness)
     type(bump_chain_type), intent(in) :: chain
     type(freedoms_type), intent(in) :: freedoms
     real(wp), allocatable :: stiffness(:, :)
     real(wp) :: left(6, 6), right(6, 6), flat(4, 4)
-    integer :: i, places(6)
+    integer :: i, number(6)
 
     associate (l => chain%half_length, h => chain%height)
       left = left_arch_stiffness(l, h, bump_radius(l, h), bump_half_angle(l, h), &
@@ -153,20 +153,20 @@ contains
     if (flat_length(chain) > 0.0_wp) flat = flat_stiffness(flat_length(chain), chain_section(chain))
     allocate (stiffness(freedoms%total, freedoms%total), source=0.0_wp)
     do i = 1, chain%bumps
-      places(4:) = freedoms%crest(i) + [0, 1, 2]
-      places(:3) = [freedoms%foot(i - 1), freedoms%rise(1, i), freedoms%turn(1, i)]
-      stiffness(places, places) = stiffness(places, places) + left
-      places(:3) = [freedoms%foot(i), freedoms%rise(2, i), freedoms%turn(2, i)]
-      stiffness(places, places) = stiffness(places, places) + right
+      number(4:) = freedoms%crest(i) + [0, 1, 2]
+      number(:3) = [freedoms%foot(i - 1), freedoms%rise(1, i), freedoms%turn(1, i)]
+      stiffness(number, number) = stiffness(number, number) + left
+      number(:3) = [freedoms%foot(i), freedoms%rise(2, i), freedoms%turn(2, i)]
+      stiffness(number, number) = stiffness(number, number) + right
       if (i == chain%bumps .or. .not. flat_length(chain) > 0.0_wp) cycle
-      places(:4) = [freedoms%rise(2, i), freedoms%turn(2, i), freedoms%rise(1, i + 1), &
+      number(:4) = [freedoms%rise(2, i), freedoms%turn(2, i), freedoms%rise(1, i + 1), &
                     freedoms%turn(1, i + 1)]
-      stiffness(places(:4), places(:4)) = stiffness(places(:4), places(:4)) + flat
+      stiffness(number(:4), number(:4)) = stiffness(number(:4), number(:4)) + flat
     end do
   end function chain_stiffness
 
-  !> Sorts the displacements: where friction acts, and which follow from these. The rest is held. A
-  !> chain that nothing holds along x is held at its first foot for the while.
+  !> Sorts the displacements: where friction acts, and which follow from these. The rest is fixed. A
+  !> chain that nothing supports along x is fixed at its first foot for the while.
   pure subroutine sort_freedoms(chain, freedoms, rubbing, inner)
     type(bump_chain_type), intent(in) :: chain
     type(freedoms_type), intent(in) :: freedoms
@@ -190,7 +190,7 @@ contains
     inner = pack([(i, i=1, freedoms%total)], moves .and. .not. rubs)
   end subroutine sort_freedoms
 
-  !> Inner displacements under the load with the rubbing ones held (column 1), and what a unit of
+  !> Inner displacements under the load with the rubbing ones fixed (column 1), and what a unit of
   !> each of these takes from them (the further columns).
   pure subroutine eliminate(stiffness, load, rubbing, inner, response)
     real(wp), intent(in) :: stiffness(:, :)
@@ -209,7 +209,7 @@ contains
   !> The chain as its frictional contacts see it. Corners and crests are the normal forces: the two
   !> corners of a flat press on the sleeve for its foot, the load presses the crests.
   pure function condensed_contacts(chain, freedoms, stiffness, load, rubbing, inner, response) &
-    result(contacts)
+                                   result(contacts)
     type(bump_chain_type), intent(in) :: chain
     type(freedoms_type), intent(in) :: freedoms
     real(wp), intent(in) :: stiffness(:, :), load(:)
@@ -238,7 +238,7 @@ contains
       matmul(stiffness(rises, inner), response(:, 2:))
   end function condensed_contacts
 
-  !> Puts displacements and forces in their places.
+  !> Reads the solution off displacements and forces.
   pure subroutine read_answer(chain, freedoms, stiffness, displacement, solution)
     type(bump_chain_type), intent(in) :: chain
     type(freedoms_type), intent(in) :: freedoms
@@ -260,10 +260,10 @@ contains
     solution%crest_state = state(solution%crest_slip, chain%friction_top)
     if (chain%clamped_start) solution%foot_state(0) = is_clamped
     solution%lifted = any(solution%corner_reaction(2, :) < 0.0_wp) .or. &
-      any(solution%corner_reaction(1, 2:) < 0.0_wp)
+                      any(solution%corner_reaction(1, 2:) < 0.0_wp)
     if (chain%clamped_start) return
     solution%lifted = solution%lifted .or. solution%corner_reaction(1, 1) < 0.0_wp
-    ! Where nothing holds the chain along x, its place is chosen: the feet move by zero in the mean.
+    ! Where nothing supports the chain along x, the mean of its feet's displacements is set to zero.
     if (chain%friction_sleeve > 0.0_wp .or. chain%friction_top > 0.0_wp) return
     middle = sum(solution%foot_slip)/real(n + 1, wp)
     solution%foot_slip = solution%foot_slip - middle

@@ -13,8 +13,7 @@ contains
   !>
   !> Source: [WalowitAnno1975], as used by [Heshmat1983].
   elemental function walowit_anno_stiffness(youngs_modulus, poissons_ratio, thickness, &
-    half_length, &
-                                            pitch) result(stiffness)
+                                            half_length, pitch) result(stiffness)
     real(wp), intent(in) :: youngs_modulus !! E [Pa]
     real(wp), intent(in) :: poissons_ratio !! nu [1]
     real(wp), intent(in) :: thickness      !! t, of the bump foil [m]

@@ -9,7 +9,7 @@
 !>
 !> with the sum over the normal forces k that contact i owns. All is homogeneous of first order, so
 !> a load that grows from zero in proportion keeps each contact sticking at its start or slipping
-!> one way: the end state needs no steps.
+!> in one direction: the end state needs no steps.
 module gfb_coulomb_contacts
   use gfb_kinds, only: wp
   use gfb_linear_solve, only: solve_general
@@ -39,13 +39,13 @@ contains
   !>
   !> Sweeps with the exact answer of one contact at a time guess which contacts stick and slip; a
   !> direct solve with these states is the answer if it agrees with all of them. First one sweep
-  !> from each direct solve (Newton's method, often at home in ten solves, but it can cycle), then
-  !> sweeps alone (Gauss-Seidel, slow and sure). Where friction leaves a floating body's place open,
-  !> because all contacts slip, their displacements' sum is zero.
+  !> from each direct solve (Newton's method, which often converges in ten solves, but can cycle),
+  !> then sweeps alone (Gauss-Seidel, slow and sure). Where friction leaves a floating body's
+  !> position open, because all contacts slip, their displacements' sum is zero.
   pure subroutine solve_contacts(contacts, displacement, converged)
     type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
     real(wp), intent(out) :: displacement(:) !! u (n), exactly 0 where a contact sticks [m]
-    logical, intent(out) :: converged        !! all laws hold
+    logical, intent(out) :: converged        !! all laws are satisfied
 
     real(wp) :: swept(size(displacement))
     integer :: slip(size(displacement)), tried(size(displacement)), sweep
@@ -72,7 +72,7 @@ contains
     if (converged .and. contacts%floating) call centre(contacts, pressed, displacement)
   end subroutine solve_contacts
 
-  !> Moves a floating body to its middle place where friction leaves its place open: where each
+  !> Moves a floating body to its middle position where friction leaves that open: where each
   !> contact that sticks is about to slip, all may slip.
   pure subroutine centre(contacts, pressed, displacement)
     type(coulomb_contacts_type), intent(in) :: contacts
@@ -111,7 +111,7 @@ contains
     normal = contacts%normal_load + matmul(contacts%normal_stiffness, displacement)
   end function normal_forces
 
-  !> -1, 0 or 1: which way each contact has slipped.
+  !> -1, 0 or 1: in which direction each contact has slipped.
   elemental function direction(displacement) result(slip)
     real(wp), intent(in) :: displacement !! [m]
     integer :: slip

@@ -33,7 +33,7 @@ contains
     real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
     real(wp), intent(inout) :: right_sides(:, :) !! (n, m), in and out [SI]
     logical, intent(out) :: solved !! the matrix is regular
-    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1))
+    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)) ! the matrix, then its factor [SI]
     integer :: n, info
 
     n = size(matrix, 1)
@@ -47,7 +47,8 @@ contains
     real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
     real(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution [SI]
     logical, intent(out) :: solved !! the matrix is regular
-    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)), column(max(1, size(matrix, 1)), 1)
+    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)) ! the matrix, then its factors [SI]
+    real(wp) :: column(max(1, size(matrix, 1)), 1) ! the right side, then the solution [SI]
     integer :: pivots(size(matrix, 1)), n, info
 
     n = size(matrix, 1)

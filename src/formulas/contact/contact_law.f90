@@ -60,7 +60,7 @@ contains
       force = -law%adhesion*length*law%normal_stiffness*(-penetration)**law%exponent
       return
     end if
-    ! At first touch the closed side's slope is taken: a strip at rest is held by its contacts.
+    ! At first touch the closed side's slope is taken: a strip at rest is supported by its contacts.
     slope = length*law%normal_stiffness*law%exponent*penetration**(law%exponent - 1.0_wp)
     force = length*law%normal_stiffness*penetration**law%exponent
   end subroutine normal_force
@@ -175,7 +175,7 @@ contains
   !> Where on its law a contact is linearised next.
   !>
   !> At its approach, but where a sliding contact turned back it is first taken to stick: from one
-  !> sliding direction to the other the law has no slope that would tell of the way between.
+  !> sliding direction to the other the law has no slope that would tell of the path between.
   pure function next_place(law, place, approach) result(next)
     type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: place(3)    !! where it was linearised [m]

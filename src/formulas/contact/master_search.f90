@@ -5,7 +5,7 @@
 module gfb_master_search
   use gfb_kinds, only: wp
   use gfb_projection, only: project, projection_type, master_nodes, projection_degenerate, &
-    edge_tolerance
+                            edge_tolerance
   implicit none (type, external)
   private
   public :: find_masters
@@ -51,7 +51,7 @@ contains
       associate (cell => cell_of(grid, point(grid%axis, p)))
         associate (near => grid%element(grid%first(cell):grid%first(cell + 1) - 1))
           call find_master(point(:, p), position, element_nodes, near, reach, allowed, master(p), &
-            coordinates(:, p))
+                           coordinates(:, p))
         end associate
       end associate
     end do

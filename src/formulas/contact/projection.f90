@@ -5,7 +5,8 @@
 !> Nodes run counter-clockwise seen from the side that the normal points to, which is the slave's.
 !> The area vector \( \mathbf{r}_{,\xi} \times \mathbf{r}_{,\eta} = \mathbf{a} \times \mathbf{b} +
 !> \mathbf{a} \times \mathbf{w} \, \xi + \mathbf{w} \times \mathbf{b} \, \eta \) is linear: a
-!> surface that faces one way at its corners does so in the whole element, and beyond up to a line.
+!> surface that faces in one direction at its corners does so in the whole element, and beyond
+!> up to a line.
 module gfb_projection
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -83,7 +84,7 @@ contains
     end if
     call find_foot(surface, point, projection%coordinates, found)
     if (.not. found .and. any(abs(projection%coordinates) > 1.0_wp)) then
-      ! A wild element's fold can stop the way from the centre to a foot within.
+      ! A wild element's fold can stop the path from the centre to a foot within.
       nearest = minloc(norm2(corner - spread(point, 2, master_nodes), 1), 1)
       projection%coordinates = [node_xi(nearest), node_eta(nearest)]
       call find_foot(surface, point, projection%coordinates, found)
@@ -109,7 +110,7 @@ contains
     surface%size = max(norm2(surface%along), norm2(surface%across))
   end function surface_of
 
-  !> Whether a surface has an area that faces the same way in the whole element.
+  !> Whether a surface has an area that faces in the same direction in the whole element.
   pure function is_element(surface) result(yes)
     type(surface_type), intent(in) :: surface
     logical :: yes

@@ -7,7 +7,7 @@ module gfb_film_gap
 
 contains
 
-  !> Gap at one place without foil deflection.
+  !> Gap at one point without foil deflection.
   !>
   !> $$ h_r = C + (e_x + z \phi_y) \cos\theta + (e_y - z \phi_x) \sin\theta $$
   !>

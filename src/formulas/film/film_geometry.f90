@@ -21,7 +21,7 @@ module gfb_film_geometry
   real(wp), parameter :: node_xi(film_nodes) = [-1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
   real(wp), parameter :: node_eta(film_nodes) = [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp]
 
-  integer, parameter :: line_nodes = 3 !! of a biquadratic element, each way
+  integer, parameter :: line_nodes = 3 !! of a biquadratic element, in each direction
   !> Abscissae and weights of three-point Gauss quadrature [1].
   real(wp), parameter :: line_point(line_nodes) = sqrt(0.6_wp)*[-1.0_wp, 0.0_wp, 1.0_wp]
   real(wp), parameter :: line_weight(line_nodes) = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp

@@ -51,7 +51,7 @@ contains
     do point = 1, size(geometry%area)
       associate (shape => shapes(:, point))
         force = force + geometry%area(point)*max(dot_product(shape, overpressure), 0.0_wp)* &
-          (acts_on*motion(:, point))
+                (acts_on*motion(:, point))
       end associate
     end do
   end function film_force
@@ -80,7 +80,7 @@ contains
       h = dot_product(shapes(:, point), gap) + excess(point)
       drag = drag + geometry%area(point)*(2.0_wp*flow%viscosity*flow%entraining_speed/h &
                                           + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), &
-                                          pressure - pressure(1)))
+                                                                 pressure - pressure(1)))
     end do
   end function film_friction
 

@@ -7,8 +7,8 @@ module gfb_shell_element
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
-    shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, check_shell, &
-    bilinear, shell_base, shell_lamina
+                                shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, &
+                                check_shell, bilinear, shell_base, shell_lamina
   use gfb_shell_shear, only: shear_points, shear_rows, shear_strains, shear_forces, shear_weights
   use gfb_shell_strain, only: shear_factor, lamina_strain, lamina_stress
   use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized

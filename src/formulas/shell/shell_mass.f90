@@ -3,8 +3,8 @@ module gfb_shell_mass
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_nodes, &
-    shell_unknowns, shell_abscissa, check_shell, bilinear, &
-    shell_base, cross
+                                shell_unknowns, shell_abscissa, check_shell, bilinear, &
+                                shell_base, cross
   use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized
   implicit none (type, external)
   private

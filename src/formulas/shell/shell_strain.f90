@@ -33,8 +33,8 @@ contains
     covariant(1, 1) = dot_product(base(:, 1), slope_xi)
     covariant(2, 2) = dot_product(base(:, 2), slope_eta)
     covariant(3, 3) = 0.0_wp
-    covariant(1, 2) = 0.5_wp*(dot_product(base(:, 1), slope_eta) + dot_product(base(:, 2), &
-          slope_xi))
+    covariant(1, 2) = 0.5_wp*(dot_product(base(:, 1), slope_eta) + &
+                              dot_product(base(:, 2), slope_xi))
     covariant(1, 3) = 0.5_wp*(weight(1)*tied(1) + weight(2)*tied(2))
     covariant(2, 3) = 0.5_wp*(weight(3)*tied(3) + weight(4)*tied(4))
     covariant(2, 1) = covariant(1, 2)

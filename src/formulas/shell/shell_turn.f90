@@ -17,7 +17,7 @@
 module gfb_shell_turn
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: shell_geometry_type, shell_nodes, shell_unknowns, node_unknowns, &
-    bilinear, cross
+                                bilinear, cross
   implicit none (type, external)
   private
   public :: shell_turn, shell_motion, shell_generalized

@@ -30,7 +30,7 @@ module gfb_bearing_builder
     logical :: upwind = .false.    !! SUPG instead of Galerkin
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
-    logical :: may_coarsen = .true. !! coarser meshes may find the way
+    logical :: may_coarsen = .true. !! coarser meshes may give the start
     integer :: order = 1           !! of film elements: bilinear, biquadratic
     real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
   end type bearing_plan_type
@@ -76,8 +76,9 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
     if (scene%model%foil == foil_shell) then
-      call divide(film_chain(film, .true.), strip_chain(shape_on_pad(scene), film%rows(), &
-                                                        scene%model%reduction == reduction_guyan), parts, division, error)
+      call divide(film_chain(film, .true.), &
+                  strip_chain(shape_on_pad(scene), film%rows(), scene%model%reduction == reduction_guyan), &
+                  parts, division, error)
     else
       call divide(film_chain(film, .false.), no_chain(), parts, division, error)
     end if

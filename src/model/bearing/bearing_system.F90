@@ -251,7 +251,7 @@ contains
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_at
 
-  !> Moves the linearisation points of the foils' contacts to where the foils have gone.
+  !> Moves the linearisation points of the foils' contacts to where the foils are now.
   subroutine settle_bearing(self, state, moved)
     class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     Vec, intent(in) :: state !! scaled

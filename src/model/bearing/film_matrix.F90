@@ -38,8 +38,7 @@ contains
     do element = 1, size(film%element_nodes, 2)
       call element_columns(film, foil, shaft, element, row, column)
       associate (nodes => film%element_nodes(:, element))
-        call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, &
-                                        by_shaft)
+        call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, by_shaft)
         block = 0.0_wp
         block(:film_nodes, :) = transpose(by_pressure)
         do b = 1, film_nodes

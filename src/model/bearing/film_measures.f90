@@ -49,8 +49,8 @@ contains
       associate (nodes => film%element_nodes(:, element))
         excess = film%excess(element, point)
         drag = drag + film%copies* &
-          film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
-                        excess(:size(nodes)))
+               film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
+                             excess(:size(nodes)))
       end associate
     end do
   end function film_drag

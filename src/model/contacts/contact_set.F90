@@ -1,9 +1,10 @@
 !> The contacts of this rank: nodes of a foil on the sleeve, under a plate, or under another foil.
 !>
-!> Geometry is that of the unloaded foils: displacements are small. Each contact remembers the place
-!> on its law where it is linearised. Within a Newton step its force is the law's tangent there, a
-!> pure function of the unknowns; `settle` moves the places after the step. So the matrix tells the
-!> whole of a step, and a contact that jumps from one state to another cannot spoil the line search.
+!> Geometry is that of the unloaded foils: displacements are small. Each contact remembers where
+!> on its law it is linearised. Within a Newton step its force is the law's tangent there, a pure
+!> function of the unknowns; `settle` moves the linearisation points after the step. So the matrix
+!> tells the whole of a step, and a contact that jumps from one state to another cannot spoil the
+!> line search.
 module gfb_contact_set
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &
@@ -16,10 +17,10 @@ module gfb_contact_set
 
   !> A slave node and what it touches.
   type, public :: contact_point_type
-    integer :: law = 1                         !! which of the set's laws holds
+    integer :: law = 1                         !! which of the set's laws applies
     integer :: node = 0                        !! slave, number in its mesh
     integer :: line = 0                        !! number of the contact line it lies on
-    integer :: slave(spatial) = 0              !! the set's unknowns at the slave (u, v, w); 0: held
+    integer :: slave(spatial) = 0              !! the set's unknowns at the slave (u, v, w); 0: fixed
     integer, allocatable :: master(:, :)       !! (3, nodes) the same at the master's nodes
     real(wp), allocatable :: share(:)          !! (nodes) master's shape functions
     real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
@@ -29,7 +30,7 @@ module gfb_contact_set
     real(wp) :: pressing = 0.0_wp              !! it [N]
     real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]
     real(wp) :: place(spatial) = 0.0_wp        !! approach where the law is linearised [m]
-    real(wp) :: anchor(spatial) = 0.0_wp       !! the place that the step began at [m]
+    real(wp) :: anchor(spatial) = 0.0_wp       !! linearisation point that the step began at [m]
     real(wp) :: force(spatial) = 0.0_wp        !! (t_1, t_2, f_n) there [N]
     real(wp) :: derivative(spatial, spatial) = 0.0_wp !! of the force by the approach there [N/m]
     real(wp) :: old_slip(2) = 0.0_wp           !! tangential displacement at the last commit [m]
@@ -102,21 +103,21 @@ contains
     end associate
   end function approach
 
-  !> The part of the way from one displacement to another, or on beyond it, after which a contact
-  !> opens or closes; huge where it never does.
-  pure function next_change(self, i, here, ahead) result(way)
+  !> The fraction of the path from one displacement to another, or on beyond it, after which a
+  !> contact opens or closes; huge where it never does.
+  pure function next_change(self, i, here, ahead) result(fraction)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i                      !! contact
     real(wp), intent(in) :: here(:), ahead(:)     !! of the set's unknowns [m]
-    real(wp) :: way
+    real(wp) :: fraction
     real(wp) :: first(spatial), last(spatial)
 
-    way = huge(way)
+    fraction = huge(fraction)
     if (self%point(i)%pressed) return
     first = self%approach(i, here)
     last = self%approach(i, ahead)
     if (first(3)*(last(3) - first(3)) >= 0.0_wp) return ! the penetration goes away from zero
-    way = first(3)/(first(3) - last(3))
+    fraction = first(3)/(first(3) - last(3))
   end function next_change
 
   !> Adds the derivatives of a contact's penetration after the set's unknowns, times a factor.
@@ -135,7 +136,7 @@ contains
     end associate
   end subroutine add_penetration_rate
 
-  !> Displacement at a node, zero where it is held.
+  !> Displacement at a node, zero where it is fixed.
   pure function at_node(unknown, displacement) result(value)
     integer, intent(in) :: unknown(spatial)
     real(wp), intent(in) :: displacement(:)
@@ -148,7 +149,7 @@ contains
     end do
   end function at_node
 
-  !> Moves every contact's place on its law to where the foils have gone.
+  !> Moves every contact's linearisation point to where the foils are now.
   pure subroutine settle(self, displacement)
     class(contact_set_type), intent(inout) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
@@ -189,7 +190,7 @@ contains
     end do
   end subroutine drop_anchor
 
-  !> A spring both ways that does not rub.
+  !> A two-way spring without friction.
   pure subroutine glue(set, point)
     class(contact_set_type), intent(in) :: set
     type(contact_point_type), intent(inout) :: point
@@ -236,7 +237,7 @@ contains
     end do
   end subroutine add_at_node
 
-  !> The set's unknowns of a contact: slave, then master nodes; 0 where they are held.
+  !> The set's unknowns of a contact: slave, then master nodes; 0 where they are fixed.
   pure function point_unknowns(self, i) result(unknown)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
@@ -287,7 +288,7 @@ contains
         pressing = merge(point%pressing, point%force(3), point%pressed)
         total = now(:2) + point%shift
         point%shift = total - carried_slip(self%law(point%law), now(:2), total - point%old_slip, pressing)
-        ! The place stays, for those who ask for the step's slip; the next step begins at the anchor.
+        ! The linearisation point stays, for the step's slip; the next step begins at the anchor.
         point%anchor = [total - point%shift, point%place(3)]
         point%old_slip = total
         point%old_force = point%force(:2)

@@ -81,7 +81,7 @@ contains
     integer, intent(in) :: stations
     logical, intent(in) :: leading                    !! clamped at the leading edge, else the trailing one
     integer, intent(inout) :: last                    !! number in use
-    integer, allocatable, intent(out) :: number(:, :) !! (5, stations), from 1; 0: held
+    integer, allocatable, intent(out) :: number(:, :) !! (5, stations), from 1; 0: fixed
     integer :: station, k
 
     allocate (number(node_unknowns, stations), source=0)
@@ -205,7 +205,7 @@ contains
     end associate
   end subroutine add_contacts
 
-  !> Contact of a line that is not held, nor beyond the top foil.
+  !> Contact of a line that is not fixed, nor beyond the top foil.
   subroutine add_line(foil, node, law, number, overhang)
     type(beam_foil_type), intent(inout) :: foil
     integer, intent(in) :: node     !! first of the line

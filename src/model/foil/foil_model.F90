@@ -220,7 +220,7 @@ contains
     has = allocated(self%contacts%law)
   end function has_contacts
 
-  !> Linearises every contact where the foils have gone.
+  !> Moves every contact's linearisation point to where the foils are now.
   subroutine settle(self, unknown, moved, settled)
     class(foil_model_type), intent(inout) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
@@ -296,27 +296,27 @@ contains
     end do
   end function crest_lengths
 
-  !> The part of the way between two states, or on beyond, after which the first of this rank's
+  !> The fraction of the path between two states, or on beyond, after which the first of this rank's
   !> contacts opens or closes; huge where none does.
-  pure function next_contact_change(self, here, ahead) result(way)
+  pure function next_contact_change(self, here, ahead) result(fraction)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
-    real(wp) :: way                           !! [1]
+    real(wp) :: fraction                      !! [1]
     integer :: i
 
-    way = huge(way)
+    fraction = huge(fraction)
     do i = 1, size(self%contacts%point)
-      way = min(way, self%contacts%next_change(i, self%own_part(here), self%own_part(ahead)))
+      fraction = min(fraction, self%contacts%next_change(i, self%own_part(here), self%own_part(ahead)))
     end do
   end function next_contact_change
 
-  !> Adds up, for those contacts that change after that part of the way, all those of a symmetric foil
-  !> at once, the derivatives of their penetrations after the bearing's local unknowns, in the sense in
-  !> which they go; and how far they go before they change.
-  pure subroutine add_penetration_rates(self, here, ahead, way, rate, distance, closes)
+  !> Adds up, for those contacts that change after that fraction of the path, all those of a symmetric
+  !> foil at once, the derivatives of their penetrations by the bearing's local unknowns, with the sign
+  !> of their change; and how far they move before they change state.
+  pure subroutine add_penetration_rates(self, here, ahead, fraction, rate, distance, closes)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: here(:), ahead(:) !! local unknowns of the bearing, in SI
-    real(wp), intent(in) :: way               !! part of the way to the first change [1]
+    real(wp), intent(in) :: fraction               !! of the path, to the first change [1]
     real(wp), intent(inout) :: rate(:)        !! by each local unknown [1]
     real(wp), intent(inout) :: distance       !! sum of the penetrations' sizes [m]
     logical, intent(inout) :: closes          !! one of them closes
@@ -327,7 +327,7 @@ contains
     associate (mine => rate(self%first + 1:self%first + self%local_unknowns()), now => self%own_part(here), &
                next => self%own_part(ahead))
       do i = 1, size(self%contacts%point)
-        if (self%contacts%next_change(i, now, next) > (1.0_wp + together)*way) cycle
+        if (self%contacts%next_change(i, now, next) > (1.0_wp + together)*fraction) cycle
         first = self%contacts%approach(i, now)
         call self%contacts%add_penetration_rate(i, -sign(1.0_wp, first(3)), mine)
         distance = distance + abs(first(3))

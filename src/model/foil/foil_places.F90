@@ -1,6 +1,6 @@
 #include "gfb_petsc.h"
 !> What shells and beams under a film have in common when they are built: meshes, laws of the
-!> contacts, places of the unknowns, pressure, sizes.
+!> contacts, numbers of the unknowns, pressure, sizes.
 module gfb_foil_places
   use petscsys
   use gfb_petsc_kinds, only: pint
@@ -41,11 +41,11 @@ contains
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
   end subroutine set_laws
 
-  !> Gives the unknowns that this rank needs their places, and the contacts and film nodes theirs.
+  !> Numbers the unknowns that this rank needs, and tells contacts and film nodes the numbers.
   subroutine place_unknowns(foil, first, sunk)
     class(meshed_foil_type), intent(inout) :: foil !! with its contacts' unknowns in the foil's own numbers
     integer, intent(in) :: first   !! foil's unknowns of the ranks before this one
-    integer, intent(in) :: sunk(:) !! (film nodes of this rank) foil's number of v there, from 1; 0: held
+    integer, intent(in) :: sunk(:) !! (film nodes of this rank) foil's number of v there, from 1; 0: fixed
 
     integer, allocatable :: needed(:)
     integer :: i, k

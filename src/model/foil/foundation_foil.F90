@@ -23,7 +23,7 @@ module gfb_foundation_foil
   private
   public :: build_foundation, create_local_foundation, create_mean_foundation, foundation_stiffness
 
-  !> Springs under the film.
+  !> The elastic foundation under the film.
   type, extends(foil_model_type), public :: foundation_foil_type
     real(wp) :: stiffness = 0.0_wp           !! K, pressure over deflection [N/m3]
     real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
@@ -78,7 +78,7 @@ contains
                                        bump_foil%thickness, bump_foil%half_length, bump_foil%pitch)
   end function foundation_stiffness
 
-  !> Springs that feel the pressure above them.
+  !> An elastic foundation that feels the local pressure.
   subroutine create_local_foundation(nodes, stiffness, ambient_pressure, foil)
     integer, intent(in) :: nodes                !! film nodes of this rank
     real(wp), intent(in) :: stiffness           !! K [N/m3]
@@ -95,7 +95,7 @@ contains
     allocate (foil%origin(nodes), source=ambient_pressure)
   end subroutine create_local_foundation
 
-  !> Springs that feel the mean pressure along the axis.
+  !> An elastic foundation that feels the mean pressure along the axis.
   subroutine create_mean_foundation(film, mesh, rank, ranks, stiffness, ambient_pressure, &
                                     clearance, foil)
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
@@ -191,13 +191,13 @@ contains
     real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
     Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscErrorCode :: ierr
-    PetscInt :: row(1), place(size(column, 1))
+    PetscInt :: row(1), unknown(size(column, 1))
     integer :: i
 
     do i = 1, size(self%averaged)
       row = int(self%source(self%averaged(i)) - 1, pint)
-      place = int(column(:, self%averaged(i)), pint)
-      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, int(size(place), pint), place, [-self%share(i)*slope(:, self%averaged(i))], ADD_VALUES, ierr))
+      unknown = int(column(:, self%averaged(i)), pint)
+      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, int(size(unknown), pint), unknown, [-self%share(i)*slope(:, self%averaged(i))], ADD_VALUES, ierr))
     end do
   end subroutine foundation_load_rates
 

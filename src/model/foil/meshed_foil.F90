@@ -171,25 +171,25 @@ contains
     Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(size(column, 1), size(self%pressed, 1), size(self%pressed, 1))
-    PetscInt :: row(size(self%pressed, 1)), place(size(column, 1), size(self%pressed, 1))
+    PetscInt :: row(size(self%pressed, 1)), numbers(size(column, 1), size(self%pressed, 1))
     PetscErrorCode :: ierr
     integer :: element, i, j
 
     do element = 1, size(self%pressed, 2)
       associate (nodes => self%pressed(:, element), number => self%pushed(:, element))
         row = int(merge(self%first + number - 1, -1, number > 0), pint)
-        place = int(column(:, nodes), pint)
+        numbers = int(column(:, nodes), pint)
         do i = 1, size(row)
           do j = 1, size(nodes)
             block(:, j, i) = self%weight(i, j, element)*slope(:, nodes(j))
           end do
         end do
       end associate
-      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(place), pint), [place], [block], ADD_VALUES, ierr))
+      PetscCallA(MatSetValuesLocal(jacobian, int(size(row), pint), row, int(size(numbers), pint), [numbers], [block], ADD_VALUES, ierr))
     end do
   end subroutine meshed_load_rates
 
-  !> The foils stay where they are: contacts find their way from there.
+  !> The foils stay where they are: Newton's method finds the contacts from there.
   subroutine meshed_estimate(self, unknown)
     class(meshed_foil_type), intent(in) :: self !! the foil
     real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing [SI]

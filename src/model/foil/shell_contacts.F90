@@ -47,7 +47,7 @@ contains
     call find_masters_of_crests(scene, height, film, ranges, foil)
   end subroutine add_shell_contacts
 
-  !> Contacts of a line's own nodes that are not held everywhere.
+  !> Contacts of a line's own nodes that are not fixed everywhere.
   subroutine add_line(foil, ranges, line, law, number, point, found)
     type(shell_foil_type), intent(in) :: foil
     type(foil_ranges_type), intent(in) :: ranges
@@ -82,7 +82,7 @@ contains
 
     type(projection_type) :: foot
     type(quad_mesh_type) :: above
-    real(wp), allocatable :: place(:, :), coordinates(:, :)
+    real(wp), allocatable :: points(:, :), coordinates(:, :)
     real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function
     integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :), pressed(:)
     integer :: i, k, before
@@ -92,7 +92,7 @@ contains
     place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
     above = top_mesh(film, height, stations_above(film, place(tangential, :)))
     before = lbound(above%position, 2) - 1
-    call find_masters(place, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
+    call find_masters(points, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
     do i = 1, size(crest)
       nodes(:, i) = 1
       if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)
@@ -101,7 +101,7 @@ contains
     do i = 1, size(crest)
       if (element(i) == 0) cycle
       associate (point => foil%contacts%point(crest(i)))
-        foot = project(above%position(:, nodes(:, i)), place(:, i))
+        foot = project(above%position(:, nodes(:, i)), points(:, i))
         ! A crest on a line of nodes has one master; the others would only fill the matrix.
         pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
         point%share = foot%shape(pressed)
@@ -114,7 +114,7 @@ contains
     foil%contacts%point = foil%contacts%point(kept)
   end subroutine find_masters_of_crests
 
-  !> The stretch of the film's stations above some places, with a column to spare on both sides.
+  !> The stretch of the film's stations above some points, with a column to spare on both sides.
   pure function stations_above(film, x) result(window)
     type(film_mesh_type), intent(in) :: film
     real(wp), intent(in) :: x(:) !! from the leading edge on [m]

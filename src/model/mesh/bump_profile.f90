@@ -20,7 +20,7 @@ contains
   !> Point (x, v) at a fraction of the arc's length, from the corner (0, 0) over the crest (l, h_b).
   pure function arc_point(half_length, height, fraction) result(point)
     real(wp), intent(in) :: half_length, height !! l, h_b [m]
-    real(wp), intent(in) :: fraction !! 0 to 1; corners and crest come out exactly [1]
+    real(wp), intent(in) :: fraction !! 0 to 1; corners and crest are exact [1]
     real(wp) :: point(2)
     real(wp) :: turn
 

@@ -10,7 +10,7 @@ module gfb_film_mesh
   !>
   !> Node (station i, row j), both from 1, is number (i - 1)*rows + j. Between neighbouring stations
   !> and rows lies a cell. A bilinear element is a cell; a biquadratic one is two by two of them, so
-  !> there are twice as many cells each way as elements then.
+  !> there are twice as many cells in each direction as elements then.
   type, public :: film_mesh_type
     real(wp) :: radius = 0.0_wp                !! of the bearing [m]
     logical :: periodic = .false.              !! the last station's neighbour is the first
@@ -70,7 +70,7 @@ contains
 
     mesh = uniform_film_mesh(radius, length, side_angle(1), 0.0_wp, size(side_angle) - 1, &
                              axial, .false., half, order)
-    mesh%station_angle(1::mesh%order) = side_angle
+    mesh%station_angle(1::mesh%order) = side_angle ! nodes where elements meet
     if (mesh%order == 1) return
     do i = 2, mesh%stations() - 1, 2 ! nodes in the middle of an element
       mesh%station_angle(i) = 0.5_wp*(mesh%station_angle(i - 1) + mesh%station_angle(i + 1))
@@ -96,15 +96,15 @@ contains
     integer, intent(in) :: mesh_node(:)     !! number in the whole mesh of each node of the part
     integer, intent(in) :: cells(:, :) !! (4, cells) nodes of the part
     integer, allocatable :: element_nodes(:, :) !! (4 or 9, elements) nodes of the part
-    integer :: place(minval(mesh_node):maxval(mesh_node)), nodes(9)
+    integer :: local_node(minval(mesh_node):maxval(mesh_node)), nodes(9)
     integer :: cell, station, row, i, j, found
 
     if (mesh%order == 1) then
       element_nodes = cells
       return
     end if
-    place = 0
-    place(mesh_node) = [(i, i=1, size(mesh_node))]
+    local_node = 0
+    local_node(mesh_node) = [(i, i=1, size(mesh_node))]
     allocate (element_nodes(size(nodes), size(cells, 2)/mesh%order**2))
     found = 0
     do cell = 1, size(cells, 2)
@@ -117,9 +117,9 @@ contains
       found = found + 1
       nodes = [((modulo(station + i, mesh%stations())*mesh%rows() + row + j + 1, j=0, mesh%order), &
                 i=0, mesh%order)]
-      if (any(nodes < lbound(place, 1) .or. nodes > ubound(place, 1))) exit
-      element_nodes(:, found) = place(nodes)
-      if (any(place(nodes) == 0)) exit
+      if (any(nodes < lbound(local_node, 1) .or. nodes > ubound(local_node, 1))) exit
+      element_nodes(:, found) = local_node(nodes)
+      if (any(local_node(nodes) == 0)) exit
     end do
     if (cell <= size(cells, 2) .or. found < size(element_nodes, 2)) then
       error stop 'cells of a film element lie on several ranks'
@@ -145,7 +145,7 @@ contains
     end do
   end function row_weights
 
-  !> The nodes around a place, and their bilinear shares of it.
+  !> The nodes around a point, and their bilinear shares of it.
   pure subroutine find_film_place(mesh, angle, axial, node, share)
     type(film_mesh_type), intent(in) :: mesh !! the film's mesh
     real(wp), intent(in) :: angle     !! theta on the pad [rad]
@@ -166,7 +166,7 @@ contains
     next = modulo(i, mesh%stations())*mesh%rows() + j
     node = [here, here + 1, next, next + 1]
     share = [(1.0_wp - along)*(1.0_wp - across), (1.0_wp - along)*across, along*(1.0_wp - across), &
-      along*across]
+             along*across]
   end subroutine find_film_place
 
   !> Interval of rising numbers that holds one, and where in it the number lies, 0 to 1.

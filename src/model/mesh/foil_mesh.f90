@@ -330,15 +330,15 @@ contains
     type(station_type), intent(in) :: station(:)
     type(strip_shape_type), intent(in) :: shape
     integer, allocatable :: crests(:), corners(:), line(:)
-    integer :: place, i, stations, crest, corner
+    integer :: number, i, stations, crest, corner
 
     stations = size(station)
     crest = 0
     corner = 0
     allocate (crests(0), corners(0))
-    do place = 1, stations
-      i = merge(stations + 1 - place, place, shape%mirrored)
-      line = line_at(mesh, place)
+    do number = 1, stations
+      i = merge(stations + 1 - number, number, shape%mirrored)
+      line = line_at(mesh, number)
       if (station(i)%crest > 0) then
         crest = crest + 1
         crests = [crests, line]
@@ -359,12 +359,12 @@ contains
   end subroutine name_sets
 
   !> Nodes of a station, counted from the smallest x, in order of z; none outside the stretch.
-  pure function line_at(mesh, place) result(nodes)
+  pure function line_at(mesh, station) result(nodes)
     type(quad_mesh_type), intent(in) :: mesh
-    integer, intent(in) :: place
+    integer, intent(in) :: station
     integer, allocatable :: nodes(:)
 
-    nodes = numbers((place - 1)*mesh%rows + 1, place*mesh%rows)
+    nodes = numbers((station - 1)*mesh%rows + 1, station*mesh%rows)
     associate (first => lbound(mesh%position, 2), last => ubound(mesh%position, 2))
       if (nodes(1) < first .or. nodes(mesh%rows) > last) nodes = numbers(1, 0)
     end associate
@@ -376,8 +376,8 @@ contains
     integer :: i
 
     associate (first => lbound(mesh%position, 2), last => ubound(mesh%position, 2))
-      call add_node_set(mesh, 'midplane', pack([(i, i=first, last)], &
-                                               abs(mesh%position(3, :)) <= 0.0_wp))
+      call add_node_set(mesh, 'midplane', &
+                        pack([(i, i=first, last)], abs(mesh%position(3, :)) <= 0.0_wp))
     end associate
   end subroutine add_midplane
 

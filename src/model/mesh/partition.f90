@@ -166,8 +166,8 @@ contains
     ones = 1
     rounded = max(1, nint(weight*heaviest/sum(weight)))
     if (c_part_graph(int(size(weight), c_int), 1_c_int, first, neighbour, rounded, c_null_ptr, &
-                     ones, int(parts, c_int), c_null_ptr, c_null_ptr, c_null_ptr, cut, found) &
-        /= metis_ok) then
+                     ones, int(parts, c_int), c_null_ptr, c_null_ptr, c_null_ptr, cut, &
+                     found) /= metis_ok) then
       call fail(error, 'METIS could not cut the meshes into parts', status_machine)
       return
     end if

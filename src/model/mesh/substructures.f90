@@ -42,7 +42,7 @@ contains
   !> inside. Supports at retained nodes do not count.
   pure subroutine find_kinds(mesh, fixed, pieces)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
-    logical, intent(in) :: fixed(:, :) !! (5, nodes) unknowns held by supports
+    logical, intent(in) :: fixed(:, :) !! (5, nodes) unknowns fixed by supports
     type(substructure_type), intent(inout) :: pieces(:) !! a substructure
     integer :: first(size(pieces)), i, kind, kinds
 
@@ -80,7 +80,7 @@ contains
     integer :: i
 
     congruent = size(one%nodes) == size(other%nodes) .and. &
-      size(one%elements) == size(other%elements)
+                size(one%elements) == size(other%elements)
     if (.not. congruent) return
     congruent = all(one%retained .eqv. other%retained)
     if (.not. congruent) return
@@ -90,24 +90,24 @@ contains
     shift = mesh%position(:, other%nodes(1)) - mesh%position(:, one%nodes(1))
     extent = maxval(maxval(mesh%position(:, one%nodes), 2) - minval(mesh%position(:, one%nodes), 2))
     do i = 1, size(one%nodes)
-      congruent = all(abs(mesh%position(:, other%nodes(i)) - mesh%position(:, one%nodes(i)) &
-        - shift) &
-                      <= congruence*extent) .and. &
-        all(abs(mesh%axis_1(:, other%nodes(i)) - mesh%axis_1(:, &
-        one%nodes(i))) <= congruence) .and. &
-        all(abs(mesh%axis_2(:, other%nodes(i)) - mesh%axis_2(:, one%nodes(i))) <= congruence)
+      congruent = all(abs(mesh%position(:, other%nodes(i)) - mesh%position(:, one%nodes(i)) - &
+                          shift) <= congruence*extent) .and. &
+                  all(abs(mesh%axis_1(:, other%nodes(i)) - mesh%axis_1(:, one%nodes(i))) &
+                      <= congruence) .and. &
+                  all(abs(mesh%axis_2(:, other%nodes(i)) - mesh%axis_2(:, one%nodes(i))) &
+                      <= congruence)
       if (.not. congruent) return
     end do
     do i = 1, size(one%elements)
       congruent = all(places_in(one, mesh%element_nodes(:, one%elements(i))) == &
                       places_in(other, mesh%element_nodes(:, other%elements(i)))) .and. &
-        all(abs(mesh%director(:, :, one%elements(i)) - mesh%director(:, :, other%elements(i))) &
-            <= congruence)
+                  all(abs(mesh%director(:, :, one%elements(i)) - &
+                          mesh%director(:, :, other%elements(i))) <= congruence)
       if (.not. congruent) return
     end do
   end function are_congruent
 
-  !> Places of nodes in a piece.
+  !> Where nodes stand in the list of a piece's.
   pure function places_in(piece, nodes) result(places)
     type(substructure_type), intent(in) :: piece !! a substructure
     integer, intent(in) :: nodes(:) !! of the mesh, rising

@@ -15,7 +15,7 @@ module gfb_nonlinear_system
     logical :: definite = .false.   !! it is positive definite too, and says so to PETSc
     Mat :: motions  !! coarse space of an iterative solver, (unknowns, motions); owned by the system
     logical :: has_motions = .false. !! there is one
-    logical :: slow_change = .false. !! matrices differ in few entries: old factors precondition well
+    logical :: slow_change = .false. !! matrices differ in few entries: lagged factors precondition well
     integer :: times_filled = 0     !! the matrix, by whomever
     logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
@@ -46,7 +46,7 @@ module gfb_nonlinear_system
 
 contains
 
-  !> Called after every step: what is linearised at a place of its own moves there. The residual
+  !> Called after every step: linearisation points of contacts move. The residual
   !> changes with it. Says so in `moved`; here nothing does.
   subroutine settle(self, state, moved)
     class(nonlinear_system_type), intent(inout) :: self !! the equations

@@ -55,7 +55,7 @@ contains
     PetscCallA(VecCopy(strip%state, recorder%state, ierr))
   end subroutine start_recorder
 
-  !> Goes on from the strip's present state, whose answer is known.
+  !> Resumes from the strip's present state, whose answer is known.
   subroutine resume_recorder(strip, answer, recorder)
     type(strip_system_type), intent(in) :: strip !! at the state of the answer
     type(strip_answer_type), intent(in) :: answer !! that steps go on from
@@ -136,14 +136,14 @@ contains
     type(strip_system_type), intent(in) :: strip
     integer, intent(out) :: total(states, 2)
     real(wp) :: found(states*2)
-    integer :: i, place
+    integer :: i, entry
 
     found = 0.0_wp
     do i = 1, size(strip%contacts%point)
       associate (point => strip%contacts%point(i), mesh => strip%foil%mesh)
-        place = (point%law - 1)*states + strip%contacts%state_of(i) - state_open + 1
-        found(place) = found(place) + 1.0_wp
-        if (mesh%half .and. mesh%position(axial, point%node) > 0.0_wp) found(place) = found(place) + 1.0_wp
+        entry = (point%law - 1)*states + strip%contacts%state_of(i) - state_open + 1
+        found(entry) = found(entry) + 1.0_wp
+        if (mesh%half .and. mesh%position(axial, point%node) > 0.0_wp) found(entry) = found(entry) + 1.0_wp
       end associate
     end do
     total = reshape(nint(sum_over_ranks(found)), [states, 2])

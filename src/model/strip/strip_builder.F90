@@ -136,7 +136,7 @@ contains
     end associate
   end subroutine add_contacts
 
-  !> Contacts of a line's nodes; those that are held everywhere touch nothing.
+  !> Contacts of a line's nodes; those that are fixed everywhere touch nothing.
   subroutine add_line(strip, line, law, number, pressed, pressing)
     type(strip_system_type), intent(inout) :: strip
     integer, intent(in) :: line(:)     !! nodes in order of z

@@ -251,7 +251,7 @@ contains
     self%has_motions = .true.
   end subroutine find_motions
 
-  !> Linearises every contact where the strip has gone.
+  !> Moves every contact's linearisation point to where the strip is now.
   subroutine settle(self, state, moved)
     class(strip_system_type), intent(inout) :: self !! the strip
     Vec, intent(in) :: state !! scaled

@@ -30,7 +30,7 @@ contains
   subroutine create_foil_structure(mesh, section, fixed, substructure, reduced, structure, error, column_part)
     type(quad_mesh_type), intent(in) :: mesh          !! this rank's columns at least
     type(shell_section_type), intent(in) :: section !! thickness and material
-    !> (5, nodes) held by supports or symmetry, under the mesh's numbers
+    !> (5, nodes) fixed by supports or symmetry, under the mesh's numbers
     logical, allocatable, intent(in) :: fixed(:, :)
     !> every column in one of them, in order; none where nothing is condensed
     type(substructure_type), intent(in) :: substructure(:)
@@ -191,7 +191,7 @@ contains
     type(foil_structure_type), intent(in) :: structure
     logical :: coupled(structure%part%owned_unknowns)
     logical :: line(structure%mesh%stations)
-    integer :: i, k, ends(2, size(structure%mine)), place, unknowns
+    integer :: i, k, ends(2, size(structure%mine)), before, unknowns
 
     if (structure%reduced) then
       do i = 1, size(structure%mine)
@@ -207,8 +207,8 @@ contains
     do i = 1, size(structure%part%mesh_node)
       if (.not. structure%part%owned(i)) cycle
       unknowns = maxval(structure%slot(:, structure%part%mesh_node(i)))
-      place = structure%part%first_unknown(i) - 1 - structure%first
-      coupled(place + 1:place + unknowns) = line((structure%part%mesh_node(i) - 1)/structure%mesh%rows + 1)
+      before = structure%part%first_unknown(i) - 1 - structure%first
+      coupled(before + 1:before + unknowns) = line((structure%part%mesh_node(i) - 1)/structure%mesh%rows + 1)
     end do
   end function at_seam
 

@@ -21,9 +21,9 @@ module gfb_foil_pieces
 
 contains
 
-  !> Place of each free unknown of a kept node at its node, 0 for all others.
+  !> Number of each free unknown of a kept node at its node, 0 for all others.
   pure subroutine number_slots(free, substructure, reduced, slot)
-    logical, allocatable, intent(in) :: free(:, :)    !! (5, nodes) not held by a support
+    logical, allocatable, intent(in) :: free(:, :)    !! (5, nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure(:) !! all of the foil's
     logical, intent(in) :: reduced                    !! only retained nodes are kept
     integer, allocatable, intent(out) :: slot(:, :)   !! (5, nodes)
@@ -48,13 +48,13 @@ contains
     end do
   end subroutine number_slots
 
-  !> Assembles a substructure on its own and condenses it, or only holds what recovers its interior.
+  !> Assembles a substructure on its own and condenses it, or only keeps what recovers its interior.
   !>
   !> Fails where an element is clockwise or degenerate.
   subroutine condense_piece(mesh, section, free, substructure, explicitly, super, error)
     type(quad_mesh_type), intent(in) :: mesh !! of the foil
     type(shell_section_type), intent(in) :: section !! thickness and material
-    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! to be condensed
     logical, intent(in) :: explicitly !! the condensed matrix too
     type(super_element_type), intent(out) :: super !! what the substructure becomes
@@ -77,7 +77,7 @@ contains
   subroutine assemble_piece(mesh, section, free, substructure, mass, matrix, error)
     type(quad_mesh_type), intent(in) :: mesh !! of the foil
     type(shell_section_type), intent(in) :: section !! thickness and material
-    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! whose matrix it is
     logical, intent(in) :: mass       !! instead of stiffness
     Mat, intent(out) :: matrix !! of all its unknowns, on this rank alone
@@ -101,7 +101,7 @@ contains
     end do
     PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER_ARRAY, matrix, ierr))
     do i = 1, size(substructure%elements)
-      associate (places => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
+      associate (corner => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
                  geometry => element_geometry(mesh, substructure%elements(i)))
         if (mass) then
           call shell_mass(geometry, section, block, error)
@@ -109,7 +109,7 @@ contains
           call shell_stiffness(geometry, section, block, error)
         end if
         if (allocated(error)) return
-        call add_symmetric_block(matrix, reshape(number(:, places), [shell_unknowns]) - 1, block)
+        call add_symmetric_block(matrix, reshape(number(:, corner), [shell_unknowns]) - 1, block)
       end associate
     end do
     PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
@@ -118,7 +118,7 @@ contains
 
   !> Which of a substructure's unknowns are kept.
   pure function retained_in_piece(free, substructure) result(is_retained)
-    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical, allocatable :: is_retained(:)
 
@@ -128,7 +128,7 @@ contains
   !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there
   !> does not make it another kind, and the free ones inside.
   pure function piece_unknowns(free, substructure) result(has)
-    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not held by a support
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical :: has(node_unknowns, size(substructure%nodes))
 

@@ -24,8 +24,8 @@ module gfb_foil_structure
     logical :: reduced = .false.             !! only retained nodes have unknowns
     type(substructure_type), allocatable :: substructure(:) !! of the whole foil; nodes of this rank's
     integer, allocatable :: mine(:)          !! substructures of this rank
-    integer, allocatable :: slot(:, :)       !! (5, nodes) unknown's place at its node, 0: none
-    logical, allocatable :: free(:, :)       !! (5, nodes) not held by a support
+    integer, allocatable :: slot(:, :)       !! (5, nodes) unknown's number at its node, 0: none
+    logical, allocatable :: free(:, :)       !! (5, nodes) not fixed by a support
     integer :: unknowns = 0                  !! on all ranks
     integer :: first = 0                     !! unknowns of the ranks before this one
     integer :: condensations = 0             !! super-elements this rank condensed, each for all ranks

@@ -119,8 +119,8 @@ contains
     integer, intent(in) :: number(:) !! of each one's patch
     integer, intent(in) :: patches
     integer, allocatable, intent(out) :: member(:)
-    integer, allocatable, intent(out) :: start(:) !! (patches + 1) first place in `member`
-    integer :: place(patches)
+    integer, allocatable, intent(out) :: start(:) !! (patches + 1) number of its first in `member`
+    integer :: next(patches)
     integer :: i
 
     allocate (member(size(number)), start(patches + 1), source=0)
@@ -131,10 +131,10 @@ contains
     do i = 1, patches
       start(i + 1) = start(i) + start(i + 1)
     end do
-    place = start(:patches)
+    next = start(:patches)
     do i = 1, size(number)
-      member(place(number(i))) = i
-      place(number(i)) = place(number(i)) + 1
+      member(next(number(i))) = i
+      next(number(i)) = next(number(i)) + 1
     end do
   end subroutine list_members
 

@@ -3,7 +3,7 @@
 !>
 !> $$ \tilde{K} = K_{BB} - K_{BI} K_{II}^{-1} K_{IB}, \qquad q_I = -K_{II}^{-1} K_{IB} q_B $$
 !>
-!> Source: [Gu2020] eqs. 3 to 6, [Guyan1965]. The substructure is held as a MatSchurComplement whose
+!> Source: [Gu2020] eqs. 3 to 6, [Guyan1965]. The substructure is kept as a MatSchurComplement whose
 !> inner solver is an exact Cholesky factorization, made when interior displacements are asked for.
 !> Its explicit matrix comes from MUMPS, and not from PETSc's own explicit operator, which drops
 !> entries below 1e-10. Any symmetric positive definite stiffness with any retained unknowns will
@@ -24,7 +24,7 @@ module gfb_super_element
     real(wp), allocatable :: stiffness(:, :)  !! (retained, retained)
     logical, private :: created = .false.
     Mat, private :: block_ii, block_ib, block_bi, block_bb
-    Mat :: schur                              !! the complement as PETSc holds it
+    Mat :: schur                              !! the complement as PETSc keeps it
   contains
     procedure :: recover
     procedure :: constraint_modes

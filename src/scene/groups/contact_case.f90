@@ -38,7 +38,7 @@ module gfb_contact_case
     real(wp) :: exponent = 1.0_wp             !! of the penetration [1]
     real(wp) :: friction_top = 0.0_wp         !! crests on the top foil or the plate above [1]
     real(wp) :: friction_sleeve = 0.0_wp      !! corners on the sleeve [1]
-    real(wp) :: stick_length = 0.0_wp         !! tangential way at which slip begins [m]
+    real(wp) :: stick_length = 0.0_wp         !! tangential displacement at which slip begins [m]
     logical :: may_rub = .false.              !! a coefficient is positive, or complained about
     integer :: friction_law = law_tanh_drag
     integer :: friction_direction = direction_tangent_plane

@@ -12,7 +12,7 @@ module gfb_output_case
 
   real(wp), parameter :: most_steps = 1.0e6_wp
 
-  !> Fields that are written for ParaView, and how often the run can be gone on with.
+  !> Fields that are written for ParaView, and how often the state is saved to resume the run.
   type :: output_case_type
     logical :: pressure = .true.
     logical :: gap = .true.

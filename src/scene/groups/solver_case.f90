@@ -25,7 +25,7 @@ module gfb_solver_case
     real(wp) :: step_tolerance = 1.0e-9_wp      !! of the scaled step [1]
     integer :: maximum_iterations = 40          !! Newton steps of one load step
     integer :: maximum_load_steps = 200
-    real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole way [1]
+    real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole path [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
     logical :: stability = .false.              !! count the foils' modes that grow
     integer :: linear_solver = linear_solver_direct
