@@ -47,7 +47,7 @@ contains
   function make_strip(arc_elements, flat_elements, axial_elements, bumps, growth) result(strip)
     integer, intent(in) :: arc_elements, flat_elements !! of a bump
     integer, intent(in) :: axial_elements              !! over the whole width
-    integer, intent(in), optional :: bumps
+    integer, intent(in), optional :: bumps !! their number; 10 where it is absent
     real(wp), intent(in), optional :: growth !! of the bumps' measures, from the first to the last [1]
     type(strip_type) :: strip
 
@@ -76,11 +76,11 @@ contains
 
   !> Goes all the way once, full or reduced, equal pieces condensed once or each on its own.
   subroutine strip_cost(strip, reduced, congruent, cost, error)
-    type(strip_type), intent(in) :: strip
+    type(strip_type), intent(in) :: strip !! mesh, section and supports
     logical, intent(in) :: reduced   !! condense the pieces
     logical, intent(in) :: congruent !! see which pieces are equal
-    type(strip_cost_type), intent(out) :: cost
-    type(error_type), allocatable, intent(out) :: error
+    type(strip_cost_type), intent(out) :: cost !! times, and the displacements
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     type(foil_structure_type) :: foil
     type(substructure_type), allocatable :: piece(:)
@@ -181,7 +181,7 @@ contains
 
   !> A whole number of the command line.
   function argument(place, usage) result(number)
-    integer, intent(in) :: place
+    integer, intent(in) :: place !! of the argument on the command line, from 1
     character(len=*), intent(in) :: usage !! what the command line should be
     integer :: number
     character(len=20) :: word
@@ -194,8 +194,8 @@ contains
 
   !> One result: a line `name,value`.
   subroutine tell(name, value)
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: value
+    character(len=*), intent(in) :: name !! of the result
+    real(wp), intent(in) :: value !! of the result, in its unit
     write (output_unit, '(a, ",", es23.15e3)') name, value
   end subroutine tell
 end module gfb_strip_cost

@@ -35,12 +35,12 @@ contains
 
   !> Adds the present state to the record.
   subroutine add_row(scene, bearing, newton, converged, record, value, fold, branch)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(in) :: bearing
-    type(newton_type), intent(in) :: newton
-    logical, intent(in) :: converged
-    type(bearing_record_type), intent(inout) :: record
-    real(wp), intent(in), optional :: value !! of what the sweep changes
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_system_type), intent(in) :: bearing !! at the state
+    type(newton_type), intent(in) :: newton !! its solver, with the counts so far
+    logical, intent(in) :: converged !! the state is an answer
+    type(bearing_record_type), intent(inout) :: record !! gets a row, and the contacts
+    real(wp), intent(in), optional :: value !! of the sweep's parameter, in its unit
     logical, intent(in), optional :: fold   !! the sweep's parameter turns back there
     integer, intent(in), optional :: branch !! number of the equilibrium among several
     type(history_row_type) :: row
@@ -64,7 +64,7 @@ contains
 
   !> The word for the scene's analysis.
   pure function analysis_name(scene) result(name)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     character(len=:), allocatable :: name
 
     name = 'fixed_position'
@@ -73,21 +73,21 @@ contains
 
   !> The word for what a sweep changes.
   pure function sweep_name(sweep) result(name)
-    type(sweep_case_type), intent(in) :: sweep
+    type(sweep_case_type), intent(in) :: sweep !! with its parameter
     character(len=:), allocatable :: name
     name = trim(parameter_words(sweep%parameter))
   end function sweep_name
 
   !> Its unit.
   pure function sweep_unit(sweep) result(unit)
-    type(sweep_case_type), intent(in) :: sweep
+    type(sweep_case_type), intent(in) :: sweep !! with its parameter
     character(len=:), allocatable :: unit
     unit = result_unit(sweep_name(sweep))
   end function sweep_unit
 
   !> Packs or unpacks a record but for the contacts.
   subroutine remember_record(memory, record)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(bearing_record_type), intent(inout) :: record !! written where the memory unpacks
     type(history_row_type), allocatable :: judged(:)
     real(wp) :: elapsed ! since the first answer, on another clock

@@ -28,13 +28,13 @@ contains
 
   !> Writes the file after a point.
   subroutine keep_bearing(scene, restart, log, point, bearing, newton, record, way)
-    type(scene_type), intent(in) :: scene
-    type(restart_type), intent(in) :: restart
-    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(restart_type), intent(in) :: restart !! name and origin of the file
+    type(run_log_type), intent(in) :: log !! where lines go
     integer, intent(in) :: point !! of the sweep; 0: where the shaft is held
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(bearing_record_type), intent(inout) :: record
+    type(bearing_system_type), intent(inout) :: bearing !! at the point's answer
+    type(newton_type), intent(inout) :: newton !! its solver; loses its factors
+    type(bearing_record_type), intent(inout) :: record !! of the points so far
     type(fold_way_type), intent(inout), optional :: way !! along a branch that is followed round its folds
 
     type(result_file_type) :: file
@@ -53,7 +53,7 @@ contains
 
   !> Packs or unpacks what is one for the whole bearing: operating point, switches, counters.
   subroutine remember_bearing(memory, bearing, newton)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(bearing_system_type), intent(inout) :: bearing !! written where the memory unpacks
     type(newton_type), intent(inout) :: newton          !! the same
 
@@ -105,13 +105,13 @@ contains
   !>
   !> Fails when the file is damaged.
   subroutine recall_way(restart, last, bearing, newton, way, there, error)
-    type(restart_type), intent(in) :: restart
+    type(restart_type), intent(in) :: restart !! name of the file
     type(operating_point_type), intent(in) :: last !! of the sweep
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), intent(in) :: newton
-    type(fold_way_type), target, intent(inout) :: way
+    type(bearing_system_type), target, intent(inout) :: bearing !! as `recall_bearing` left it; put at the branch's last answer
+    type(newton_type), intent(in) :: newton !! of the bearing: its settings
+    type(fold_way_type), target, intent(inout) :: way !! out: the branch as the file has it
     logical, intent(out) :: there !! the branch had been begun
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(stored_file_type) :: file
     type(natural_order_type) :: order
     type(memory_type) :: memory
@@ -169,7 +169,7 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(bearing_record_type), intent(inout) :: record
     integer, intent(out) :: point !! of the sweep that was done last; 0: where the shaft is held
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(stored_file_type) :: file
 
     point = 0

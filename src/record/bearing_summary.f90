@@ -28,8 +28,8 @@ contains
   !> Quantities of one answer.
   function answer_quantities(analysis, converged, answer, clearance, force_scale) result(list)
     character(len=*), intent(in) :: analysis !! as the user types it
-    logical, intent(in) :: converged
-    type(bearing_answer_type), intent(in) :: answer
+    logical, intent(in) :: converged !! it is an answer, not the last state reached
+    type(bearing_answer_type), intent(in) :: answer !! forces, gaps and pressures
     real(wp), intent(in) :: clearance        !! C [m]
     real(wp), intent(in) :: force_scale      !! size of a force [N]
     type(quantity_type), allocatable :: list(:)
@@ -98,7 +98,7 @@ contains
 
   !> Quantities of what it cost.
   function cost_quantities(cost) result(list)
-    type(cost_type), intent(in) :: cost
+    type(cost_type), intent(in) :: cost !! of the whole run
     type(quantity_type), allocatable :: list(:)
 
     call add_result(list, 'unknowns', cost%unknowns)
@@ -110,7 +110,7 @@ contains
   !> Adds what was counted from the start of the run to an answer.
   pure subroutine add_counts(newton_iterations, factorizations, list)
     integer, intent(in) :: newton_iterations, factorizations !! so far
-    type(quantity_type), allocatable, intent(inout) :: list(:)
+    type(quantity_type), allocatable, intent(inout) :: list(:) !! gets two quantities
 
     call add_result(list, 'newton_iterations', newton_iterations)
     call add_result(list, 'factorizations', factorizations)
@@ -118,7 +118,7 @@ contains
 
   !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
   pure function attitude_angle(answer) result(angle)
-    type(bearing_answer_type), intent(in) :: answer
+    type(bearing_answer_type), intent(in) :: answer !! with eccentricity and force
     real(wp) :: angle
 
     associate (e => answer%eccentricity, f => answer%force)
@@ -128,12 +128,12 @@ contains
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, converged, answer, clearance, cost, ranks, blas)
-    type(run_log_type), intent(in) :: log
-    logical, intent(in) :: converged
-    type(bearing_answer_type), intent(in) :: answer
+    type(run_log_type), intent(in) :: log !! where lines go
+    logical, intent(in) :: converged !! it is an answer, not the last state reached
+    type(bearing_answer_type), intent(in) :: answer !! to be shown
     real(wp), intent(in) :: clearance     !! C [m]
-    type(cost_type), intent(in) :: cost
-    integer, intent(in) :: ranks
+    type(cost_type), intent(in) :: cost !! of the whole run
+    integer, intent(in) :: ranks !! number of MPI ranks
     character(len=*), intent(in) :: blas  !! library in use
     character(len=4) :: who
 

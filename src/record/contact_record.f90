@@ -24,17 +24,17 @@ contains
 
   !> Keeps the contacts of a foil at a point; nothing where it has none.
   subroutine record_foil_contacts(foil, point, points, record)
-    class(foil_model_type), intent(in) :: foil
+    class(foil_model_type), intent(in) :: foil !! under the film
     integer, intent(in) :: point  !! number of this one
     integer, intent(in) :: points !! that there will be, as far as is known
-    type(contact_record_type), intent(inout) :: record
+    type(contact_record_type), intent(inout) :: record !! gets the point
     if (foil%has_contacts()) call record_contacts(foil%nodal_contacts(), point, points, record)
   end subroutine record_foil_contacts
 
   !> The contacts of a foil at all points; none where it has none.
   function foil_contact_arrays(foil, record, points) result(arrays)
-    class(foil_model_type), intent(in) :: foil
-    type(contact_record_type), intent(in) :: record
+    class(foil_model_type), intent(in) :: foil !! whose contacts were recorded
+    type(contact_record_type), intent(in) :: record !! of all points
     integer, intent(in) :: points !! recorded
     type(case_array_type), allocatable :: arrays(:)
     type(foil_surface_type), allocatable :: surface(:)
@@ -50,10 +50,10 @@ contains
 
   !> Adds the present step.
   subroutine record_contacts(contacts, step, steps, record)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! at the step's state, each of one node
     integer, intent(in) :: step  !! number of this one
     integer, intent(in) :: steps !! that there will be, as far as is known
-    type(contact_record_type), intent(inout) :: record
+    type(contact_record_type), intent(inout) :: record !! gets the step
     integer :: i
 
     if (.not. allocated(record%value)) then
@@ -81,9 +81,9 @@ contains
 
   !> Everything about the contacts, on the first rank's behalf.
   function contact_arrays(contacts, slaves, record, steps) result(arrays)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! that were recorded, each of one node
     class(foil_surface_type), intent(in) :: slaves !! the surface they are nodes of
-    type(contact_record_type), intent(in) :: record
+    type(contact_record_type), intent(in) :: record !! of all steps
     integer, intent(in) :: steps !! recorded
     type(case_array_type), allocatable :: arrays(:)
     type(case_array_type) :: sleeve(fields + 3), top(fields + 3)

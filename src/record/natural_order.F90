@@ -27,7 +27,7 @@ contains
 
   !> Order of a bearing's state: film node by node, foil, shaft.
   function bearing_order(bearing) result(order)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! with its numbering
     type(natural_order_type) :: order
     integer, allocatable :: film(:), foil(:)
     integer :: i
@@ -43,7 +43,7 @@ contains
 
   !> Order of a bearing's state with its place on a path behind it.
   function path_order(bearing) result(order)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! with its numbering
     type(natural_order_type) :: order
 
     order = bearing_order(bearing)
@@ -53,7 +53,7 @@ contains
 
   !> Order of a strip's state: node by node, then the plate.
   function strip_order(strip) result(order)
-    type(strip_system_type), intent(in) :: strip
+    type(strip_system_type), intent(in) :: strip !! with its numbering
     type(natural_order_type) :: order
 
     order%number = strip%foil%natural_numbers()
@@ -65,7 +65,7 @@ contains
 
   !> Order of contacts: surface by surface, line by line, node by node.
   function contact_order(contacts, rows) result(order)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! of all surfaces
     integer, intent(in) :: rows !! nodes of a line
     type(natural_order_type) :: order
     integer :: sleeve_lines
@@ -107,8 +107,8 @@ contains
 
   !> This rank's part of a field in the natural order; zero where nothing has the number.
   function to_natural(order, value) result(block)
-    type(natural_order_type), intent(in) :: order
-    real(wp), intent(in) :: value(:, :) !! (components, things this rank owns)
+    type(natural_order_type), intent(in) :: order !! of the things
+    real(wp), intent(in) :: value(:, :) !! (components, things this rank owns), in any unit [SI]
     real(wp), allocatable :: block(:, :)
     integer :: i
 
@@ -117,8 +117,8 @@ contains
 
   !> A field at what this rank owns, from the ranks' parts in the natural order.
   function from_natural(order, block) result(value)
-    type(natural_order_type), intent(in) :: order
-    real(wp), intent(in) :: block(:, :) !! (components, numbers of this rank's part)
+    type(natural_order_type), intent(in) :: order !! of the things
+    real(wp), intent(in) :: block(:, :) !! (components, numbers of this rank's share), in any unit [SI]
     real(wp), allocatable :: value(:, :)
     integer :: i
 
@@ -127,7 +127,7 @@ contains
 
   !> What this rank owns of a vector, as a field of one component.
   function vector_values(vector) result(value)
-    Vec, intent(in) :: vector
+    Vec, intent(in) :: vector !! of all ranks
     real(wp), allocatable :: value(:, :)
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
@@ -139,8 +139,8 @@ contains
 
   !> The reverse.
   subroutine set_vector(value, vector)
-    real(wp), intent(in) :: value(:, :) !! (1, owned)
-    Vec, intent(in) :: vector
+    real(wp), intent(in) :: value(:, :) !! (1, owned), scaled [1]
+    Vec, intent(in) :: vector !! of all ranks, is filled
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 

@@ -39,7 +39,7 @@ contains
   !> Whether a file is written after a step.
   pure function is_due(self, step) result(due)
     class(restart_type), intent(in) :: self
-    integer, intent(in) :: step
+    integer, intent(in) :: step !! number of the step or point that is done
     logical :: due
 
     due = self%every > 0
@@ -60,13 +60,13 @@ contains
   !>
   !> Fails where the run is to go on from a file of another scene or program, or from a damaged one.
   subroutine find_restart(scene, folder, wanted, command, log, restart, error)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     character(len=*), intent(in) :: folder  !! where the results go
     logical, intent(in) :: wanted           !! the run is to go on
     character(len=*), intent(in) :: command !! the whole command line
-    type(run_log_type), intent(in) :: log
-    type(restart_type), intent(out) :: restart
-    type(error_type), allocatable, intent(out) :: error
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(restart_type), intent(out) :: restart !! name of the file, and whether the run is resumed from it
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     logical :: there
 
     restart%path = folder//'/'//scene%name//'.restart.h5'
@@ -122,11 +122,11 @@ contains
   !>
   !> Fails when it cannot be made.
   subroutine begin_restart_file(scene, restart, step, file, error)
-    type(scene_type), intent(in) :: scene
-    type(restart_type), intent(in) :: restart
-    integer, intent(in) :: step
-    type(result_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(restart_type), intent(in) :: restart !! name and origin of the file
+    integer, intent(in) :: step !! number of the step or point that is done
+    type(result_file_type), intent(out) :: file !! is opened
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     call open_result_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank() == 0, file, error)
     call share_failure(error)
@@ -142,8 +142,8 @@ contains
   !> Ends a restart file; it takes the place of the one before when it is whole. A run does not end because
   !> the file cannot be written.
   subroutine end_restart_file(file, log, error)
-    type(result_file_type), intent(inout) :: file
-    type(run_log_type), intent(in) :: log
+    type(result_file_type), intent(inout) :: file !! is closed
+    type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(inout) :: error !! of `begin_restart_file`
 
     if (.not. allocated(error)) then
@@ -162,9 +162,9 @@ contains
   !>
   !> Fails when it cannot be read.
   subroutine open_restart(restart, file, error)
-    type(restart_type), intent(in) :: restart
-    type(stored_file_type), intent(out) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(restart_type), intent(in) :: restart !! name of the file
+    type(stored_file_type), intent(out) :: file !! is opened
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     call open_stored_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, file, error)
     call share_failure(error)
@@ -172,8 +172,8 @@ contains
 
   !> Fails where something could not be read.
   subroutine check_restart_file(file, error)
-    type(stored_file_type), intent(in) :: file
-    type(error_type), allocatable, intent(out) :: error
+    type(stored_file_type), intent(in) :: file !! from which all was read
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     if (any_rank(file%failed)) then
       call fail(error, file%path//': the file is damaged; run without --restart to start from the '// &
@@ -183,7 +183,7 @@ contains
 
   !> Removes the file of a run that has ended well.
   subroutine drop_restart(restart)
-    type(restart_type), intent(in) :: restart
+    type(restart_type), intent(in) :: restart !! name of the file
 
     if (restart%every == 0) return
     if (this_rank() /= 0) return

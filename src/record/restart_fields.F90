@@ -22,10 +22,10 @@ contains
 
   !> Adds what was packed, which is the same on all ranks but for its numbers: the first rank's count.
   subroutine put_memory(memory, group, meaning, file)
-    type(memory_type), intent(in) :: memory
+    type(memory_type), intent(in) :: memory !! that has packed
     character(len=*), intent(in) :: group   !! of the file, a new one
     character(len=*), intent(in) :: meaning !! of the numbers
-    type(result_file_type), intent(inout) :: file
+    type(result_file_type), intent(inout) :: file !! that is being written
 
     call file%group(group)
     call file%put_text(group//'/words', memory%words(), words_meaning)
@@ -35,8 +35,8 @@ contains
   !> Begins to unpack what `put_memory` has added.
   subroutine read_memory(group, file, memory)
     character(len=*), intent(in) :: group !! of the file
-    type(stored_file_type), intent(inout) :: file
-    type(memory_type), intent(out) :: memory
+    type(stored_file_type), intent(inout) :: file !! that is being read
+    type(memory_type), intent(out) :: memory !! that will unpack
 
     call open_memory(file%numbers(group//'/numbers'), file%words(group//'/words'), memory)
     memory%failed = file%failed
@@ -44,8 +44,8 @@ contains
 
   !> Ends unpacking; the file has failed where it does not hold what was looked for.
   subroutine end_memory(memory, file)
-    type(memory_type), intent(inout) :: memory
-    type(stored_file_type), intent(inout) :: file
+    type(memory_type), intent(inout) :: memory !! that has unpacked
+    type(stored_file_type), intent(inout) :: file !! that is being read
 
     call memory%finish()
     file%failed = file%failed .or. memory%failed
@@ -77,19 +77,20 @@ contains
 
   !> Adds a vector.
   subroutine put_vector(order, vector, path, meaning, file)
-    type(natural_order_type), intent(in) :: order
-    Vec, intent(in) :: vector
-    character(len=*), intent(in) :: path, meaning
-    type(result_file_type), intent(inout) :: file
+    type(natural_order_type), intent(in) :: order !! of its unknowns
+    Vec, intent(in) :: vector !! scaled unknowns of all ranks
+    character(len=*), intent(in) :: path !! of the field in the file
+    character(len=*), intent(in) :: meaning !! of the numbers
+    type(result_file_type), intent(inout) :: file !! that is being written
     call put_field(order, vector_values(vector), path, '1', meaning, file)
   end subroutine put_vector
 
   !> Reads a vector.
   subroutine read_vector(order, path, file, vector)
-    type(natural_order_type), intent(in) :: order
-    character(len=*), intent(in) :: path
-    type(stored_file_type), intent(inout) :: file
-    Vec, intent(in) :: vector
+    type(natural_order_type), intent(in) :: order !! of its unknowns
+    character(len=*), intent(in) :: path !! of the field in the file
+    type(stored_file_type), intent(inout) :: file !! that is being read
+    Vec, intent(in) :: vector !! scaled unknowns of all ranks, is filled
     call set_vector(read_field(order, 1, path, file), vector)
   end subroutine read_vector
 
@@ -124,10 +125,10 @@ contains
 
   !> Adds what contacts remember.
   subroutine put_contacts(contacts, rows, group, file)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! of this rank
     integer, intent(in) :: rows !! nodes of a line
-    character(len=*), intent(in) :: group
-    type(result_file_type), intent(inout) :: file
+    character(len=*), intent(in) :: group !! of the file, a new one
+    type(result_file_type), intent(inout) :: file !! that is being written
     character(len=:), allocatable :: words
     real(wp), allocatable :: column(:, :)
 
@@ -138,9 +139,9 @@ contains
   !> Gives contacts back what they remember.
   subroutine read_contacts(rows, group, file, contacts)
     integer, intent(in) :: rows !! nodes of a line
-    character(len=*), intent(in) :: group
-    type(stored_file_type), intent(inout) :: file
-    type(contact_set_type), intent(inout) :: contacts
+    character(len=*), intent(in) :: group !! of the file
+    type(stored_file_type), intent(inout) :: file !! that is being read
+    type(contact_set_type), intent(inout) :: contacts !! of this rank; their memory is filled
     character(len=:), allocatable :: words
     real(wp), allocatable :: column(:, :)
 
@@ -151,12 +152,12 @@ contains
 
   !> Adds the contacts of the steps so far.
   subroutine put_contact_record(contacts, rows, record, steps, group, file)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! that were recorded
     integer, intent(in) :: rows !! nodes of a line
-    type(contact_record_type), intent(in) :: record
+    type(contact_record_type), intent(in) :: record !! of all steps
     integer, intent(in) :: steps !! so far
-    character(len=*), intent(in) :: group
-    type(result_file_type), intent(inout) :: file
+    character(len=*), intent(in) :: group !! of the file, a new one
+    type(result_file_type), intent(inout) :: file !! that is being written
     real(wp), allocatable :: column(:, :)
     integer :: i
 
@@ -169,12 +170,12 @@ contains
 
   !> Reads the contacts of the steps so far.
   subroutine read_contact_record(contacts, rows, steps, group, file, record)
-    type(contact_set_type), intent(in) :: contacts
+    type(contact_set_type), intent(in) :: contacts !! that were recorded
     integer, intent(in) :: rows  !! nodes of a line
     integer, intent(in) :: steps !! so far
-    character(len=*), intent(in) :: group
-    type(stored_file_type), intent(inout) :: file
-    type(contact_record_type), intent(inout) :: record
+    character(len=*), intent(in) :: group !! of the file
+    type(stored_file_type), intent(inout) :: file !! that is being read
+    type(contact_record_type), intent(inout) :: record !! is filled
     real(wp), allocatable :: column(:, :)
     integer :: i
 

@@ -30,7 +30,7 @@ contains
   !> Computes them for the forces on the crests; a plate's force is shared evenly, as single bumps
   !> do.
   function strip_companions(scene, force) result(companions)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! what is asked for
     real(wp), intent(in) :: force !! on all crests at the full load [N]
     type(companions_type) :: companions
     real(wp) :: crest_force(scene%bump_foil%bumps)
@@ -83,9 +83,9 @@ contains
 
   !> A table of the crests: shells, chain, single bumps.
   subroutine show_companions(log, deflection, companions)
-    type(run_log_type), intent(in) :: log
+    type(run_log_type), intent(in) :: log !! where lines go
     real(wp), intent(in) :: deflection(:) !! of the shells' crests [m]
-    type(companions_type), intent(in) :: companions
+    type(companions_type), intent(in) :: companions !! deflections by formulas
     character(len=80) :: line
     integer :: bump
 
@@ -109,7 +109,7 @@ contains
 
   !> The same for the result file.
   function companion_arrays(companions) result(arrays)
-    type(companions_type), intent(in) :: companions
+    type(companions_type), intent(in) :: companions !! deflections by formulas
     type(case_array_type), allocatable :: arrays(:)
     character(len=*), parameter :: group = '/companions/'
 

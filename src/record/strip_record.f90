@@ -24,7 +24,7 @@ contains
 
   !> Packs or unpacks a run but for the contacts; one that is unpacked knows its number of bumps.
   pure subroutine remember_run(memory, run)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(strip_run_type), intent(inout) :: run !! written where the memory unpacks
 
     call memory%part('history')

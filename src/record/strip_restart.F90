@@ -26,13 +26,13 @@ contains
 
   !> Writes the file after a step, if one is due.
   subroutine keep_strip(scene, restart, log, strip, newton, path, run)
-    type(scene_type), intent(in) :: scene
-    type(restart_type), intent(in) :: restart
-    type(run_log_type), intent(in) :: log
-    type(strip_system_type), intent(in) :: strip
-    type(newton_type), intent(inout) :: newton
-    type(load_path_type), intent(inout) :: path
-    type(strip_run_type), intent(inout) :: run
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(restart_type), intent(in) :: restart !! name and origin of the file, and when one is due
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(strip_system_type), intent(in) :: strip !! at the step's answer
+    type(newton_type), intent(inout) :: newton !! its solver; loses its factors
+    type(load_path_type), intent(inout) :: path !! the last two answers
+    type(strip_run_type), intent(inout) :: run !! what was recorded so far
 
     type(memory_type) :: memory
     type(result_file_type) :: file
@@ -68,7 +68,7 @@ contains
 
   !> Packs or unpacks what is one for the whole strip.
   subroutine remember_strip(memory, newton, path)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(newton_type), intent(inout) :: newton  !! written where the memory unpacks
     type(load_path_type), intent(inout) :: path !! the same
 
@@ -81,15 +81,15 @@ contains
   !>
   !> Fails when the file is damaged.
   subroutine recall_strip(restart, steps, log, strip, newton, path, recorder, run, error)
-    type(restart_type), intent(in) :: restart
+    type(restart_type), intent(in) :: restart !! name of the file
     integer, intent(in) :: steps !! that there will be
-    type(run_log_type), intent(in) :: log
-    type(strip_system_type), intent(inout) :: strip
-    type(newton_type), intent(inout) :: newton
-    type(load_path_type), intent(inout) :: path
-    type(strip_recorder_type), intent(inout) :: recorder
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(strip_system_type), intent(inout) :: strip !! as it was built; put at the last answer
+    type(newton_type), intent(inout) :: newton !! its solver; gets the counts so far
+    type(load_path_type), intent(inout) :: path !! as it was created; gets the last two answers
+    type(strip_recorder_type), intent(inout) :: recorder !! of works and deflections, put at the last answer
     type(strip_run_type), intent(inout) :: run !! with its deflections' sizes
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     type(stored_file_type) :: file
     type(memory_type) :: memory

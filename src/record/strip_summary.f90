@@ -26,8 +26,8 @@ contains
 
   !> A row of the history.
   function step_quantities(answer, step, plates, newton_iterations, factorizations) result(list)
-    type(strip_answer_type), intent(in) :: answer
-    integer, intent(in) :: step
+    type(strip_answer_type), intent(in) :: answer !! of this step
+    integer, intent(in) :: step !! number of the step
     logical, intent(in) :: plates             !! the load is a plate's
     integer, intent(in) :: newton_iterations  !! of this step
     integer, intent(in) :: factorizations     !! of this step
@@ -70,7 +70,8 @@ contains
   function answer_quantities(full, last, plates, converged) result(list)
     type(strip_answer_type), intent(in) :: full !! at the full load, or the largest reached
     type(strip_answer_type), intent(in) :: last !! of the last step
-    logical, intent(in) :: plates, converged
+    logical, intent(in) :: plates !! the load is a plate's
+    logical, intent(in) :: converged !! all load steps were taken
     type(quantity_type), allocatable :: list(:)
     real(wp) :: largest
 
@@ -96,16 +97,18 @@ contains
 
   !> Heads of the table of steps.
   subroutine show_step_header(log)
-    type(run_log_type), intent(in) :: log
+    type(run_log_type), intent(in) :: log !! where lines go
     call log%line('   step   force [N]  largest deflection [um]   sleeve open/stick/slip   '// &
                   'top open/stick/slip  Newton  factors')
   end subroutine show_step_header
 
   !> A line of the table of steps.
   subroutine show_step(log, answer, step, newton_iterations, factorizations)
-    type(run_log_type), intent(in) :: log
-    type(strip_answer_type), intent(in) :: answer
-    integer, intent(in) :: step, newton_iterations, factorizations
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(strip_answer_type), intent(in) :: answer !! of this step
+    integer, intent(in) :: step !! number of the step
+    integer, intent(in) :: newton_iterations !! of this step
+    integer, intent(in) :: factorizations !! of this step
     character(len=160) :: line
 
     write (line, '(i7, f12.4, f25.5, 2x, 3i8, 2x, 3i7, i8, i9)') step, answer%force, &
@@ -117,9 +120,9 @@ contains
 
   !> Quantities of what it cost.
   function cost_quantities(scene, strip, newton, start_time) result(list)
-    type(scene_type), intent(in) :: scene
-    type(strip_system_type), intent(in) :: strip
-    type(newton_type), intent(in) :: newton
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(strip_system_type), intent(in) :: strip !! with its unknowns and super-elements
+    type(newton_type), intent(in) :: newton !! its solver, with the counts of all steps
     real(wp), intent(in) :: start_time !! [s]
     type(quantity_type), allocatable :: list(:)
     real(wp) :: memory(1)

@@ -42,10 +42,10 @@ contains
   !> At the equilibrium at which the shaft is held, before the sweep tilts it; nothing where it
   !> tilts nothing.
   subroutine begin_tilt(scene, bearing, newton, response)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(tilt_response_type), intent(inout) :: response
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_system_type), intent(inout) :: bearing !! at the equilibrium
+    type(newton_type), intent(inout) :: newton !! its solver
+    type(tilt_response_type), intent(inout) :: response !! gets slope and equilibrium
 
     response%axis = tilt_axis(scene%sweep)
     if (response%axis == 0) return
@@ -56,11 +56,11 @@ contains
 
   !> At a sweep's point; nothing where the sweep tilts nothing.
   subroutine measure_tilt(scene, value, bearing, newton, response)
-    type(scene_type), intent(in) :: scene
-    real(wp), intent(in) :: value !! of what the sweep changes
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(tilt_response_type), intent(inout) :: response
+    type(scene_type), intent(in) :: scene !! what is asked for
+    real(wp), intent(in) :: value !! tilt of the sweep's point, where it sweeps a tilt [rad]
+    type(bearing_system_type), intent(inout) :: bearing !! at the point's answer
+    type(newton_type), intent(inout) :: newton !! its solver
+    type(tilt_response_type), intent(inout) :: response !! gets slope and secant
     real(wp) :: tilt(2)
 
     response%axis = tilt_axis(scene%sweep)
@@ -107,7 +107,7 @@ contains
 
   !> Axis that a sweep tilts about, 0 for none.
   pure function tilt_axis(sweep) result(axis)
-    type(sweep_case_type), intent(in) :: sweep
+    type(sweep_case_type), intent(in) :: sweep !! with its parameter
     integer :: axis
 
     axis = 0
@@ -118,7 +118,7 @@ contains
 
   !> What a point adds to its row of the history.
   function row_quantities(response) result(list)
-    type(tilt_response_type), intent(in) :: response
+    type(tilt_response_type), intent(in) :: response !! at the point
     type(quantity_type), allocatable :: list(:)
     integer :: i
 
@@ -134,7 +134,7 @@ contains
 
   !> What the sweep adds to the summary: the slope where it begins, and where the shaft is held.
   function summary_quantities(response) result(list)
-    type(tilt_response_type), intent(in) :: response
+    type(tilt_response_type), intent(in) :: response !! of the whole sweep
     type(quantity_type), allocatable :: list(:)
     integer :: i
 
@@ -178,7 +178,7 @@ contains
 
   !> Packs or unpacks what a sweep has told so far.
   pure subroutine remember_response(memory, response)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(tilt_response_type), intent(inout) :: response !! written where the memory unpacks
 
     call memory%visit('measured', response%measured)
@@ -198,8 +198,8 @@ contains
 
   !> Lines of the closing block.
   subroutine show_tilt_response(log, response)
-    type(run_log_type), intent(in) :: log
-    type(tilt_response_type), intent(in) :: response
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(tilt_response_type), intent(in) :: response !! of the whole sweep
     character(len=:), allocatable :: place
 
     if (.not. response%measured) return

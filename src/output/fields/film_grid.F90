@@ -16,9 +16,9 @@ contains
 
   !> Adds the film with the fields the scene asks for; nothing where it asks for none.
   subroutine add_film_grid(bearing, output, grids)
-    type(bearing_system_type), intent(in) :: bearing
-    type(output_case_type), intent(in) :: output
-    type(result_grid_type), allocatable, intent(inout) :: grids(:)
+    type(bearing_system_type), intent(in) :: bearing !! at the state to be written
+    type(output_case_type), intent(in) :: output !! which fields are asked for
+    type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written; gets the film
 
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     type(result_grid_type) :: film

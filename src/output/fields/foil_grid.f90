@@ -18,9 +18,9 @@ contains
 
   !> Points and cells of a foil; station by station, rows of the whole width, whatever was solved.
   subroutine create_foil_grid(foil, name, grid)
-    class(foil_surface_type), intent(in) :: foil
-    character(len=*), intent(in) :: name
-    type(result_grid_type), intent(out) :: grid
+    class(foil_surface_type), intent(in) :: foil !! surface of shells or beams
+    character(len=*), intent(in) :: name !! of the grid and its file
+    type(result_grid_type), intent(out) :: grid !! with points and cells, without fields
     integer :: rows, stations, first, last, i, corner
     integer, allocatable :: node(:)
     logical, allocatable :: mirrored(:)
@@ -65,10 +65,11 @@ contains
 
   !> Adds the displacement vectors of this rank's nodes.
   subroutine add_displacement(foil, name, meaning, moved, grid)
-    class(foil_surface_type), intent(in) :: foil
-    character(len=*), intent(in) :: name, meaning
+    class(foil_surface_type), intent(in) :: foil !! the surface
+    character(len=*), intent(in) :: name !! of the field
+    character(len=*), intent(in) :: meaning !! of the field, in words
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
-    type(result_grid_type), intent(inout) :: grid
+    type(result_grid_type), intent(inout) :: grid !! of the foil, gets the field
 
     call add_node_field(foil, name, 'm', meaning, moved(:3, :), grid)
   end subroutine add_displacement
@@ -102,7 +103,7 @@ contains
   subroutine add_contacts(contacts, foil, grid)
     type(contact_set_type), intent(in) :: contacts !! each of one node
     class(foil_surface_type), intent(in) :: foil   !! the slaves'
-    type(result_grid_type), intent(inout) :: grid
+    type(result_grid_type), intent(inout) :: grid !! of the foil, gets two fields
     real(wp), allocatable :: force(:, :), state(:, :)
 
     call contact_field(contacts, foil, force, state)
@@ -134,9 +135,9 @@ contains
 
   !> Adds the stresses at the elements' centres.
   subroutine add_stress(foil, stress, grid)
-    class(foil_surface_type), intent(in) :: foil
+    class(foil_surface_type), intent(in) :: foil !! the surface
     real(wp), intent(in) :: stress(:, :) !! (8, elements of this rank), see `gfb_foil_stress` [Pa]
-    type(result_grid_type), intent(inout) :: grid
+    type(result_grid_type), intent(inout) :: grid !! of the foil, gets four fields
     real(wp), allocatable :: block(:, :)
     integer, allocatable :: wanted(:)
     integer :: first, last, i

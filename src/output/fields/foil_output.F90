@@ -13,7 +13,7 @@ contains
 
   !> Adds the surfaces that the foil has at the present state; a foil without a mesh has none.
   subroutine add_foil_grids(bearing, grids)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! at the state to be written
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written
 
     type(foil_surface_type), allocatable :: surface(:)

@@ -30,15 +30,16 @@ contains
   !> Fails when a file cannot be written; older results are then as they were.
   subroutine write_result_set(scene, folder, converged, provenance, summary, history, arrays, grids, &
                               log, error)
-    type(scene_type), intent(in) :: scene
-    character(len=*), intent(in) :: folder
-    logical, intent(in) :: converged
-    type(quantity_type), intent(in) :: provenance(:), summary(:)
-    type(history_row_type), intent(in) :: history(:)
-    type(case_array_type), intent(in) :: arrays(:)
-    type(result_grid_type), intent(in) :: grids(:)
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), intent(in) :: scene !! with its name and echo
+    character(len=*), intent(in) :: folder !! where the files go
+    logical, intent(in) :: converged !! it is an answer, not the last state reached
+    type(quantity_type), intent(in) :: provenance(:) !! version, machine and command
+    type(quantity_type), intent(in) :: summary(:) !! results of the answer
+    type(history_row_type), intent(in) :: history(:) !! a row for each point or step
+    type(case_array_type), intent(in) :: arrays(:) !! further arrays of the result file
+    type(result_grid_type), intent(in) :: grids(:) !! surfaces, a file each
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
 
     character(len=:), allocatable :: stem, names
     type(result_file_type) :: files(size(grids) + 1)
@@ -91,9 +92,11 @@ contains
 
   !> Puts a field at the end of a list.
   subroutine add_grid_field(list, name, unit, meaning, block)
-    type(grid_field_type), allocatable, intent(inout) :: list(:)
-    character(len=*), intent(in) :: name, unit, meaning
-    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank)
+    type(grid_field_type), allocatable, intent(inout) :: list(:) !! gets the field
+    character(len=*), intent(in) :: name !! of the field
+    character(len=*), intent(in) :: unit !! of its numbers
+    character(len=*), intent(in) :: meaning !! of the field, in words
+    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in its unit
     type(grid_field_type) :: one
 
     one%name = name

@@ -12,7 +12,7 @@ contains
 
   !> Packs or unpacks rows: what rows that are alike say of their numbers is packed once.
   pure subroutine remember_rows(memory, rows)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     !> written where the memory unpacks
     type(history_row_type), allocatable, intent(inout) :: rows(:)
     type(quantity_type), allocatable :: known(:)
@@ -134,7 +134,7 @@ contains
 
   !> Packs or unpacks arrays.
   pure subroutine remember_arrays(memory, arrays)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     !> written where the memory unpacks
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
     integer :: i, number

@@ -68,7 +68,7 @@ contains
 
   !> Packs or unpacks a member.
   pure subroutine remember_member(memory, member)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(table_member_type), intent(inout) :: member !! written where the memory unpacks
     type(history_row_type), allocatable :: rows(:)
 

@@ -48,9 +48,10 @@ contains
 
   !> Eigenvalues, in rising order, and vectors of a symmetric matrix over a positive definite one.
   subroutine solve_symmetric(matrix, over, eigenvalue)
-    real(wp), intent(inout) :: matrix(:, :) !! (n, n), out: the vectors, in its and the other's unit
-    real(wp), intent(inout) :: over(:, :)   !! (n, n), overwritten
-    real(wp), intent(out) :: eigenvalue(:)  !! (n), in the unit of the first over that of the second
+    !> (n, n) upper triangle is read, in any unit [SI]; out: the vectors, scaled to 1 over the other matrix
+    real(wp), intent(inout) :: matrix(:, :)
+    real(wp), intent(inout) :: over(:, :) !! (n, n), positive definite, in any unit [SI]; unchanged
+    real(wp), intent(out) :: eigenvalue(:) !! (n), rising, in the unit of `matrix` over that of `over` [SI]
     real(wp) :: vectors(size(eigenvalue), size(eigenvalue)), below(size(eigenvalue), size(eigenvalue))
     real(wp) :: work(8*size(eigenvalue))
     integer :: info, n

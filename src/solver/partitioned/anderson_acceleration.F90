@@ -52,7 +52,7 @@ contains
     logical, intent(in) :: first         !! loops before this one do not count
     Vec, intent(in) :: iterate           !! of this loop; that of the next one replaces it
     Vec, intent(in) :: change            !! that the loop asked for
-    real(wp), intent(in) :: asked(:)     !! the same in this rank's rows that are measured, in their unit
+    real(wp), intent(in) :: asked(:) !! (measured rows of this rank) the change there, scaled [1]
 
     real(wp) :: share(depth)
     PetscErrorCode :: ierr

@@ -157,9 +157,9 @@ contains
   !> converges, whose equations nobody asks then: they are given room.
   subroutine evaluate_side(self, state, residual, valid)
     class(coupling_side_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    Vec, intent(in) :: residual
-    logical, intent(out) :: valid
+    Vec, intent(in) :: state !! of the side, scaled
+    Vec, intent(in) :: residual !! of the side, scaled; is filled
+    logical, intent(out) :: valid !! the equations can be evaluated at this state
     real(wp) :: clearance
     PetscErrorCode :: ierr
 
@@ -174,7 +174,7 @@ contains
   !> Derivative of the side's equations by its own unknowns.
   subroutine linearise_side(self, state)
     class(coupling_side_type), intent(inout) :: self
-    Vec, intent(in) :: state
+    Vec, intent(in) :: state !! of the side, scaled
     real(wp) :: clearance
     PetscErrorCode :: ierr
 
@@ -204,8 +204,8 @@ contains
   !> Contacts follow the foil; under a fixed foil they stay.
   subroutine settle_side(self, state, moved)
     class(coupling_side_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    logical, intent(out) :: moved
+    Vec, intent(in) :: state !! of the side, scaled
+    logical, intent(out) :: moved !! some contact changed
 
     moved = .false.
     if (.not. self%of_foil) return
@@ -223,7 +223,8 @@ contains
   !> Work of the residual forces on the foil along a step, scaled.
   function work_on_side(self, residual, step) result(work)
     class(coupling_side_type), intent(in) :: self
-    Vec, intent(in) :: residual, step
+    Vec, intent(in) :: residual !! of the side, scaled
+    Vec, intent(in) :: step !! of the side, scaled
     real(wp) :: work
     PetscErrorCode :: ierr
 

@@ -39,7 +39,7 @@ contains
     type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), intent(in) :: newton !! of the bearing: its settings
     type(operating_point_type), intent(in) :: last !! end of the path
-    real(wp), intent(in) :: sense           !! +1: towards that point, -1: away from it
+    real(wp), intent(in) :: sense !! +1: towards that point, -1: away from it [1]
     type(arc_type), target, intent(inout) :: arc !! a branch, followed
     PetscErrorCode :: ierr
 

@@ -13,7 +13,7 @@ contains
 
   !> Packs or unpacks all but the vectors.
   subroutine remember_arc(memory, arc)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(arc_type), intent(inout) :: arc !! written where the memory unpacks
 
     call memory%visit('lambda', arc%lambda)
@@ -34,7 +34,7 @@ contains
 
   !> Puts the bearing at an arc's last answer, when vectors and memory are those of an arc before.
   subroutine resume_arc(arc)
-    type(arc_type), intent(inout) :: arc
+    type(arc_type), intent(inout) :: arc !! as its memory and vectors were read
 
     call arc%return_to()
     call forget_factors(arc%newton)

@@ -91,7 +91,7 @@ contains
   !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
   function lambda_of(self, state) result(lambda)
     class(bordered_system_type), intent(in) :: self
-    Vec, intent(in) :: state
+    Vec, intent(in) :: state !! with lambda, scaled
     real(wp) :: lambda
     real(wp) :: value(1)
 
@@ -103,15 +103,15 @@ contains
   !> Sets a state's lambda.
   subroutine set_lambda(self, state, lambda)
     class(bordered_system_type), intent(in) :: self
-    Vec, intent(in) :: state
-    real(wp), intent(in) :: lambda
+    Vec, intent(in) :: state !! with lambda, scaled; its lambda is changed
+    real(wp), intent(in) :: lambda !! path parameter [1]
     call self%border%set_values([lambda], state)
   end subroutine set_lambda
 
   !> The operating point at a parameter of the path.
   pure function point_at(self, lambda) result(point)
     class(bordered_system_type), intent(in) :: self
-    real(wp), intent(in) :: lambda
+    real(wp), intent(in) :: lambda !! path parameter: 0 at the first point, 1 at the last [1]
     type(operating_point_type) :: point
     point = point_between(self%first, self%last, lambda)
   end function point_at
@@ -119,8 +119,8 @@ contains
   !> Puts a vector of the bearing and a value for lambda together.
   subroutine join(self, inner, lambda, whole)
     class(bordered_system_type), intent(in) :: self
-    Vec, intent(in) :: inner
-    real(wp), intent(in) :: lambda
+    Vec, intent(in) :: inner !! like the bearing's state, scaled
+    real(wp), intent(in) :: lambda !! path parameter, or the residual of the step's length [1]
     Vec, intent(in) :: whole !! with lambda
     call self%border%join(inner, [lambda], whole)
   end subroutine join
@@ -147,9 +147,9 @@ contains
   !> Residual of the bearing and of the step's length.
   subroutine evaluate_path(self, state, residual, valid)
     class(bordered_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
-    Vec, intent(in) :: residual
-    logical, intent(out) :: valid
+    Vec, intent(in) :: state !! with lambda, scaled
+    Vec, intent(in) :: residual !! of bearing and step length, scaled; is filled
+    logical, intent(out) :: valid !! the equations can be evaluated at this state
     real(wp) :: lambda, along, along_base
     PetscErrorCode :: ierr
 
@@ -163,7 +163,7 @@ contains
   !> The bearing's matrix, bordered by the derivatives after lambda and by the direction.
   subroutine linearise_path(self, state)
     class(bordered_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
+    Vec, intent(in) :: state !! with lambda, scaled
     real(wp) :: lambda
     logical :: valid
     PetscScalar, pointer :: column(:)
@@ -195,7 +195,7 @@ contains
   !> Moves the contacts to where the foils have gone.
   subroutine settle_path(self, state, moved)
     class(bordered_system_type), intent(inout) :: self
-    Vec, intent(in) :: state
+    Vec, intent(in) :: state !! with lambda, scaled
     logical, intent(out) :: moved !! some contact was
     real(wp) :: lambda
 
@@ -213,7 +213,8 @@ contains
   !> Work of the residual forces on the foil along a step, scaled.
   function path_work(self, residual, step) result(work)
     class(bordered_system_type), intent(in) :: self
-    Vec, intent(in) :: residual, step
+    Vec, intent(in) :: residual !! with the row of lambda, scaled
+    Vec, intent(in) :: step !! of the state, with lambda, scaled
     real(wp) :: work
     work = self%bearing%virtual_work(residual, step)
   end function path_work

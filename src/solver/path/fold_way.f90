@@ -21,7 +21,7 @@ contains
 
   !> Packs or unpacks all but the arc; the sweep knows its last point and its values.
   pure subroutine remember_way(memory, way)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(fold_way_type), intent(inout) :: way !! written where the memory unpacks
 
     call memory%part('first')

@@ -35,8 +35,8 @@ contains
 
   !> Begins at the unloaded strip.
   subroutine create_load_path(strip, path)
-    type(strip_system_type), intent(in) :: strip
-    type(load_path_type), intent(out) :: path
+    type(strip_system_type), intent(in) :: strip !! without load
+    type(load_path_type), intent(out) :: path !! both its answers are the strip's state
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(strip%state, path%here, ierr))
@@ -48,11 +48,11 @@ contains
   !> Brings the strip to a load factor. Where that fails the strip is back at the last answer. The
   !> caller commits.
   subroutine take_load_step(strip, newton, target, path, report)
-    type(strip_system_type), intent(inout) :: strip
-    type(newton_type), target, intent(inout) :: newton
-    real(wp), intent(in) :: target
-    type(load_path_type), intent(inout) :: path
-    type(newton_report_type), intent(out) :: report
+    type(strip_system_type), intent(inout) :: strip !! at the path's last answer; brought to the target
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    real(wp), intent(in) :: target !! load factor to reach [1]
+    type(load_path_type), intent(inout) :: path !! the last two answers
+    type(newton_report_type), intent(out) :: report !! how the last solve ended
 
     real(wp) :: reached, step
     integer :: halvings
@@ -151,7 +151,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine destroy_load_path(path)
-    type(load_path_type), intent(inout) :: path
+    type(load_path_type), intent(inout) :: path !! not used any more
     PetscErrorCode :: ierr
 
     PetscCallA(VecDestroy(path%here, ierr))
@@ -160,7 +160,7 @@ contains
 
   !> Packs or unpacks all but the vectors of the last two answers.
   pure subroutine remember_load_path(memory, path)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(load_path_type), intent(inout) :: path !! written where the memory unpacks
 
     call memory%visit('at_here', path%at_here)

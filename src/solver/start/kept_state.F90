@@ -24,7 +24,7 @@ contains
   !> Keeps the bearing's present state, in place of what was kept before.
   subroutine keep(self, bearing)
     class(kept_state_type), intent(inout) :: self
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! with the state that is kept
     PetscErrorCode :: ierr
 
     if (.not. self%created) then

@@ -50,16 +50,16 @@ module gfb_start_problem
     !> Whether a start can be tried on a problem.
     function applies_to(problem) result(applies)
       import :: start_problem_type
-      type(start_problem_type), intent(in) :: problem
+      type(start_problem_type), intent(in) :: problem !! bearing and target
       logical :: applies
     end function applies_to
 
     !> Tries to bring the problem's bearing to its target.
     recursive subroutine try_start(problem, soft, report, ends)
       import :: start_problem_type, soft_contacts_type, path_report_type
-      type(start_problem_type), intent(inout) :: problem
+      type(start_problem_type), intent(inout) :: problem !! bearing and target; the bearing is moved
       type(soft_contacts_type), intent(in) :: soft !! of the start's row
-      type(path_report_type), intent(out) :: report
+      type(path_report_type), intent(out) :: report !! how far it led
       logical, intent(out) :: ends !! no other start can help: its report stands
     end subroutine try_start
   end interface

@@ -41,7 +41,7 @@ contains
 
   !> Packs or unpacks a stretch.
   pure subroutine remember_stretch(memory, stretch)
-    type(memory_type), intent(inout) :: memory
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(stretch_type), intent(inout) :: stretch !! written where the memory unpacks
 
     call memory%visit('first', stretch%first)
