@@ -58,7 +58,7 @@ contains
     call tell('single.difference', difference(full%moved, single%moved))
   end subroutine measure_ways
 
-  !> Steps of one way.
+  !> Steps of one variant.
   subroutine tell_cost(name, cost)
     character(len=*), intent(in) :: name
     type(strip_cost_type), intent(in) :: cost

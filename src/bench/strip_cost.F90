@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> What a bump strip costs on its way from the mesh to all displacements, step by step.
+!> What a bump strip costs from the mesh to all displacements, step by step.
 module gfb_strip_cost
   use petscksp
   use, intrinsic :: iso_fortran_env, only: output_unit
@@ -18,7 +18,7 @@ module gfb_strip_cost
   private
   public :: make_strip, strip_cost, argument, tell
 
-  !> A bump strip and how it is held.
+  !> A bump strip and its supports.
   type, public :: strip_type
     type(quad_mesh_type) :: mesh
     type(shell_section_type) :: section
@@ -41,7 +41,7 @@ module gfb_strip_cost
 
 contains
 
-  !> Bumps of [Gu2020] table 1, case 1: first corner line clamped, all corner lines held in v.
+  !> Bumps of [Gu2020] table 1, case 1: first corner line clamped, all corner lines fixed in v.
   !>
   !> Without more words ten equal ones.
   function make_strip(arc_elements, flat_elements, axial_elements, bumps, growth) result(strip)
@@ -74,7 +74,7 @@ contains
     strip%fixed(:, node_set(strip%mesh, 'fixed_edge')) = .true.
   end function make_strip
 
-  !> Goes all the way once, full or reduced, equal pieces condensed once or each on its own.
+  !> Takes all steps once, full or reduced, equal pieces condensed once or each on its own.
   subroutine strip_cost(strip, reduced, congruent, cost, error)
     type(strip_type), intent(in) :: strip !! mesh, section and supports
     logical, intent(in) :: reduced   !! condense the pieces
@@ -169,7 +169,7 @@ contains
     PetscCallA(KSPSolve(solver, load, solution, ierr))
     cost%solve = now() - start
     PetscCallA(KSPGetConvergedReason(solver, reason, ierr))
-    if (GFB_REASON(reason) < 0) error stop 'the strip that is measured is not held'
+    if (GFB_REASON(reason) < 0) error stop 'the strip that is measured is not fixed'
     PetscCallA(KSPDestroy(solver, ierr))
   end subroutine time_solver
 
@@ -180,14 +180,14 @@ contains
   end function now
 
   !> A whole number of the command line.
-  function argument(place, usage) result(number)
-    integer, intent(in) :: place !! of the argument on the command line, from 1
+  function argument(position, usage) result(number)
+    integer, intent(in) :: position !! of the argument on the command line, from 1
     character(len=*), intent(in) :: usage !! what the command line should be
     integer :: number
     character(len=20) :: word
     integer :: status
 
-    call get_command_argument(place, word)
+    call get_command_argument(position, word)
     read (word, *, iostat=status) number
     if (status /= 0) error stop 'use: '//usage
   end function argument

@@ -37,9 +37,8 @@ module gfb_command_line
   end type command_line_type
 
   character(len=11), parameter :: options(13) = [character(len=11) :: &
-    '--branches', '--check', '--output', '--restart', '--help', '--partition', &
-                                               '--version', '--keys', '--quiet', '--petsc', &
-                                               '--groups', '--name', '--results']
+    '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
+    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results']
 
 contains
 
@@ -103,8 +102,8 @@ contains
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
     else if (line%restart .and. line%branches) then
-      call fail(error, 'gfb: --restart goes on with a sweep or a strip''s load steps, not with '// &
-                '--branches')
+      call fail(error, 'gfb: --restart resumes a sweep or a strip''s load steps, '// &
+                'not a search with --branches')
     else
       call check_groups(line, error)
     end if
@@ -194,7 +193,7 @@ contains
 
   !> What a run is told, which begins now.
   function run_context(self, log) result(context)
-    class(command_line_type), intent(in) :: self
+    class(command_line_type), intent(in) :: self !! the command line
     type(run_log_type), intent(in) :: log !! the terminal
     type(run_context_type) :: context
 
@@ -215,12 +214,12 @@ contains
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
-      '  --partition     how film and foils are shared out over the ranks of the job, stop;'// &
-        next// &
+      '  --partition     how film and foils are shared out over the ranks of the job, '// &
+      'stop;'//next// &
       '                  --partition=N: over N ranks'//next// &
       '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
-      '  --restart       go on from CASE.restart.h5, which a killed run left behind'//next// &
+      '  --restart       resume from CASE.restart.h5, which a killed run left behind'//next// &
       '  --quiet         no line per iteration'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &

@@ -75,7 +75,7 @@ contains
 
   !> Whether the ranks and the work can be divided as asked.
   !>
-  !> Fails with everything that is in the way.
+  !> Fails naming everything that forbids groups.
   subroutine check_work(line, job, scenes, error)
     type(command_line_type), intent(in) :: line
     type(job_type), intent(in) :: job

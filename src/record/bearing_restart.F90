@@ -27,26 +27,26 @@ module gfb_bearing_restart
 contains
 
   !> Writes the file after a point.
-  subroutine keep_bearing(scene, restart, log, point, bearing, newton, record, way)
+  subroutine keep_bearing(scene, restart, log, point, bearing, newton, record, branch)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(restart_type), intent(in) :: restart !! name and origin of the file
     type(run_log_type), intent(in) :: log !! where lines go
-    integer, intent(in) :: point !! of the sweep; 0: where the shaft is held
+    integer, intent(in) :: point !! of the sweep; 0: the equilibrium at which the shaft is fixed
     type(bearing_system_type), intent(inout) :: bearing !! at the point's answer
     type(newton_type), intent(inout) :: newton !! its solver; loses its factors
     type(bearing_record_type), intent(inout) :: record !! of the points so far
-    type(fold_way_type), intent(inout), optional :: way !! along a branch that is followed round its folds
+    type(fold_way_type), intent(inout), optional :: branch !! along a branch that is followed round its folds
 
     type(result_file_type) :: file
     type(error_type), allocatable :: error
 
     call forget_factors(newton)
-    if (present(way)) call forget_factors(way%arc%newton)
+    if (present(branch)) call forget_factors(branch%arc%newton)
     call begin_restart_file(scene, restart, point, file, error)
     if (.not. allocated(error)) then
       call put_state(bearing, newton, file)
       call put_record(bearing, record, file)
-      if (present(way)) call put_way(bearing, way, file)
+      if (present(branch)) call put_way(bearing, branch, file)
     end if
     call end_restart_file(file, log, error)
   end subroutine keep_bearing
@@ -79,20 +79,20 @@ contains
   end subroutine put_state
 
   !> Where a branch has led.
-  subroutine put_way(bearing, way, file)
+  subroutine put_way(bearing, branch, file)
     type(bearing_system_type), intent(in) :: bearing
-    type(fold_way_type), intent(inout) :: way
+    type(fold_way_type), intent(inout) :: branch
     type(result_file_type), intent(inout) :: file
     type(natural_order_type) :: order
     type(memory_type) :: begun, arc_memory
 
     order = path_order(bearing)
-    call remember_way(begun, way)
+    call remember_way(begun, branch)
     call put_memory(begun, '/branch', 'where it begins, value that was kept last', file)
-    call remember_arc(arc_memory, way%arc)
-    call put_memory(arc_memory, '/branch/arc', 'places, lengths and counts of the steps', file)
-    associate (arc => way%arc)
-      call put_vector(order, arc%path%state, '/branch/state', 'scaled unknowns, place', file)
+    call remember_arc(arc_memory, branch%arc)
+    call put_memory(arc_memory, '/branch/arc', 'path parameters, lengths and counts of the steps', file)
+    associate (arc => branch%arc)
+      call put_vector(order, arc%path%state, '/branch/state', 'scaled unknowns, path parameter', file)
       call put_vector(order, arc%previous, '/branch/previous', 'the answer before', file)
       call put_vector(order, arc%earlier, '/branch/earlier', 'the one before that', file)
       call put_vector(order, arc%tangent, '/branch/tangent', 'at the last answer', file)
@@ -101,15 +101,15 @@ contains
     end associate
   end subroutine put_way
 
-  !> Goes on along the branch where the file has one; otherwise nothing is done.
+  !> Resumes the branch where the file has one; otherwise nothing is done.
   !>
   !> Fails when the file is damaged.
-  subroutine recall_way(restart, last, bearing, newton, way, there, error)
+  subroutine recall_way(restart, last, bearing, newton, branch, there, error)
     type(restart_type), intent(in) :: restart !! name of the file
     type(operating_point_type), intent(in) :: last !! of the sweep
     type(bearing_system_type), target, intent(inout) :: bearing !! as `recall_bearing` left it; put at the branch's last answer
     type(newton_type), intent(in) :: newton !! of the bearing: its settings
-    type(fold_way_type), target, intent(inout) :: way !! out: the branch as the file has it
+    type(fold_way_type), target, intent(inout) :: branch !! out: the branch as the file has it
     logical, intent(out) :: there !! the branch had been begun
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(stored_file_type) :: file
@@ -123,24 +123,24 @@ contains
     if (there) then
       order = path_order(bearing)
       call read_memory('/branch', file, memory)
-      call remember_way(memory, way)
+      call remember_way(memory, branch)
       call end_memory(memory, file)
-      bearing%point = way%first
-      call create_arc(bearing, newton, last, way%arc)
+      bearing%point = branch%first
+      call create_arc(bearing, newton, last, branch%arc)
       call read_memory('/branch/arc', file, memory)
-      call remember_arc(memory, way%arc)
+      call remember_arc(memory, branch%arc)
       call end_memory(memory, file)
-      call read_vector(order, '/branch/state', file, way%arc%path%state)
-      call read_vector(order, '/branch/previous', file, way%arc%previous)
-      call read_vector(order, '/branch/earlier', file, way%arc%earlier)
-      call read_vector(order, '/branch/tangent', file, way%arc%tangent)
-      call read_vector(order, '/branch/previous_tangent', file, way%arc%previous_tangent)
-      call read_vector(order, '/branch/earlier_tangent', file, way%arc%earlier_tangent)
+      call read_vector(order, '/branch/state', file, branch%arc%path%state)
+      call read_vector(order, '/branch/previous', file, branch%arc%previous)
+      call read_vector(order, '/branch/earlier', file, branch%arc%earlier)
+      call read_vector(order, '/branch/tangent', file, branch%arc%tangent)
+      call read_vector(order, '/branch/previous_tangent', file, branch%arc%previous_tangent)
+      call read_vector(order, '/branch/earlier_tangent', file, branch%arc%earlier_tangent)
     end if
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error) .or. .not. there) return
-    call resume_arc(way%arc)
+    call resume_arc(branch%arc)
   end subroutine recall_way
 
   !> Rows and contacts of the points so far, and what is known of the last.
@@ -182,11 +182,11 @@ contains
     call close_stored_file(file)
     if (allocated(error)) return
     if (scene%sweep%turn_folds .and. point > 1) then
-      call log%line('restart: goes on from answer '//text(point)//' of the branch')
+      call log%line('restart: resumed from answer '//text(point)//' of the branch')
     else if (point == 0) then
-      call log%line('restart: goes on from where the shaft is held')
+      call log%line('restart: resumed from the equilibrium at which the shaft is fixed')
     else
-      call log%line('restart: goes on from point '//text(point)//' of '//text(size(scene%sweep%values))//', '// &
+      call log%line('restart: resumed from point '//text(point)//' of '//text(size(scene%sweep%values))//', '// &
                     sweep_name(scene%sweep)//' = '//text(scene%sweep%values(point))//' '//sweep_unit(scene%sweep))
     end if
   end subroutine recall_bearing

@@ -148,14 +148,14 @@ contains
     call log%line('attitude angle   '//engineering_text(attitude_angle(answer), 'deg', degrees))
     who = merge('full', 'film', answer%has_solid_contact)
     call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
-    call log%line(who//' torque      '//pair(answer%force(3:4), 'N m', &
-      1.0_wp)//'   without suction '// &
+    call log%line(who//' torque      '//pair(answer%force(3:4), 'N m', 1.0_wp)// &
+                  '   without suction '// &
                   pair(answer%force_without_suction(3:4), 'N m', 1.0_wp))
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                   '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
                   ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
-    call log%line('pressure         '//engineering_text(answer%minimum_pressure, 'to', &
-      1.0e-6_wp)//' '// &
+    call log%line('pressure         '// &
+                  engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
                   engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
     if (answer%has_foils) then
       call log%line('top foil edges   leading '//lifts(answer%leading_edge_lift)//', trailing '// &
@@ -174,8 +174,8 @@ contains
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
                   ' factorizations, '//text(cost%wall_time, 3)//' s, '// &
-                  text(cost%peak_memory*1.0e-6_wp, &
-                  3)//' MB, '//text(ranks)//' rank(s), BLAS '//blas)
+                  text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
+                  text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
 
   !> Lifts at midplane and ends [um].

@@ -116,7 +116,7 @@ contains
       'on the foil, along the axis, per length of contact line', &
       'slip that the friction law sees, along the motion', &
       'slip that the friction law sees, along the axis', '0 open, 1 sticks, 2 slips']
-    real(wp), allocatable :: place(:, :), values(:, :)
+    real(wp), allocatable :: position(:, :), values(:, :)
     integer, allocatable :: number(:), own(:), all_nodes(:)
     integer :: i, total, field
 
@@ -125,19 +125,19 @@ contains
       number = (point(own)%line - 1)*mesh%rows + modulo(point(own)%node - 1, mesh%rows) + 1
       total = largest_number(pack(point%line, point%law == surface))*mesh%rows
       all_nodes = [(i, i=1, total)]
-      allocate (place(3, size(own)))
-      place(1, :) = real(point(own)%line, wp)
-      place(2:3, :) = mesh%position([1, 3], point(own)%node)
+      allocate (position(3, size(own)))
+      position(1, :) = real(point(own)%line, wp)
+      position(2:3, :) = mesh%position([1, 3], point(own)%node)
     end associate
-    values = fetch_entries(max(1, total), number, place, all_nodes)
+    values = fetch_entries(max(1, total), number, position, all_nodes)
     call fill_array(group//'/line', '1', 'number of the contact line', values(1:1, :), arrays(1))
     call fill_array(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :), &
                     arrays(2))
     call fill_array(group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :), &
                     arrays(3))
     do field = 1, fields
-      values = fetch_entries(max(1, total), number, transpose(record%value(field, own, :steps)), &
-        all_nodes)
+      values = fetch_entries(max(1, total), number, &
+                             transpose(record%value(field, own, :steps)), all_nodes)
       values = transpose(values)
       call fill_array(group//'/'//trim(name(field)), trim(unit(field)), trim(meaning(field)), &
                       values, arrays(3 + field), by_step=.true.)

@@ -41,7 +41,7 @@ contains
     order%total = order%total + shaft_unknowns
   end function bearing_order
 
-  !> Order of a bearing's state with its place on a path behind it.
+  !> Order of a bearing's state with its path parameter behind it.
   function path_order(bearing) result(order)
     type(bearing_system_type), intent(in) :: bearing !! with its numbering
     type(natural_order_type) :: order
@@ -93,14 +93,14 @@ contains
 
   !> Numbers before those that this rank writes and reads, an equal part.
   function offset_of_rank(self) result(offset)
-    class(natural_order_type), intent(in) :: self
+    class(natural_order_type), intent(in) :: self !! the order
     integer :: offset
     offset = int(int(self%total, long)*this_rank()/rank_count())
   end function offset_of_rank
 
   !> Numbers that this rank writes and reads.
   function entries_of_rank(self) result(entries)
-    class(natural_order_type), intent(in) :: self
+    class(natural_order_type), intent(in) :: self !! the order
     integer :: entries
     entries = int(int(self%total, long)*(this_rank() + 1)/rank_count()) - self%offset()
   end function entries_of_rank

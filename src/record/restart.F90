@@ -1,8 +1,8 @@
 #include "gfb_petsc.h"
-!> `<case>.restart.h5`: from where a run that was stopped goes on.
+!> `<case>.restart.h5`: from where a run that was stopped is resumed.
 !>
 !> After a file has been written the solvers forget their factors, so that what follows depends on what
-!> the file holds and on nothing else: a run that goes on from it ends with the digits of one that was
+!> the file holds and on nothing else: a run that is resumed from it ends with the digits of one that was
 !> never stopped. What is of the mesh stands in an order that does not depend on the ranks.
 module gfb_restart
   use petscsys
@@ -23,7 +23,7 @@ module gfb_restart
   private
   public :: find_restart, begin_restart_file, end_restart_file, open_restart, check_restart_file, drop_restart
 
-  !> Where a run's restart file stands, and whether the run goes on from it.
+  !> Where a run's restart file is, and whether the run is resumed from it.
   type, public :: restart_type
     character(len=:), allocatable :: path    !! of the file
     character(len=:), allocatable :: command !! the whole command line
@@ -38,7 +38,7 @@ contains
 
   !> Whether a file is written after a step.
   pure function is_due(self, step) result(due)
-    class(restart_type), intent(in) :: self
+    class(restart_type), intent(in) :: self !! the restart file
     integer, intent(in) :: step !! number of the step or point that is done
     logical :: due
 
@@ -48,7 +48,7 @@ contains
 
   !> Whether a file is written where some steps came at once.
   pure function is_due_after(self, before, now) result(due)
-    class(restart_type), intent(in) :: self
+    class(restart_type), intent(in) :: self !! the restart file
     integer, intent(in) :: before, now !! steps that were and are done
     logical :: due
 
@@ -58,11 +58,11 @@ contains
 
   !> Looks for the file of a scene.
   !>
-  !> Fails where the run is to go on from a file of another scene or program, or from a damaged one.
+  !> Fails where the run is to be resumed from a file of another scene or program, or from a damaged one.
   subroutine find_restart(scene, folder, wanted, command, log, restart, error)
     type(scene_type), intent(in) :: scene !! what is asked for
     character(len=*), intent(in) :: folder  !! where the results go
-    logical, intent(in) :: wanted           !! the run is to go on
+    logical, intent(in) :: wanted           !! the run is to be resumed
     character(len=*), intent(in) :: command !! the whole command line
     type(run_log_type), intent(in) :: log !! where lines go
     type(restart_type), intent(out) :: restart !! name of the file, and whether the run is resumed from it
@@ -78,7 +78,7 @@ contains
     if (wanted .and. .not. there) then
       call log%line('restart: there is no '//restart%path//', the run starts from the beginning')
     else if (there .and. .not. wanted .and. restart%every > 0) then
-      call log%warning(restart%path//' of an earlier run is there; --restart would go on from it; it will be replaced')
+      call log%warning(restart%path//' of an earlier run is there; --restart would resume from it; it will be replaced')
     end if
     if (.not. (wanted .and. there)) return
     call compare_origin(scene, log, restart, error)
@@ -139,7 +139,7 @@ contains
     call file%put_scalar('/step/number', real(step, wp), '1', 'load steps, or points of the sweep, that are done')
   end subroutine begin_restart_file
 
-  !> Ends a restart file; it takes the place of the one before when it is whole. A run does not end because
+  !> Ends a restart file; it replaces the one before when it is whole. A run does not end because
   !> the file cannot be written.
   subroutine end_restart_file(file, log, error)
     type(result_file_type), intent(inout) :: file !! is closed
@@ -154,11 +154,11 @@ contains
     end if
     if (.not. allocated(error)) return
     call drop_result_file(file)
-    call log%warning(error%message//'; the run goes on without')
+    call log%warning(error%message//'; the run continues without it')
     deallocate (error)
   end subroutine end_restart_file
 
-  !> Opens the file from which the run goes on.
+  !> Opens the file from which the run is resumed.
   !>
   !> Fails when it cannot be read.
   subroutine open_restart(restart, file, error)

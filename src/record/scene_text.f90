@@ -14,15 +14,15 @@ contains
     character(len=*), intent(in) :: here  !! the same of the present scene
     character(len=:), allocatable :: words
     character(len=:), allocatable :: line, other, group
-    integer :: place, other_place
+    integer :: position, other_position
 
     words = ''
     group = ''
-    place = 1
-    other_place = 1
+    position = 1
+    other_position = 1
     do
-      line = next_line(there, place)
-      other = next_line(here, other_place)
+      line = next_line(there, position)
+      other = next_line(here, other_position)
       if (line == '' .and. other == '') return
       if (line /= other) exit
       if (line(1:1) == '&') group = line//': '
@@ -33,18 +33,18 @@ contains
   end function scene_difference
 
   !> The next line that says something, without its comment; empty at the end.
-  function next_line(words, place) result(line)
+  function next_line(words, position) result(line)
     character(len=*), intent(in) :: words
-    integer, intent(inout) :: place !! where to look; moves behind the line
+    integer, intent(inout) :: position !! where to look; moves behind the line
     character(len=:), allocatable :: line
     integer :: length
 
     line = ''
-    do while (line == '' .and. place <= len(words))
-      length = index(words(place:), line_end) - 1
-      if (length < 0) length = len(words) - place + 1
-      line = trim(adjustl(without_comment(words(place:place + length - 1))))
-      place = place + length + 1
+    do while (line == '' .and. position <= len(words))
+      length = index(words(position:), line_end) - 1
+      if (length < 0) length = len(words) - position + 1
+      line = trim(adjustl(without_comment(words(position:position + length - 1))))
+      position = position + length + 1
     end do
   end function next_line
 

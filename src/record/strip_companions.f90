@@ -92,9 +92,9 @@ contains
     call log%line('deflection [um]   shells   planar chain   curved bump   Walowit-Anno')
     do bump = 1, size(deflection)
       if (size(companions%chain) > 0) then
-        write (line, '(a, i4, 4x, f12.4, f15.4, f14.4, f15.4)') 'crest', bump, micrometres* &
-          [deflection(bump), companions%chain(bump), companions%curved_bump(bump), &
-          companions%walowit_anno(bump)]
+        write (line, '(a, i4, 4x, f12.4, f15.4, f14.4, f15.4)') 'crest', bump, &
+          micrometres*[deflection(bump), companions%chain(bump), companions%curved_bump(bump), &
+                       companions%walowit_anno(bump)]
       else
         write (line, '(a, i4, 4x, f12.4, a15, f14.4, f15.4)') 'crest', bump, &
           micrometres*deflection(bump), '-', &

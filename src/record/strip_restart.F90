@@ -108,7 +108,7 @@ contains
     PetscCallA(VecCopy(path%here, strip%state, ierr))
     call strip%set_factor(path%at_here)
     call resume_recorder(strip, run%last, recorder)
-    call log%line('restart: goes on from step '//text(run%steps)//' of '//text(steps))
+    call log%line('restart: resumed from step '//text(run%steps)//' of '//text(steps))
   end subroutine recall_strip
 
   !> The reverse of `put_state`.

@@ -113,8 +113,7 @@ contains
 
     write (line, '(i7, f12.4, f25.5, 2x, 3i8, 2x, 3i7, i8, i9)') step, answer%force, &
       max(answer%travel, maxval(answer%deflection))*micrometres, answer%count(:, 1), &
-      answer%count(:, 2), &
-      newton_iterations, factorizations
+      answer%count(:, 2), newton_iterations, factorizations
     call log%line(trim(line))
   end subroutine show_step
 

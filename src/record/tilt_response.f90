@@ -1,4 +1,5 @@
-!> What a sweep of tilt tells beside the answers: angular stiffness, and where the shaft is held.
+!> What a sweep of tilt tells beside the answers: angular stiffness, and the equilibrium at which
+!> the shaft is fixed.
 module gfb_tilt_response
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
@@ -31,15 +32,15 @@ module gfb_tilt_response
     logical :: has_secant = .false.     !! the torque without tilt is known
     real(wp) :: untilted(2) = 0.0_wp    !! it [N m]
     real(wp) :: secant(2) = 0.0_wp      !! torque less that, over the tilt, there [N m/rad]
-    logical :: held = .false.           !! the shaft is; otherwise the load
+    logical :: held = .false.           !! the shaft is fixed; otherwise the load is kept
     logical :: rubs = .false.           !! there are contacts
-    logical :: from_equilibrium = .false. !! the shaft was let find its place first
+    logical :: from_equilibrium = .false. !! the equilibrium was found first
     type(bearing_answer_type) :: equilibrium !! there
   end type tilt_response_type
 
 contains
 
-  !> At the equilibrium at which the shaft is held, before the sweep tilts it; nothing where it
+  !> At the equilibrium at which the shaft is fixed, before the sweep tilts it; nothing where it
   !> tilts nothing.
   subroutine begin_tilt(scene, bearing, newton, response)
     type(scene_type), intent(in) :: scene !! what is asked for
@@ -132,7 +133,8 @@ contains
     end do
   end function row_quantities
 
-  !> What the sweep adds to the summary: the slope where it begins, and where the shaft is held.
+  !> What the sweep adds to the summary: the slope where it begins, and the equilibrium at which the
+  !> shaft is fixed.
   function summary_quantities(response) result(list)
     type(tilt_response_type), intent(in) :: response !! of the whole sweep
     type(quantity_type), allocatable :: list(:)
@@ -157,10 +159,10 @@ contains
   end function summary_quantities
 
   !> Adds four slopes: first letter of the name the torque, second the tilt.
-  subroutine add_slopes(response, slope, place, list)
+  subroutine add_slopes(response, slope, where_on_sweep, list)
     type(tilt_response_type), intent(in) :: response
     real(wp), intent(in) :: slope(2, 2)   !! [N m/rad]
-    character(len=*), intent(in) :: place !! where on the sweep
+    character(len=*), intent(in) :: where_on_sweep !! in words
     type(quantity_type), allocatable, intent(inout) :: list(:)
     character(len=:), allocatable :: kept
     integer :: torque, tilt
@@ -171,7 +173,7 @@ contains
     do torque = 1, 2
       do tilt = 1, 2
         call add_result(list, 'angular_stiffness_'//axes(torque)//axes(tilt), &
-                        slope(torque, tilt), place//kept)
+                        slope(torque, tilt), where_on_sweep//kept)
       end do
     end do
   end subroutine add_slopes
@@ -200,13 +202,14 @@ contains
   subroutine show_tilt_response(log, response)
     type(run_log_type), intent(in) :: log !! where lines go
     type(tilt_response_type), intent(in) :: response !! of the whole sweep
-    character(len=:), allocatable :: place
+    character(len=:), allocatable :: where_on_sweep
 
     if (.not. response%measured) return
-    place = 'at the first point, '
-    if (response%from_equilibrium) place = 'at the equilibrium, '
+    where_on_sweep = 'at the first point, '
+    if (response%from_equilibrium) where_on_sweep = 'at the equilibrium, '
     call log%line('angular stiffness xx, xy, yx, yy '//four(transpose(response%first_slope))// &
-                  ' N m/rad '//place//trim(merge('shaft held', 'load kept ', response%held)))
+                  ' N m/rad '//where_on_sweep// &
+                  trim(merge('shaft fixed', 'load kept  ', response%held)))
     if (.not. response%has_secant) return
     call log%line('secant stiffness x, y '//two(response%secant)//' N m/rad at tilt_'// &
                   axes(response%axis)//' = '//text(response%tilt, 4)//' rad')

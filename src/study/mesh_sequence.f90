@@ -60,7 +60,7 @@ contains
 
   !> Takes a mesh's value, and judges all of them.
   subroutine sequence_add(self, mesh, quantity, unknowns, seconds)
-    class(mesh_sequence_type), intent(inout) :: self
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
     character(len=*), intent(in) :: mesh     !! in words
     type(quantity_type), intent(in) :: quantity !! its number on that mesh
     integer, intent(in) :: unknowns !! of its equations
@@ -79,7 +79,7 @@ contains
 
   !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
   subroutine sequence_add_failure(self, mesh, unknowns, seconds)
-    class(mesh_sequence_type), intent(inout) :: self
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
     character(len=*), intent(in) :: mesh     !! in words
     integer, intent(in) :: unknowns !! of its equations
     real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
@@ -94,14 +94,14 @@ contains
 
   !> The finest mesh's estimate.
   pure function sequence_last(self) result(estimate)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     type(convergence_type) :: estimate
     if (size(self%value) > 0) estimate = self%answer(size(self%answer))%estimate
   end function sequence_last
 
   !> Whether the finest mesh's error is known.
   pure function sequence_has_error(self) result(has)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     logical :: has
     has = size(self%value) > 1
   end function sequence_has_error
@@ -109,7 +109,7 @@ contains
   !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
   !> an estimate without one is not enough.
   pure function sequence_met(self) result(met)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     logical :: met
     type(convergence_type) :: last
 
@@ -119,7 +119,7 @@ contains
 
   !> What the summary says of the error.
   function sequence_quantities(self) result(list)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     type(quantity_type), allocatable :: list(:)
     type(convergence_type) :: last
 
@@ -134,7 +134,7 @@ contains
 
   !> The meshes as a table.
   subroutine sequence_show(self, log)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     type(run_log_type), intent(in) :: log !! where lines go
     character(len=80) :: line
     integer :: i
@@ -178,7 +178,7 @@ contains
 
   !> The number with its error, in words.
   function sequence_value_words(self) result(words)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     character(len=:), allocatable :: words
     type(convergence_type) :: last
 
@@ -202,7 +202,7 @@ contains
 
   !> What a target that is not met would need, in words.
   function sequence_needs(self) result(words)
-    class(mesh_sequence_type), intent(in) :: self
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
     character(len=:), allocatable :: words
     type(convergence_type) :: last
     real(wp) :: order, ratio

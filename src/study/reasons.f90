@@ -28,14 +28,14 @@ contains
 
   !> Whether there is a reason, and so no answer.
   pure function is_given(self)
-    class(reason_type), intent(in) :: self
+    class(reason_type), intent(in) :: self !! the reason
     logical :: is_given
     is_given = self%code /= reason_none
   end function is_given
 
   !> The reason as a line for the user; empty where there is none.
   pure function words(self)
-    class(reason_type), intent(in) :: self
+    class(reason_type), intent(in) :: self !! the reason
     character(len=:), allocatable :: words
 
     select case (self%code)
@@ -46,7 +46,7 @@ contains
     case (reason_no_answer)
       words = 'no answer found'
     case (reason_fixed_shaft)
-      words = 'no answer found with the shaft held'
+      words = 'no answer found with the shaft fixed'
     case (reason_load_step)
       words = 'no equilibrium found in step '//text(self%at)//' of '//text(self%of)
     case (reason_few_modes)

@@ -40,7 +40,7 @@ contains
   !> Says what the scene needs on the mesh of its case, and with which meshes the refinement begins;
   !> all of them have the film's weighting of that one.
   subroutine prepare_refinement(self, scene, log)
-    class(refinement_type), intent(inout) :: self
+    class(refinement_type), intent(inout) :: self !! the study that refines
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
     class(study_type), allocatable :: study
@@ -53,12 +53,12 @@ contains
     self%mesh%mesh = nested_mesh(scene, 0)
     call log%line('accuracy: error of '//asked_name(scene%accuracy)// &
                   ' from meshes that begin with '//mesh_words(self%mesh)// &
-                  ' elements and are doubled each way')
+                  ' elements and are doubled in each direction')
   end subroutine prepare_refinement
 
   !> Nothing yet: a coarser mesh than that of the case may fit into memory.
   subroutine check_nothing(self, scene, error)
-    class(refinement_type), intent(in) :: self
+    class(refinement_type), intent(in) :: self !! the study that refines
     type(scene_type), intent(in) :: scene !! what is asked for
     type(error_type), allocatable, intent(out) :: error !! none
   end subroutine check_nothing
@@ -67,7 +67,7 @@ contains
   !>
   !> Fails when a mesh cannot be made, or the first one needs more memory than there is.
   subroutine refine(self, scene, context, error)
-    class(refinement_type), target, intent(inout) :: self
+    class(refinement_type), target, intent(inout) :: self !! the study that refines
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -105,11 +105,11 @@ contains
     self%reason%detail = missed(self%sequence)
   end subroutine refine
 
-  !> Puts a study of a finer mesh in the place of the coarser one's, if it fits into memory.
+  !> Replaces the study by that of a finer mesh, if it fits into memory.
   !>
   !> Fails where the first mesh does not.
   subroutine take_mesh(self, scene, log, fits, error)
-    class(refinement_type), target, intent(inout) :: self
+    class(refinement_type), target, intent(inout) :: self !! the study that refines
     type(scene_type), intent(in) :: scene !! on the finer mesh
     type(run_log_type), intent(in) :: log
     logical, intent(out) :: fits
@@ -215,7 +215,7 @@ contains
   !>
   !> Fails when a file cannot be written.
   subroutine write_finest(self, scene, context, summary, error)
-    class(refinement_type), target, intent(inout) :: self
+    class(refinement_type), target, intent(inout) :: self !! the study that refines
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -231,7 +231,7 @@ contains
 
   !> What came out, and what was left out.
   subroutine conclude(self, log, left_out)
-    class(refinement_type), intent(in) :: self
+    class(refinement_type), intent(in) :: self !! the study that refines
     type(run_log_type), intent(in) :: log
     character(len=*), intent(in) :: left_out !! by the model
 
@@ -256,7 +256,7 @@ contains
 
   !> Frees what the solvers hold.
   subroutine discard_finest(self)
-    class(refinement_type), intent(inout) :: self
+    class(refinement_type), intent(inout) :: self !! the study that refines
 
     if (allocated(self%finest)) call self%finest%discard()
   end subroutine discard_finest

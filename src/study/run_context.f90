@@ -24,7 +24,7 @@ module gfb_run_context
     subroutine hear(self, words)
       import :: run_listener_type
       implicit none (type, external)
-      class(run_listener_type), intent(inout) :: self
+      class(run_listener_type), intent(inout) :: self !! the listener
       character(len=*), intent(in) :: words !! which point
     end subroutine hear
   end interface
@@ -50,7 +50,7 @@ contains
   !> Fails where the run is to resume from a file of another scene or program, or from a damaged
   !> one.
   subroutine find_restart(self, scene, error)
-    class(run_context_type), intent(inout) :: self
+    class(run_context_type), intent(inout) :: self !! the context
     type(scene_type), intent(in) :: scene !! that the run solves
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
@@ -60,7 +60,7 @@ contains
 
   !> A point of a sweep has its answer: for who listens.
   subroutine point_done(self, words)
-    class(run_context_type), intent(in) :: self
+    class(run_context_type), intent(in) :: self !! the context
     character(len=*), intent(in) :: words !! which point
 
     if (associated(self%listener)) call self%listener%point_done(words)

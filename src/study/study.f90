@@ -37,7 +37,7 @@ module gfb_study
     subroutine prepare_study(self, scene, log)
       import :: study_type, scene_type, run_log_type
       implicit none (type, external)
-      class(study_type), intent(inout) :: self
+      class(study_type), intent(inout) :: self !! the study
       type(scene_type), intent(in) :: scene !! that is asked for
       type(run_log_type), intent(in) :: log !! where lines go
     end subroutine prepare_study
@@ -48,7 +48,7 @@ module gfb_study
     subroutine solve_study(self, scene, context, error)
       import :: study_type, scene_type, run_context_type, error_type
       implicit none (type, external)
-      class(study_type), target, intent(inout) :: self
+      class(study_type), target, intent(inout) :: self !! the study
       type(scene_type), intent(in) :: scene !! that is asked for
       type(run_context_type), intent(in) :: context !! of the run
       type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -60,7 +60,7 @@ module gfb_study
     subroutine write_study(self, scene, context, summary, error)
       import :: study_type, scene_type, run_context_type, error_type, quantity_type
       implicit none (type, external)
-      class(study_type), target, intent(inout) :: self
+      class(study_type), target, intent(inout) :: self !! the study
       type(scene_type), intent(in) :: scene !! that is asked for
       type(run_context_type), intent(in) :: context !! of the run
       type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -71,7 +71,7 @@ module gfb_study
     subroutine discard_study(self)
       import :: study_type
       implicit none (type, external)
-      class(study_type), intent(inout) :: self
+      class(study_type), intent(inout) :: self !! the study
     end subroutine discard_study
   end interface
 
@@ -81,7 +81,7 @@ contains
   !>
   !> Fails where the machine has too little memory.
   subroutine check_study(self, scene, error)
-    class(study_type), intent(in) :: self
+    class(study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! that is asked for
     type(error_type), allocatable, intent(out) :: error !! what is lacking
 
@@ -90,7 +90,7 @@ contains
 
   !> What the model leaves out, and why, as parts of a sentence, each with a semicolon behind.
   function nothing_left_out(self, scene) result(words)
-    class(study_type), intent(in) :: self
+    class(study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! as the case has it
     character(len=:), allocatable :: words
 

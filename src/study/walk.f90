@@ -18,7 +18,7 @@ module gfb_walk
     subroutine reach_point(self, point, reason)
       import :: walk_type, reason_type
       implicit none (type, external)
-      class(walk_type), target, intent(inout) :: self
+      class(walk_type), target, intent(inout) :: self !! the walk
       integer, intent(in) :: point             !! number, from 1
       type(reason_type), intent(out) :: reason !! why there is no answer
     end subroutine reach_point
@@ -27,7 +27,7 @@ module gfb_walk
     subroutine end_point(self, point)
       import :: walk_type
       implicit none (type, external)
-      class(walk_type), target, intent(inout) :: self
+      class(walk_type), target, intent(inout) :: self !! the walk
       integer, intent(in) :: point !! number, from 1
     end subroutine end_point
   end interface

@@ -61,8 +61,8 @@ def run_way(gfb, path, folder, scene, way):
     answer, wrong = run_once(gfb, path, folder, scene, way)
     if scene.restart and not wrong:
         answer, wrong = run_once(gfb, path, folder, scene, way, ("--restart",))
-        if not wrong and "restart: goes on from" not in answer.log:
-            wrong = "did not go on from its restart file"
+        if not wrong and "restart: resumed from" not in answer.log:
+            wrong = "was not resumed from its restart file"
     return answer, wrong
 
 

@@ -265,7 +265,7 @@ def compare(checks, words, one, other):
 
 def ending(answer, hold):
     """Why a sweep about y ended, and the last tilt it reached; nothing where the log does not say it in these words."""
-    opening = "no answer found with the shaft held: " if hold else "no equilibrium found: "
+    opening = "no answer found with the shaft fixed: " if hold else "no equilibrium found: "
     reason = [line[len(opening):] for line in answer.log.splitlines() if line.startswith(opening)]
     last = [line for line in answer.log.splitlines() if line.startswith("last state reached: ") and "tilt (0, " in line]
     return "".join(reason), float(last[0].split("tilt (0, ")[1].split(")")[0]) if last else math.nan

@@ -26,7 +26,7 @@ PARTS = ("film", "top_foil", "bump_foil")
 FRICTION = {"friction_top": 0.1, "friction_sleeve": 0.1, "normal_stiffness": 5.0e10, "stick_length": 1.0e-7}
 MESH = {"circumferential_elements": 104, "axial_elements": 4}
 FOIL_MESH = {"arc_elements": 4, "flat_elements": 2}
-GOES_ON = "restart: goes on from"
+RESUMED = "restart: resumed from"
 RANKS = 1.0e-8              # runs on other numbers of ranks agree so far
 
 
@@ -121,7 +121,7 @@ def run_and_kill(path, folder, ranks, files, delay, restart):
             process.wait(SECONDS)
     if process.returncode == 0:
         written = -1
-    return written, GOES_ON in log.read_text(encoding="utf-8")
+    return written, RESUMED in log.read_text(encoding="utf-8")
 
 
 def changed(file):
@@ -215,7 +215,7 @@ def check_kills(checks, folder, name, content, chance, ranks=(1, 1, 1, 1), whole
     off, where = difference(answer, killed, cost=alike)
     checks.below(f"{name}: numbers of the last run, {ranks[KILLS]} rank(s), and of one that nothing stopped ({where})",
                  off, 0.0 if alike else RANKS)
-    checks.that(f"{name}: the last run goes on", there and GOES_ON in killed.log)
+    checks.that(f"{name}: the last run goes on", there and RESUMED in killed.log)
     left_over = [file.name for file in place.iterdir() if "restart" in file.name]
     checks.that(f"{name}: no restart file is left {left_over}", not left_over)
     return whole
@@ -228,7 +228,7 @@ def check_refusals(checks, folder, content):
     file = place/"refused.restart.h5"
     none = run_file(path, place, options=["--quiet", "--restart"])
     checks.that("without a file the run says so and starts from the beginning",
-                "there is no" in none.log and "starts from the beginning" in none.log and GOES_ON not in none.log)
+                "there is no" in none.log and "starts from the beginning" in none.log and RESUMED not in none.log)
     kill_for_sure(path, place, 1, 2, 0.0, False)
     kept = file.read_bytes()
 
@@ -269,16 +269,16 @@ def check_refusals(checks, folder, content):
     text = path.read_text(encoding="utf-8")
     path.write_text("! only a comment is new\n" + text, encoding="utf-8")
     answer = run_file(path, place, options=["--quiet", "--restart"])
-    checks.that("a new comment in the case file changes nothing", GOES_ON in answer.log)
+    checks.that("a new comment in the case file changes nothing", RESUMED in answer.log)
     file.write_bytes(kept)
     answer = run_file(path, place, options=["--quiet"])
     checks.that("without --restart a file that is there is named, and the run begins anew",
-                "warning" in answer.log and file.name in answer.log and GOES_ON not in answer.log)
+                "warning" in answer.log and file.name in answer.log and RESUMED not in answer.log)
     hindrance = file.with_name(file.name + ".part")
     (hindrance/"full").mkdir(parents=True)
     answer = run_file(path, place, options=["--quiet"])
     checks.that("a restart file that cannot be written does not end the run",
-                "restart.h5: the file cannot be written; the run goes on without" in answer.log)
+                "restart.h5: the file cannot be written; the run continues without it" in answer.log)
     shutil.rmtree(hindrance)
 
 

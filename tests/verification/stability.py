@@ -29,7 +29,7 @@ def check_resting(checks, folder):
         run = counted(folder, foil, foil, mesh=PAPER_MESH)
         checks.that(f"{foil}, paper's mesh: no mode grows", run["stability"] == 0.0)
         checks.that(f"{foil}, paper's mesh: the log calls it stable, and not nearly neutral",
-                    "(stable) while the shaft is held" in run.log)
+                    "(stable) while the shaft is fixed" in run.log)
         # As stiff as bumps under the sheet, a part of p_a/C.
         checks.within(f"{foil}, paper's mesh: stiffness of the softest mode over p_a/C", run["stability_margin"],
                       0.05, 1.0)

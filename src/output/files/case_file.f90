@@ -28,8 +28,7 @@ contains
   !>
   !> Fails when it cannot be written.
   subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, &
-    provenance, &
-                             summary, history, arrays, file, error)
+                             provenance, summary, history, arrays, file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator, information !! MPI's
     logical, intent(in) :: first_rank !! this rank leads

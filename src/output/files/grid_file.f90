@@ -70,16 +70,16 @@ contains
   end subroutine write_grid_file
 
   !> Fields at points or cells.
-  subroutine write_fields(file, place, field, offset, total)
+  subroutine write_fields(file, group, field, offset, total)
     type(result_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: place
+    character(len=*), intent(in) :: group
     type(grid_field_type), intent(in) :: field(:)
     integer, intent(in) :: offset, total !! entries before this rank's, and of all ranks
     integer :: i
 
-    call file%group(place)
+    call file%group(group)
     do i = 1, size(field)
-      call file%put_block(place//'/'//field(i)%name, field(i)%block, offset, total, field(i)%unit, &
+      call file%put_block(group//'/'//field(i)%name, field(i)%block, offset, total, field(i)%unit, &
                           field(i)%meaning)
     end do
   end subroutine write_fields
@@ -107,8 +107,8 @@ contains
     call file%put_byte_block(group//'/Types', types, first - 1, grid%cells, &
                              'VTK cell types, 9: quadrilateral')
     offsets_end = merge(last + 1, last, rank == ranks - 1)
-    call file%put_long_block(group//'/Offsets', [(int(corners, long)*(i - 1), i=first, &
-      offsets_end)], &
+    call file%put_long_block(group//'/Offsets', &
+                             [(int(corners, long)*(i - 1), i=first, offsets_end)], &
                              first - 1, grid%cells + 1, 'where each cell begins in Connectivity')
   end subroutine write_grid
 

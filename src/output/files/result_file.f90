@@ -103,7 +103,7 @@ contains
 
   !> Adds a group.
   subroutine add_group(self, path)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t) :: group
     integer :: status
@@ -115,7 +115,7 @@ contains
 
   !> Adds a group unless it is there.
   subroutine need_group(self, path)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     logical :: there
     integer :: status
@@ -126,7 +126,7 @@ contains
 
   !> Adds a text.
   subroutine put_text(self, path, words, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path, words, meaning !! where it goes; the text; a sentence
     character(kind=c_char, len=:), allocatable, target :: buffer
     integer(hid_t) :: kind, space, dataset
@@ -150,7 +150,7 @@ contains
 
   !> Adds a list of words that all ranks know.
   subroutine put_words(self, path, words, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=*), intent(in) :: words(:) !! blank-padded
     character(len=*), intent(in) :: meaning !! a sentence
@@ -168,7 +168,7 @@ contains
 
   !> Adds numbers that all ranks know.
   subroutine put_numbers(self, path, numbers, unit, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: numbers(:) !! [SI] in `unit`
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
@@ -180,7 +180,7 @@ contains
 
   !> Adds one number that all ranks know, as a dataset without dimensions.
   subroutine put_scalar(self, path, number, unit, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: number !! [SI] in `unit`
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
@@ -202,7 +202,7 @@ contains
 
   !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
   subroutine put_block(self, path, block, offset, total, unit, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in `unit` [SI]
     integer, intent(in) :: offset       !! entries before this rank's
@@ -211,14 +211,13 @@ contains
     real(wp), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = reshape(block, [size(block)])
-    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), size(block, &
-      1), &
-                         size(block, 2), offset, total, unit, meaning)
+    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), &
+                         size(block, 1), size(block, 2), offset, total, unit, meaning)
   end subroutine put_block
 
   !> Adds 64-bit integers of which each rank has consecutive entries.
   subroutine put_long_block(self, path, block, offset, total, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(long), intent(in) :: block(:) !! entries of this rank
     integer, intent(in) :: offset         !! entries before this rank's
@@ -229,13 +228,13 @@ contains
 
     buffer(:size(block)) = block
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
-    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, total, '1', &
-      meaning)
+    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, &
+                         total, '1', meaning)
   end subroutine put_long_block
 
   !> Adds unsigned bytes of which each rank has consecutive entries.
   subroutine put_byte_block(self, path, block, offset, total, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(c_int8_t), intent(in) :: block(:) !! entries of this rank
     integer, intent(in) :: offset             !! entries before this rank's
@@ -249,12 +248,11 @@ contains
   end subroutine put_byte_block
 
   !> Creates a dataset and writes each rank's part of it.
-  subroutine write_part(self, path, stored, held, buffer, components, entries, offset, total, &
-    unit, &
-                        meaning)
-    class(result_file_type), intent(inout) :: self
+  subroutine write_part(self, path, stored, given, buffer, components, entries, offset, total, &
+                        unit, meaning)
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer(hid_t), intent(in) :: stored, held !! types in the file and in memory
+    integer(hid_t), intent(in) :: stored, given !! types in the file and in memory
     type(c_ptr), intent(in) :: buffer !! this rank's entries
     integer, intent(in) :: components, entries, offset, total !! of an entry; here, before, in all
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
@@ -283,7 +281,7 @@ contains
       call h5sselect_none_f(space, status)
       call h5sselect_none_f(memory, status)
     end if
-    call h5dwrite_f(dataset, held, buffer, status, memory, space, self%collective)
+    call h5dwrite_f(dataset, given, buffer, status, memory, space, self%collective)
     if (status /= 0) self%failed = .true.
     call h5sclose_f(memory, status)
     call h5dclose_f(dataset, status)
@@ -292,7 +290,7 @@ contains
 
   !> Unit and meaning of a dataset.
   subroutine describe(self, dataset, unit, meaning)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     integer(hid_t), intent(in) :: dataset !! of the HDF5 library
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
 
@@ -302,40 +300,40 @@ contains
 
   !> Adds a text attribute to a group.
   subroutine mark_text(self, group, name, words)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: group, name, words !! of the file; the attribute and its text
-    integer(hid_t) :: place
+    integer(hid_t) :: object
     integer :: status
 
-    call h5gopen_f(self%file, group, place, status)
-    call write_text_attribute(place, name, words, self%failed)
-    call h5gclose_f(place, status)
+    call h5gopen_f(self%file, group, object, status)
+    call write_text_attribute(object, name, words, self%failed)
+    call h5gclose_f(object, status)
   end subroutine mark_text
 
   !> Adds an attribute of integers to a group.
   subroutine mark_longs(self, group, name, numbers)
-    class(result_file_type), intent(inout) :: self
+    class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: group, name !! of the file; of the attribute
     integer(long), intent(in) :: numbers(:) !! of the attribute
     integer(long), target :: buffer(size(numbers))
-    integer(hid_t) :: place, kind, space, attribute
+    integer(hid_t) :: object, kind, space, attribute
     integer :: status
 
     buffer = numbers
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
-    call h5gopen_f(self%file, group, place, status)
+    call h5gopen_f(self%file, group, object, status)
     call h5screate_simple_f(1, [int(size(numbers), hsize_t)], space, status)
-    call h5acreate_f(place, name, kind, space, attribute, status)
+    call h5acreate_f(object, name, kind, space, attribute, status)
     call h5awrite_f(attribute, kind, c_loc(buffer), status)
     if (status /= 0) self%failed = .true.
     call h5aclose_f(attribute, status)
     call h5sclose_f(space, status)
-    call h5gclose_f(place, status)
+    call h5gclose_f(object, status)
   end subroutine mark_longs
 
   !> Writes a fixed-length text attribute.
-  subroutine write_text_attribute(place, name, words, failed)
-    integer(hid_t), intent(in) :: place
+  subroutine write_text_attribute(object, name, words, failed)
+    integer(hid_t), intent(in) :: object
     character(len=*), intent(in) :: name, words
     logical, intent(inout) :: failed
     character(kind=c_char, len=:), allocatable, target :: buffer
@@ -347,7 +345,7 @@ contains
     call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
     call h5tset_size_f(kind, int(len(buffer), size_t), status)
     call h5screate_f(H5S_SCALAR_F, space, status)
-    call h5acreate_f(place, name, kind, space, attribute, status)
+    call h5acreate_f(object, name, kind, space, attribute, status)
     call h5awrite_f(attribute, kind, c_loc(buffer(1:1)), status)
     if (status /= 0) failed = .true.
     call h5aclose_f(attribute, status)

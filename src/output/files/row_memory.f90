@@ -55,21 +55,21 @@ contains
   pure subroutine take_apart(rows, length, which, number, known)
     type(history_row_type), allocatable, intent(in) :: rows(:)
     integer, allocatable, intent(out) :: length(:) !! quantities of each row
-    integer, allocatable, intent(out) :: which(:)  !! place of each quantity's description
+    integer, allocatable, intent(out) :: which(:)  !! number of each quantity's description
     real(wp), allocatable, intent(out) :: number(:) !! of each quantity, in its unit
     type(quantity_type), allocatable, intent(out) :: known(:) !! descriptions
-    integer :: row, i, filled, place
+    integer :: row, i, filled, at
 
     allocate (length(0), known(0))
     if (allocated(rows)) length = [(lengths(rows(row)), row=1, size(rows))]
     allocate (which(sum(length)), number(sum(length)))
     filled = 0
-    place = 0
+    at = 0
     do row = 1, size(length)
       do i = 1, length(row)
         filled = filled + 1
-        call find_description(rows(row)%quantity(i), known, place)
-        which(filled) = place
+        call find_description(rows(row)%quantity(i), known, at)
+        which(filled) = at
         number(filled) = rows(row)%quantity(i)%number
       end do
     end do
@@ -87,7 +87,7 @@ contains
   !> The reverse of `take_apart`.
   pure subroutine put_together(length, which, number, known, rows)
     integer, intent(in) :: length(:) !! quantities of each row
-    integer, intent(in) :: which(:)  !! place of each quantity's description
+    integer, intent(in) :: which(:)  !! number of each quantity's description
     real(wp), intent(in) :: number(:) !! of each quantity, in its unit
     type(quantity_type), intent(in) :: known(:) !! descriptions
     type(history_row_type), allocatable, intent(out) :: rows(:)
@@ -105,20 +105,20 @@ contains
     end do
   end subroutine put_together
 
-  !> Looks for a quantity's description from the last place on, where rows that are alike have it;
+  !> Looks for a quantity's description from the last one on, where rows that are alike have it;
   !> adds it where it is new.
-  pure subroutine find_description(one, known, place)
+  pure subroutine find_description(one, known, at)
     type(quantity_type), intent(in) :: one
     type(quantity_type), allocatable, intent(inout) :: known(:)
-    integer, intent(inout) :: place
+    integer, intent(inout) :: at
     integer :: i
 
     do i = 1, size(known)
-      place = modulo(place, size(known)) + 1
-      if (is_alike(known(place), one)) return
+      at = modulo(at, size(known)) + 1
+      if (is_alike(known(at), one)) return
     end do
     known = [known, one]
-    place = size(known)
+    at = size(known)
   end subroutine find_description
 
   !> Whether all but the number of two quantities is the same.

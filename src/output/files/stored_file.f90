@@ -63,7 +63,7 @@ contains
 
   !> Whether there is a dataset or group of this path, in a group that is there.
   function has(self, path) result(there)
-    class(stored_file_type), intent(in) :: self
+    class(stored_file_type), intent(in) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     logical :: there
     integer :: status
@@ -74,7 +74,7 @@ contains
 
   !> A text; empty where there is none.
   function words(self, path)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=:), allocatable :: words
     character(kind=c_char, len=:), allocatable, target :: buffer
@@ -105,7 +105,7 @@ contains
 
   !> One number.
   function scalar(self, path) result(number)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp) :: number
     real(wp), target :: value
@@ -126,7 +126,7 @@ contains
 
   !> One whole number.
   function whole_number(self, path) result(number)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer :: number
     number = nint(self%scalar(path))
@@ -134,7 +134,7 @@ contains
 
   !> A list of numbers, all of it on all ranks.
   function numbers(self, path) result(list)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), allocatable :: list(:)
     integer :: entries
@@ -145,7 +145,7 @@ contains
 
   !> Entries of a list; 0 where it cannot be read.
   function entries_of(self, path) result(entries)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer :: entries
     integer(hid_t) :: dataset, space
@@ -172,7 +172,7 @@ contains
 
   !> Consecutive entries of a field, for each rank its own; one component makes it a plain list.
   function block_of_rank(self, path, components, offset, entries) result(block)
-    class(stored_file_type), intent(inout) :: self
+    class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: components !! of an entry
     integer, intent(in) :: offset  !! entries before this rank's

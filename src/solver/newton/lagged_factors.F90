@@ -26,7 +26,7 @@ module gfb_lagged_factors
 
 contains
 
-  !> Makes a linear solver go on with the factors it has.
+  !> Makes a linear solver keep the factors it has.
   subroutine use_lagged_factors(linear)
     KSP, intent(in) :: linear !! prepared by `use_factors`
     PetscErrorCode :: ierr

@@ -155,7 +155,7 @@ contains
   end subroutine solve_with_factors
 
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
-  !> on the system's state alone, and so does a run that goes on from that state.
+  !> on the system's state alone, and so does a run that is resumed from that state.
   subroutine forget_factors(newton)
     type(newton_type), intent(inout) :: newton !! the solver
 

@@ -52,7 +52,7 @@ contains
     logical, intent(in) :: first         !! loops before this one do not count
     Vec, intent(in) :: iterate           !! of this loop; that of the next one replaces it
     Vec, intent(in) :: change            !! that the loop asked for
-    real(wp), intent(in) :: asked(:) !! (measured rows of this rank) the change there, scaled [1]
+    real(wp), intent(in) :: asked(:) !! (measured rows of this rank) the same change as it is measured, in its unit
 
     real(wp) :: share(depth)
     PetscErrorCode :: ierr
@@ -73,7 +73,7 @@ contains
     end do
   end subroutine accelerate
 
-  !> Keeps what the last loop taught, in place of the oldest one.
+  !> Keeps what the last loop taught, instead of the oldest one.
   subroutine remember(anderson, iterate, change, asked)
     type(anderson_type), intent(inout) :: anderson
     Vec, intent(in) :: iterate, change

@@ -99,7 +99,7 @@ contains
   !> Fixes the film of the bearing's present state: its pressures where the foil stays, and the gas
   !> in the gap where it moves.
   subroutine fix_film(self)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
 
     real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%pad(1)%mesh%mesh_node)), rate
     PetscInt :: row(1), column(1)
@@ -126,21 +126,21 @@ contains
 
   !> Takes the side's state from the bearing's.
   subroutine take_side(self)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     PetscErrorCode :: ierr
     PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%state, ierr))
   end subroutine take_side
 
   !> Puts the side's state into the bearing's.
   subroutine give_side(self)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     PetscErrorCode :: ierr
     PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_FORWARD, self%state, ierr))
   end subroutine give_side
 
   !> The bearing's state with a state of the side in it.
   subroutine complete(self, state)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     Vec, intent(in) :: state !! of the side, scaled
     PetscErrorCode :: ierr
 
@@ -156,7 +156,7 @@ contains
   !> Residual of the side's equations. A foil under fixed pressures may close the film before it
   !> converges, whose equations nobody asks then: they are given room.
   subroutine evaluate_side(self, state, residual, valid)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     Vec, intent(in) :: state !! of the side, scaled
     Vec, intent(in) :: residual !! of the side, scaled; is filled
     logical, intent(out) :: valid !! the equations can be evaluated at this state
@@ -173,7 +173,7 @@ contains
 
   !> Derivative of the side's equations by its own unknowns.
   subroutine linearise_side(self, state)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     Vec, intent(in) :: state !! of the side, scaled
     real(wp) :: clearance
     PetscErrorCode :: ierr
@@ -203,7 +203,7 @@ contains
 
   !> Contacts follow the foil; under a fixed foil they stay.
   subroutine settle_side(self, state, moved)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     Vec, intent(in) :: state !! of the side, scaled
     logical, intent(out) :: moved !! some contact changed
 
@@ -216,13 +216,13 @@ contains
 
   !> A new Newton step begins where the foil's contacts are.
   subroutine begin_side_step(self)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     if (self%of_foil) call self%bearing%begin_step()
   end subroutine begin_side_step
 
   !> Work of the residual forces on the foil along a step, scaled.
   function work_on_side(self, residual, step) result(work)
-    class(coupling_side_type), intent(in) :: self
+    class(coupling_side_type), intent(in) :: self !! the side
     Vec, intent(in) :: residual !! of the side, scaled
     Vec, intent(in) :: step !! of the side, scaled
     real(wp) :: work
@@ -237,7 +237,7 @@ contains
 
   !> Frees what PETSc holds.
   subroutine destroy_side(self)
-    class(coupling_side_type), intent(inout) :: self
+    class(coupling_side_type), intent(inout) :: self !! the side
     PetscErrorCode :: ierr
 
     PetscCallA(ISDestroy(self%part, ierr))

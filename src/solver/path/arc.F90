@@ -84,7 +84,7 @@ contains
 
   !> Puts the bearing between the last two answers.
   subroutine between(self, share)
-    class(arc_type), intent(inout) :: self
+    class(arc_type), intent(inout) :: self !! the arc
     real(wp), intent(in) :: share !! of the path from the one before the last to the last [1]
     real(wp) :: lambda
     PetscErrorCode :: ierr
@@ -97,7 +97,7 @@ contains
 
   !> Puts the bearing back to the last answer.
   subroutine return_to(self)
-    class(arc_type), intent(inout) :: self
+    class(arc_type), intent(inout) :: self !! the arc
     real(wp) :: lambda
     lambda = self%path%give()
   end subroutine return_to
@@ -105,7 +105,7 @@ contains
   !> Puts the bearing where lambda has just turned: at the answer before the last, or where a contact
   !> changed since then, if lambda went farther there.
   subroutine to_turn(self)
-    class(arc_type), target, intent(inout) :: self
+    class(arc_type), target, intent(inout) :: self !! the arc
     type(newton_report_type) :: solved
     real(wp) :: lambda
     PetscErrorCode :: ierr
@@ -129,9 +129,9 @@ contains
   end subroutine to_turn
 
   !> Where lambda has just turned: goes back behind the turn to pass it in shorter steps, unless
-  !> they are short already. Without that the turn is at `place_before`, to about the last step.
+  !> they are short already. Without that the turn is at `lambda_before`, to about the last step.
   subroutine nears_fold(self, again)
-    class(arc_type), intent(inout) :: self
+    class(arc_type), intent(inout) :: self !! the arc
     logical, intent(out) :: again !! the turn is still ahead
     PetscErrorCode :: ierr
 
@@ -156,7 +156,7 @@ contains
 
   !> Length of the path from the base to the state.
   function path_length(self) result(length)
-    class(arc_type), intent(inout) :: self
+    class(arc_type), intent(inout) :: self !! the arc
     real(wp) :: length
     PetscErrorCode :: ierr
 
@@ -166,7 +166,7 @@ contains
 
   !> Length of a vector in the arc's measure.
   function length_of(self, vector) result(length)
-    class(arc_type), intent(in) :: self
+    class(arc_type), intent(in) :: self !! the arc
     Vec, intent(in) :: vector !! of all ranks
     real(wp) :: length
     Vec :: weighted
@@ -181,7 +181,7 @@ contains
 
   !> A vector times the weights of the measure.
   subroutine weigh(self, vector, weighted)
-    class(arc_type), intent(in) :: self
+    class(arc_type), intent(in) :: self !! the arc
     Vec, intent(in) :: vector !! of all ranks
     Vec, intent(in) :: weighted !! it, weighted
     real(wp) :: lambda

@@ -6,7 +6,7 @@
 !> tangent is the same all along a branch: it tells the tangent's sense.
 !>
 !> Where contacts open or close the branch has corners; a step round one goes along the penetration of
-!> the contact that changes, which goes on evenly while all else may turn back.
+!> the contact that changes, which grows evenly while all else may turn back.
 module gfb_arc_length
   use petscvec
   use gfb_kinds, only: wp

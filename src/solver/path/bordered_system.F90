@@ -90,7 +90,7 @@ contains
 
   !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
   function lambda_of(self, state) result(lambda)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled
     real(wp) :: lambda
     real(wp) :: value(1)
@@ -102,7 +102,7 @@ contains
 
   !> Sets a state's lambda.
   subroutine set_lambda(self, state, lambda)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled; its lambda is changed
     real(wp), intent(in) :: lambda !! path parameter [1]
     call self%border%set_values([lambda], state)
@@ -110,7 +110,7 @@ contains
 
   !> The operating point at a parameter of the path.
   pure function point_at(self, lambda) result(point)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     real(wp), intent(in) :: lambda !! path parameter: 0 at the first point, 1 at the last [1]
     type(operating_point_type) :: point
     point = point_between(self%first, self%last, lambda)
@@ -118,7 +118,7 @@ contains
 
   !> Puts a vector of the bearing and a value for lambda together.
   subroutine join(self, inner, lambda, whole)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: inner !! like the bearing's state, scaled
     real(wp), intent(in) :: lambda !! path parameter, or the residual of the step's length [1]
     Vec, intent(in) :: whole !! with lambda
@@ -127,7 +127,7 @@ contains
 
   !> The bearing's part of a vector.
   subroutine split(self, whole, inner)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: whole !! with lambda
     Vec, intent(in) :: inner !! without
     call self%border%split(whole, inner)
@@ -135,7 +135,7 @@ contains
 
   !> Gives the present state to the bearing, and its operating point; returns lambda.
   function give(self) result(lambda)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     real(wp) :: lambda
     PetscErrorCode :: ierr
 
@@ -146,7 +146,7 @@ contains
 
   !> Residual of the bearing and of the step's length.
   subroutine evaluate_path(self, state, residual, valid)
-    class(bordered_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled
     Vec, intent(in) :: residual !! of bearing and step length, scaled; is filled
     logical, intent(out) :: valid !! the equations can be evaluated at this state
@@ -162,7 +162,7 @@ contains
 
   !> The bearing's matrix, bordered by the derivatives after lambda and by the direction.
   subroutine linearise_path(self, state)
-    class(bordered_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled
     real(wp) :: lambda
     logical :: valid
@@ -194,7 +194,7 @@ contains
 
   !> Moves the contacts to where the foils have gone.
   subroutine settle_path(self, state, moved)
-    class(bordered_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled
     logical, intent(out) :: moved !! some contact was
     real(wp) :: lambda
@@ -206,13 +206,13 @@ contains
 
   !> A new Newton step begins where the contacts are.
   subroutine begin_path_step(self)
-    class(bordered_system_type), intent(inout) :: self
+    class(bordered_system_type), intent(inout) :: self !! bearing and path parameter
     call self%bearing%begin_step()
   end subroutine begin_path_step
 
   !> Work of the residual forces on the foil along a step, scaled.
   function path_work(self, residual, step) result(work)
-    class(bordered_system_type), intent(in) :: self
+    class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: residual !! with the row of lambda, scaled
     Vec, intent(in) :: step !! of the state, with lambda, scaled
     real(wp) :: work

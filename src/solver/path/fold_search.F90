@@ -32,7 +32,7 @@ contains
   !> Moves the free edge on from an answer, until the point is `wanted` ahead on the path, or turns
   !> back. On return the bearing is at the answer that lies farthest ahead.
   !>
-  !> The edge goes on in the sense in which it moved; where that is not known, in both.
+  !> The edge moves on in the sense in which it moved; where that is not known, in both.
   subroutine look_beyond(bearing, newton, target, before, known, wanted, outcome, ahead)
     type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), target, intent(inout) :: newton !! of the bearing: settings, and what is spent

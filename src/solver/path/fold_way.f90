@@ -8,7 +8,7 @@ module gfb_fold_way
   private
   public :: remember_way
 
-  !> The way along the branch. Keep it where it is.
+  !> The path along the branch. Keep it where it is.
   type, public :: fold_way_type
     type(arc_type) :: arc
     type(operating_point_type) :: first, last !! of the sweep
@@ -20,13 +20,13 @@ module gfb_fold_way
 contains
 
   !> Packs or unpacks all but the arc; the sweep knows its last point and its values.
-  pure subroutine remember_way(memory, way)
+  pure subroutine remember_way(memory, branch)
     type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(fold_way_type), intent(inout) :: way !! written where the memory unpacks
+    type(fold_way_type), intent(inout) :: branch !! written where the memory unpacks
 
     call memory%part('first')
-    call remember_point(memory, way%first)
-    call memory%visit('kept', way%kept)
-    call memory%visit('kept_heading', way%kept_heading)
+    call remember_point(memory, branch%first)
+    call memory%visit('kept', branch%kept)
+    call memory%visit('kept_heading', branch%kept_heading)
   end subroutine remember_way
 end module gfb_fold_way

@@ -38,7 +38,7 @@ contains
 
   !> Keeps the bearing's present answer unless it is known.
   subroutine collect(self, bearing, newton)
-    class(branch_search_type), intent(inout) :: self
+    class(branch_search_type), intent(inout) :: self !! the search
     type(bearing_system_type), intent(in) :: bearing !! in equilibrium
     type(newton_type), intent(in) :: newton          !! its solver, whose log tells of a new one
     type(branch_type) :: new
@@ -81,7 +81,7 @@ contains
 
   !> The equilibrium whose leading edge is lifted most nearly as asked for.
   pure function nearest_branch(self) result(number)
-    class(branch_search_type), intent(in) :: self
+    class(branch_search_type), intent(in) :: self !! the search
     integer :: number
     integer :: i
 
@@ -90,7 +90,7 @@ contains
 
   !> Whether one that was asked for has been found.
   pure function is_found(self) result(found)
-    class(branch_search_type), intent(in) :: self
+    class(branch_search_type), intent(in) :: self !! the search
     logical :: found
 
     found = .false.
@@ -110,7 +110,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! is put on the branch
     type(operating_point_type), intent(in) :: point !! of the branches
     type(branch_type), intent(in) :: branch         !! one that was found on this bearing
-    integer, parameter :: settlings = 2 !! what slides the other way sticks first
+    integer, parameter :: settlings = 2 !! what slides in the other direction sticks first
     integer :: pass
     logical :: moved
     PetscErrorCode :: ierr

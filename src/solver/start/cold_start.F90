@@ -161,7 +161,7 @@ contains
       modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
   end function can_halve
 
-  !> The plan with half the width, or else with half the nodes each way.
+  !> The plan with half the width, or else with half the nodes in each direction.
   pure function smaller(plan) result(coarse)
     type(bearing_plan_type), intent(in) :: plan
     type(bearing_plan_type) :: coarse

@@ -51,7 +51,7 @@ contains
   end subroutine try_soft_contacts
 
   !> The path to the target with soft two-way contacts; at the point it reached they are released and
-  !> stiffened, and the path goes on from there.
+  !> stiffened, and the path continues from there.
   subroutine find_from(bearing, newton, target, settings, contacts, report)
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton

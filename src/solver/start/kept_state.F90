@@ -21,9 +21,9 @@ module gfb_kept_state
 
 contains
 
-  !> Keeps the bearing's present state, in place of what was kept before.
+  !> Keeps the bearing's present state, instead of what was kept before.
   subroutine keep(self, bearing)
-    class(kept_state_type), intent(inout) :: self
+    class(kept_state_type), intent(inout) :: self !! the kept state
     type(bearing_system_type), intent(in) :: bearing !! with the state that is kept
     PetscErrorCode :: ierr
 
@@ -38,7 +38,7 @@ contains
 
   !> Makes what was kept the bearing's present state again.
   subroutine put_back(self, bearing)
-    class(kept_state_type), intent(in) :: self
+    class(kept_state_type), intent(in) :: self !! the kept state
     type(bearing_system_type), intent(inout) :: bearing !! that whose state was kept
     PetscErrorCode :: ierr
 
@@ -49,7 +49,7 @@ contains
 
   !> Frees what PETSc holds; may be called without anything kept.
   subroutine destroy(self)
-    class(kept_state_type), intent(inout) :: self
+    class(kept_state_type), intent(inout) :: self !! the kept state
     PetscErrorCode :: ierr
 
     if (.not. self%created) return

@@ -38,7 +38,7 @@ contains
       cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
       cold_start_type('soft contacts, released early under a load', has_contacts, try_soft_contacts, &
                       usual_contacts, .true.), &
-      cold_start_type('the free edge held at heights', floats_with_free_edge, try_held_edge), &
+      cold_start_type('the free edge fixed at heights', floats_with_free_edge, try_held_edge), &
       cold_start_type('soft contacts, released late under a load', has_contacts, try_soft_contacts, &
                       soft_contacts_type(against_load, 0.5_wp, 1.5_wp, 1.0_wp), .true.), &
       cold_start_type('soft contacts, released after the shaft in short steps', has_contacts, try_soft_contacts, &
@@ -49,7 +49,7 @@ contains
                       soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp), .true.), &
       cold_start_type('soft contacts, released before the shaft near the middle', is_nowhere, try_soft_contacts, &
                       soft_contacts_type(before, 0.25_wp, 1.5_wp, 1.0_wp), .true.), &
-      cold_start_type('the free edge held at heights, under a fixed shaft', fixed_with_free_edge, try_held_edge), &
+      cold_start_type('the free edge fixed at heights, under a fixed shaft', fixed_with_free_edge, try_held_edge), &
       cold_start_type('half the speed first', can_be_slower, try_half_speed, counts=.true.)]
   end function cold_starts
 

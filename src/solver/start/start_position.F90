@@ -20,20 +20,20 @@ module gfb_start_position
 contains
 
   !> Newton's method at a point, as a path of one step.
-  subroutine solve_at(bearing, newton, target, held, settings, report)
+  subroutine solve_at(bearing, newton, target, fixed, settings, report)
     type(bearing_system_type), intent(inout) :: bearing !! the bearing, in its present state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
-    logical, intent(in) :: held !! the shaft is fixed at the point's position
+    logical, intent(in) :: fixed !! the shaft is fixed at the point's position
     type(path_settings_type), intent(in) :: settings !! limits
     type(path_report_type), intent(out) :: report !! of a path of one step
     type(newton_report_type) :: solved
 
     bearing%point = target
-    bearing%shaft_fixed = held
+    bearing%shaft_fixed = fixed
     call solve_newton(newton, solved)
     report%converged = solved%converged
-    if (solved%converged .and. bearing%floats .and. .not. held) then
+    if (solved%converged .and. bearing%floats .and. .not. fixed) then
       report%converged = bearing%smallest_gap() >= settings%touch_down_gap
     end if
     report%reason = solved%reason
@@ -106,17 +106,17 @@ contains
   end function free_position
 
   !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly.
-  subroutine put_at_rest(bearing, held)
+  subroutine put_at_rest(bearing, position)
     type(bearing_system_type), intent(inout) :: bearing
-    type(operating_point_type), intent(in) :: held
+    type(operating_point_type), intent(in) :: position
     real(wp) :: unknown(bearing%local_size())
 
-    bearing%point = held
+    bearing%point = position
     bearing%point%speed = 0.0_wp
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
     unknown(:size(bearing%pad(1)%mesh%mesh_node)) = bearing%pad(1)%film%ambient_pressure
-    if (bearing%floats) unknown(bearing%first_shaft + 1:) = held%eccentricity
+    if (bearing%floats) unknown(bearing%first_shaft + 1:) = position%eccentricity
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest
 

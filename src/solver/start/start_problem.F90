@@ -12,7 +12,7 @@ module gfb_start_problem
 
   integer, parameter, public :: never = 0        !! no soft contacts
   integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
-  integer, parameter, public :: against_load = 2 !! the other way round
+  integer, parameter, public :: against_load = 2 !! the reverse
   integer, parameter, public :: after = 3        !! after the shaft
   integer, parameter, public :: before = 4       !! before it
 
@@ -37,7 +37,7 @@ module gfb_start_problem
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
   end type start_problem_type
 
-  !> A way to begin: a row of the list of starts.
+  !> A cold start: a row of the list of starts.
   type, public :: cold_start_type
     character(len=64) :: name = ''       !! as the log has it
     procedure(applies_to), pointer, nopass :: applies => null()

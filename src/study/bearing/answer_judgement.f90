@@ -61,7 +61,7 @@ contains
       text(stability%growing)//' growing mode(s) ('// &
       trim(merge('stable  ', 'unstable', stability%negative + stability%growing == 0))
     if (stability%nearly_neutral) words = words//', one nearly neutral'
-    words = words//') while the shaft is held; nearest to a change: ('// &
+    words = words//') while the shaft is fixed; nearest to a change: ('// &
             text(real(stability%nearest, wp), 3)
     if (aimag(stability%nearest) > 0.0_wp) then
       words = words//' +- '//text(aimag(stability%nearest), 3)//' i'

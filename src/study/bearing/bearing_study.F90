@@ -42,7 +42,7 @@ contains
 
   !> Plans the bearing.
   subroutine prepare_bearing(self, scene, log)
-    class(bearing_study_type), intent(inout) :: self
+    class(bearing_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
 
@@ -54,7 +54,7 @@ contains
   !>
   !> Fails when the mesh cannot be cut or a restart file cannot be read.
   subroutine solve_study(self, scene, context, error)
-    class(bearing_study_type), target, intent(inout) :: self
+    class(bearing_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -75,7 +75,7 @@ contains
   !>
   !> Fails when one cannot be written.
   subroutine write_study(self, scene, context, summary, error)
-    class(bearing_study_type), target, intent(inout) :: self
+    class(bearing_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -99,7 +99,7 @@ contains
 
   !> What the model leaves out, and why.
   function bearing_left_out(self, scene) result(words)
-    class(bearing_study_type), intent(in) :: self
+    class(bearing_study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     character(len=:), allocatable :: words
 
@@ -113,7 +113,7 @@ contains
 
   !> Frees what the solvers hold.
   subroutine discard_bearing(self)
-    class(bearing_study_type), intent(inout) :: self
+    class(bearing_study_type), intent(inout) :: self !! the study
 
     call destroy_newton(self%sweep%newton)
     call self%sweep%bearing%destroy()

@@ -53,8 +53,8 @@ contains
 
     associate (bearing => sweep%bearing, record => sweep%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing)
-      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, bearing%pad(1)%film%clearance, &
-        bearing%force_scale()))
+      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, &
+                                                   bearing%pad(1)%film%clearance, bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))
       call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)

@@ -56,7 +56,7 @@ contains
 
   !> Plans the bearing.
   subroutine prepare_search(self, scene, log)
-    class(branches_study_type), intent(inout) :: self
+    class(branches_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
 
@@ -69,7 +69,7 @@ contains
   !>
   !> Fails when the mesh cannot be cut.
   subroutine solve_study(self, scene, context, error)
-    class(branches_study_type), target, intent(inout) :: self
+    class(branches_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -100,7 +100,7 @@ contains
 
   !> From the answers of all other starts that are new.
   subroutine search_from_starts(self, scene, settings, log)
-    class(branches_study_type), target, intent(inout) :: self
+    class(branches_study_type), target, intent(inout) :: self !! the study
     type(scene_type), target, intent(in) :: scene
     type(path_settings_type), intent(in) :: settings !! of the first start
     type(run_log_type), intent(in) :: log
@@ -132,7 +132,7 @@ contains
   !>
   !> Fails when one cannot be written.
   subroutine write_study(self, scene, context, summary, error)
-    class(branches_study_type), target, intent(inout) :: self
+    class(branches_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -144,7 +144,7 @@ contains
 
   !> Frees what the solvers hold.
   subroutine discard_search(self)
-    class(branches_study_type), intent(inout) :: self
+    class(branches_study_type), intent(inout) :: self !! the study
 
     call destroy_branches(self%search)
     call destroy_newton(self%newton)

@@ -51,11 +51,12 @@ contains
     call show_table(context%log, search, order, record, bearing%pad(1)%film%clearance)
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
     call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
-      bearing%pad(1)%film%clearance, bearing%force_scale()))
+                                                 bearing%pad(1)%film%clearance, bearing%force_scale()))
     call add_result(summary, 'branches', size(order))
     call add_quantity(summary, bearing%pad(1)%foil%sizes())
-    call add_quantity(summary, cost_quantities(cost_type(bearing%unknowns, newton%iterations, &
-      newton%factorizations, wall_time() - context%start_time, peak_memory())))
+    call add_quantity(summary, cost_quantities(cost_type( &
+                      bearing%unknowns, newton%iterations, newton%factorizations, &
+                      wall_time() - context%start_time, peak_memory())))
     call write_result_set(scene, context%folder, .true., provenance(context%command), summary, record%history, &
                           foil_contact_arrays(bearing%pad(1)%foil, record%contacts, size(record%history)), grids, context%log, error)
   end subroutine write_branches

@@ -52,7 +52,7 @@ contains
   !> What follows the first answer: a scene without a sweep is done, the shaft is fixed, or the first point
   !> of a sweep is there.
   subroutine begin_sweep(self, converged)
-    class(sweep_type), target, intent(inout) :: self
+    class(sweep_type), target, intent(inout) :: self !! the sweep
     logical, intent(in) :: converged !! the answer is one
 
     associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
@@ -72,7 +72,7 @@ contains
 
   !> Follows the path from the present answer to that of a sweep point.
   subroutine reach_value(self, point, reason)
-    class(sweep_type), target, intent(inout) :: self
+    class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point             !! number of the sweep's value
     type(reason_type), intent(out) :: reason !! why there is no answer
     type(path_report_type) :: report
@@ -87,7 +87,7 @@ contains
 
   !> Records a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
   subroutine record_value(self, point)
-    class(sweep_type), target, intent(inout) :: self
+    class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point !! number of the sweep's value
 
     associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
@@ -106,7 +106,7 @@ contains
 
   !> Writes the restart file after a point, where one is due; 0: where the shaft is fixed.
   subroutine keep_value(self, point)
-    class(sweep_type), target, intent(inout) :: self
+    class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point !! number of the sweep's value
 
     if (.not. self%context%restart%is_due(point)) return
@@ -117,7 +117,7 @@ contains
 
   !> Where a sweep point puts the shaft; a fixed shaft stays where it is.
   function target_at(self, point) result(target)
-    class(sweep_type), intent(in) :: self
+    class(sweep_type), intent(in) :: self !! the sweep
     integer, intent(in) :: point !! number of the sweep's value
     type(operating_point_type) :: target
 
@@ -127,19 +127,19 @@ contains
 
   !> Fixes the shaft at its equilibrium from now on.
   subroutine fix_shaft(self)
-    class(sweep_type), intent(inout) :: self
+    class(sweep_type), intent(inout) :: self !! the sweep
 
     associate (bearing => self%bearing)
       bearing%point%eccentricity = bearing%eccentricity()
       bearing%shaft_fixed = .true.
-      call self%context%log%line('shaft held at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
+      call self%context%log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
                                  text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
     end associate
   end subroutine fix_shaft
 
   !> Ends a sweep before its last point; what was known of the last answer is not of the state now.
   subroutine stop_short(self, report, reason)
-    class(sweep_type), intent(inout) :: self
+    class(sweep_type), intent(inout) :: self !! the sweep
     type(path_report_type), intent(in) :: report !! of the path to the point without an answer
     type(reason_type), intent(out) :: reason     !! why there is none
 
@@ -149,7 +149,7 @@ contains
 
   !> Says why there is no answer, and how far the path led.
   subroutine explain(self, report, fixed, reason)
-    class(sweep_type), intent(in) :: self
+    class(sweep_type), intent(in) :: self !! the sweep
     type(path_report_type), intent(in) :: report !! of the path
     logical, intent(in) :: fixed             !! the shaft was, at an equilibrium
     type(reason_type), intent(out) :: reason !! why there is none

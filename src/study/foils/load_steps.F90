@@ -93,7 +93,7 @@ contains
 
   !> Brings the strip to the load of a step.
   subroutine reach_step(self, point, reason)
-    class(load_steps_type), target, intent(inout) :: self
+    class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point             !! number of the step
     type(reason_type), intent(out) :: reason !! why there is no answer
     type(newton_report_type) :: report
@@ -107,7 +107,7 @@ contains
 
   !> Records a step's answer, from which the next one starts.
   subroutine record_step(self, point)
-    class(load_steps_type), target, intent(inout) :: self
+    class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
     type(history_row_type) :: row
     integer :: iterations, factorizations
@@ -129,7 +129,7 @@ contains
 
   !> Writes the restart file, where one is due.
   subroutine keep_step(self, point)
-    class(load_steps_type), target, intent(inout) :: self
+    class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
 
     call keep_strip(self%scene, self%context%restart, self%context%log, self%strip, self%newton, self%path, self%run)
@@ -137,7 +137,7 @@ contains
 
   !> Says why a step has no answer.
   subroutine explain(self, step, detail, reason)
-    class(load_steps_type), intent(in) :: self
+    class(load_steps_type), intent(in) :: self !! the load steps
     integer, intent(in) :: step !! number of the step
     character(len=*), intent(in) :: detail !! what hinders
     type(reason_type), intent(out) :: reason !! why there is none

@@ -41,7 +41,7 @@ contains
 
   !> Plans the component.
   subroutine prepare_modes(self, scene, log)
-    class(modes_study_type), intent(inout) :: self
+    class(modes_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
 
@@ -53,7 +53,7 @@ contains
   !>
   !> Fails when the mesh cannot be made or an eigenvalue solver fails.
   subroutine solve_modes(self, scene, context, error)
-    class(modes_study_type), target, intent(inout) :: self
+    class(modes_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -93,7 +93,7 @@ contains
   !>
   !> Fails when one cannot be written.
   subroutine write_study(self, scene, context, summary, error)
-    class(modes_study_type), target, intent(inout) :: self
+    class(modes_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -105,7 +105,7 @@ contains
 
   !> Frees what the solvers hold.
   subroutine discard_modes(self)
-    class(modes_study_type), intent(inout) :: self
+    class(modes_study_type), intent(inout) :: self !! the study
 
     call destroy_modes(self%result%modes)
     call destroy_foil_structure(self%component)

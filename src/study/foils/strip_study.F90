@@ -41,7 +41,7 @@ contains
 
   !> Plans the strip.
   subroutine prepare_strip(self, scene, log)
-    class(strip_study_type), intent(inout) :: self
+    class(strip_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
 
@@ -53,7 +53,7 @@ contains
   !>
   !> Fails when the mesh cannot be made or a restart file cannot be read.
   subroutine solve_strip(self, scene, context, error)
-    class(strip_study_type), target, intent(inout) :: self
+    class(strip_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -68,8 +68,9 @@ contains
       call context%log%line('super-elements: '//text(kind_count(strip%foil%substructure))//' distinct of '// &
                             text(size(strip%foil%substructure))//', '//text(strip%unknowns)//' unknowns')
       if (solver%linear_solver == linear_solver_iterative) call strip%find_motions()
-      call create_newton(newton, strip, 'strip_', newton_settings_type(solver%residual_tolerance, &
-                         solver%step_tolerance, solver%maximum_iterations), context%log)
+      call create_newton(newton, strip, 'strip_', &
+                         newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &
+                                              solver%maximum_iterations), context%log)
       call load_and_unload(self%steps, self%reason, error)
       if (allocated(error)) return
       self%converged = run%converged
@@ -84,7 +85,7 @@ contains
   !>
   !> Fails when one cannot be written.
   subroutine write_study(self, scene, context, summary, error)
-    class(strip_study_type), target, intent(inout) :: self
+    class(strip_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
@@ -99,7 +100,7 @@ contains
 
   !> What the model leaves out, and why.
   function strip_left_out(self, scene) result(words)
-    class(strip_study_type), intent(in) :: self
+    class(strip_study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     character(len=:), allocatable :: words
 
@@ -111,7 +112,7 @@ contains
 
   !> Frees what the solvers hold.
   subroutine discard_strip(self)
-    class(strip_study_type), intent(inout) :: self
+    class(strip_study_type), intent(inout) :: self !! the study
 
     call destroy_newton(self%steps%newton)
     call destroy_strip_system(self%steps%strip)

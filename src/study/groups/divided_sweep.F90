@@ -91,7 +91,7 @@ contains
     end do
     if (job%groups == 1) return
     if (scene%sweep%hold_position) then
-      call log%line('every group finds the equilibrium at which the shaft is held, and goes from there')
+      call log%line('every group finds the equilibrium at which the shaft is fixed, and sweeps from there')
     else
       call log%line('the first point of every group starts from nothing, not from the point before')
     end if

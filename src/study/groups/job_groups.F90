@@ -16,12 +16,12 @@ module gfb_job_groups
   private
   public :: start_job, stop_job
 
-  integer(MPI_ADDRESS_KIND), parameter :: taken = 0, done = 1 !! places of the window: members taken, and done
-  integer(MPI_ADDRESS_KIND), parameter :: places = 2
+  integer(MPI_ADDRESS_KIND), parameter :: taken = 0, done = 1 !! numbers of the window: members taken, and done
+  integer(MPI_ADDRESS_KIND), parameter :: numbers = 2
   integer, parameter :: number_bytes = storage_size(0_long)/8
   real(wp), parameter :: a_minute = 60.0_wp, an_hour = 3600.0_wp !! [s]
 
-  !> The job and this rank's place in it.
+  !> The job and this rank's number in it.
   type, extends(run_listener_type), public :: job_type
     integer :: groups = 0     !! that were asked for; 0 where the job is one gfb
     integer :: group = 1      !! this rank's, from 1
@@ -48,9 +48,9 @@ contains
   !> for, and divides nothing where ranks are too few.
   subroutine start_job(groups, job)
     integer, intent(in) :: groups !! 0: none asked for
-    type(job_type), intent(out) :: job !! with this rank's place in it
+    type(job_type), intent(out) :: job !! with this rank's number in it
     GFB_COMM :: part
-    integer(MPI_ADDRESS_KIND) :: bytes, place
+    integer(MPI_ADDRESS_KIND) :: bytes, base
     integer :: provided, ierr
 
     job%groups = groups
@@ -65,8 +65,8 @@ contains
     job%leads = job%rank == first_rank(job, job%group)
     call MPI_Comm_split(MPI_COMM_WORLD, job%group, job%rank, part, ierr)
     PETSC_COMM_WORLD = part
-    bytes = merge(number_bytes*places, 0_MPI_ADDRESS_KIND, job%rank == 0)
-    call MPI_Win_allocate(bytes, number_bytes, MPI_INFO_NULL, MPI_COMM_WORLD, place, job%window, ierr)
+    bytes = merge(number_bytes*numbers, 0_MPI_ADDRESS_KIND, job%rank == 0)
+    call MPI_Win_allocate(bytes, number_bytes, MPI_INFO_NULL, MPI_COMM_WORLD, base, job%window, ierr)
     call MPI_Win_lock_all(0, job%window, ierr)
     if (job%rank == 0) call clear(job)
     call MPI_Barrier(MPI_COMM_WORLD, ierr)
@@ -76,11 +76,11 @@ contains
   !> Sets the shared numbers to zero.
   subroutine clear(job)
     type(job_type), intent(in) :: job
-    integer(long) :: zeros(places)
+    integer(long) :: zeros(numbers)
     integer :: ierr
 
     zeros = 0
-    call MPI_Accumulate(zeros, int(places), MPI_INTEGER8, 0, taken, int(places), MPI_INTEGER8, MPI_REPLACE, job%window, ierr)
+    call MPI_Accumulate(zeros, int(numbers), MPI_INTEGER8, 0, taken, int(numbers), MPI_INTEGER8, MPI_REPLACE, job%window, ierr)
     call MPI_Win_flush(0, job%window, ierr)
   end subroutine clear
 
@@ -110,7 +110,7 @@ contains
 
   !> A point of this group's sweep is done; those it computes for comparison only are not counted.
   subroutine count_point(self, words)
-    class(job_type), intent(inout) :: self
+    class(job_type), intent(inout) :: self !! the job
     character(len=*), intent(in) :: words !! which point
 
     if (self%counted < 1) return
@@ -120,7 +120,7 @@ contains
 
   !> A line for the terminal: how many are done, how long it will take, what this group has done.
   subroutine report(self, words, number)
-    class(job_type), intent(in) :: self
+    class(job_type), intent(in) :: self !! the job
     character(len=*), intent(in) :: words !! what was done
     integer, intent(in) :: number !! of what is done with this
     character(len=:), allocatable :: line
@@ -153,22 +153,22 @@ contains
   end function time_text
 
   !> Adds to a shared number.
-  function add_to(job, place, number) result(before)
+  function add_to(job, which, number) result(before)
     class(job_type), intent(in) :: job
-    integer(MPI_ADDRESS_KIND), intent(in) :: place
+    integer(MPI_ADDRESS_KIND), intent(in) :: which !! `taken` or `done`
     integer(long), intent(in) :: number
     integer(long) :: before !! what it was
     integer(long), volatile :: fetched ! it comes with the second call
     integer :: ierr
 
-    call MPI_Fetch_and_op(number, fetched, MPI_INTEGER8, 0, place, MPI_SUM, job%window, ierr)
+    call MPI_Fetch_and_op(number, fetched, MPI_INTEGER8, 0, which, MPI_SUM, job%window, ierr)
     call MPI_Win_flush(0, job%window, ierr)
     before = fetched
   end function add_to
 
   !> Number of the member that this group takes next, from 1; whoever is free takes the next one.
   subroutine next_member(self, member)
-    class(job_type), intent(in) :: self
+    class(job_type), intent(in) :: self !! the job
     integer, intent(out) :: member !! number of the member
     integer :: ierr
 
@@ -179,7 +179,7 @@ contains
 
   !> Brings what every group has packed to all ranks of one group; waits for the last of them.
   subroutine collect(self, mine, group, all)
-    class(job_type), intent(in) :: self
+    class(job_type), intent(in) :: self !! the job
     type(memory_type), intent(in) :: mine !! this group's
     integer, intent(in) :: group          !! that gets them
     type(memory_type), allocatable, intent(out) :: all(:) !! one a group, to unpack; none in the other groups
@@ -220,7 +220,7 @@ contains
 
   !> The largest of all ranks' numbers, on every rank of the job.
   function largest(self, number)
-    class(job_type), intent(in) :: self
+    class(job_type), intent(in) :: self !! the job
     integer, intent(in) :: number !! this rank's
     integer :: largest
     integer :: ierr
@@ -229,7 +229,7 @@ contains
 
   !> Sum of each number over all ranks of the job.
   function total_of(self, numbers) result(total)
-    class(job_type), intent(in) :: self
+    class(job_type), intent(in) :: self !! the job
     real(wp), intent(in) :: numbers(:) !! this rank's, in any unit [SI]
     real(wp) :: total(size(numbers))
     integer :: ierr

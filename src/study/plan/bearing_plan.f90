@@ -60,8 +60,9 @@ contains
       call log%line('shaft: position given, no shaft unknowns')
     end if
     nodes = (plan%order*plan%circumferential + 1)*solved_rows(plan)
-    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)//trim(merge( &
-                  ' biquadratic', '            ', plan%order == film_order_biquadratic))// &
+    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
+                  trim(merge(' biquadratic', '            ', &
+                             plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
     plan%memory = film_memory(nodes)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
@@ -167,17 +168,15 @@ contains
     plan%upwind = scene%model%film_scheme == film_scheme_supg
     plan%may_upwind = scene%model%film_scheme == film_scheme_auto
     if (.not. plan%may_upwind) then
-      call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', &
-        plan%upwind))//', as film_scheme asks')
+      call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))// &
+                    ', as film_scheme asks')
       return
     end if
     peclet = concentric_peclet(scene, plan)
     plan%upwind = peclet > galerkin_limit
-    call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', &
-      plan%upwind))//', because the cell Peclet '// &
-                  'number of the concentric film is '//text(peclet, 3)//trim(merge(' > ', ' < ', &
-                  plan%upwind))// &
-                  ' '//text(galerkin_limit))
+    call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))// &
+                  ', because the cell Peclet number of the concentric film is '//text(peclet, 3)// &
+                  trim(merge(' > ', ' < ', plan%upwind))//' '//text(galerkin_limit))
   end subroutine choose_scheme
 
   !> Cell Peclet number of the film at ambient pressure between concentric surfaces.

@@ -16,7 +16,7 @@ module gfb_nested_meshes
   private
   public :: nested_mesh, mesh_words, formal_order, keep_scheme
 
-  integer, parameter :: quarter = 4             !! the first mesh is as much coarser each way
+  integer, parameter :: quarter = 4             !! the first mesh is coarser by it in each direction
   integer, parameter :: least_circumferential = 4
 
 contains
@@ -84,7 +84,7 @@ contains
   end function formal_order
 
   !> Takes for all meshes the film's weighting that the mesh of the case would have: values of two
-  !> schemes do not approach their limit in one way.
+  !> schemes approach their limit differently.
   subroutine keep_scheme(scene)
     type(scene_type), intent(inout) :: scene !! of a bearing, on the mesh of the case
     type(bearing_plan_type) :: plan
