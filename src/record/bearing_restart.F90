@@ -162,12 +162,12 @@ contains
   !>
   !> Fails when the file is damaged.
   subroutine recall_bearing(scene, restart, log, bearing, newton, record, point, error)
-    type(scene_type), intent(in) :: scene
-    type(restart_type), intent(in) :: restart
-    type(run_log_type), intent(in) :: log
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(bearing_record_type), intent(inout) :: record
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(restart_type), intent(in) :: restart !! the file to resume from
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! is put where the file says
+    type(newton_type), target, intent(inout) :: newton !! gets its counts
+    type(bearing_record_type), intent(inout) :: record !! gets the points so far
     integer, intent(out) :: point !! of the sweep that was done last; 0: where the shaft is held
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(stored_file_type) :: file

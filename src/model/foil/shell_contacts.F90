@@ -26,7 +26,7 @@ contains
   subroutine add_shell_contacts(scene, height, film, ranges, foil)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(foil_ranges_type), intent(in) :: ranges     !! numbers of its unknowns
     type(shell_foil_type), intent(inout) :: foil     !! with its structures and laws
 
@@ -76,7 +76,7 @@ contains
   subroutine find_masters_of_crests(scene, height, film, ranges, foil)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(foil_ranges_type), intent(in) :: ranges
     type(shell_foil_type), intent(inout) :: foil
 
@@ -89,8 +89,8 @@ contains
 
     crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
     allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
-    place = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
-    above = top_mesh(film, height, stations_above(film, place(tangential, :)))
+    points = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
+    above = top_mesh(film, height, stations_above(film, points(tangential, :)))
     before = lbound(above%position, 2) - 1
     call find_masters(points, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
     do i = 1, size(crest)
@@ -116,7 +116,7 @@ contains
 
   !> The stretch of the film's stations above some points, with a column to spare on both sides.
   pure function stations_above(film, x) result(window)
-    type(film_mesh_type), intent(in) :: film
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     real(wp), intent(in) :: x(:) !! from the leading edge on [m]
     integer :: window(2)
     real(wp) :: station(film%stations())
