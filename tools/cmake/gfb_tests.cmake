@@ -10,11 +10,11 @@ endif()
 set(gfb_test_support ${PROJECT_SOURCE_DIR}/tests/support CACHE INTERNAL "the stand-in for pFUnit")
 
 # Open MPI: root in a container, more ranks than cores, ranks of two tests on different cores, no ssh.
-# One thread a rank.
+# One thread a rank; ranks that wait give their core to others, as tests run side by side.
 set(gfb_test_environment
   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
-  OMPI_MCA_plm_rsh_agent=sh OMPI_MCA_btl_vader_single_copy_mechanism=none
+  OMPI_MCA_plm_rsh_agent=sh OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1
   PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
   OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
   CACHE INTERNAL "environment of every test")
