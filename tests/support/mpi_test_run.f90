@@ -1,8 +1,9 @@
 !> Runs tests on the first ranks of all that were started, while the others wait.
 module gfb_mpi_test_run
+  use, intrinsic :: iso_c_binding, only: c_int
   use mpi, only: mpi_allreduce, mpi_bcast, mpi_comm_free, mpi_comm_null, mpi_comm_rank, &
-                 mpi_comm_size, mpi_comm_split, mpi_comm_world, mpi_finalize, mpi_in_place, &
-                 mpi_init, mpi_logical, mpi_lor, mpi_undefined
+                 mpi_comm_size, mpi_comm_split, mpi_comm_world, mpi_finalize, mpi_ibarrier, mpi_in_place, &
+                 mpi_init, mpi_logical, mpi_lor, mpi_status_ignore, mpi_test, mpi_undefined
   use gfb_test_failures, only: begin_test, record_failure, test_failures
   use gfb_test_run, only: plain_procedure, run_plain_test, test_run_type
   use pfunit, only: MpiTestMethod
@@ -17,6 +18,16 @@ module gfb_mpi_test_run
       implicit none (type, external)
       class(MpiTestMethod), intent(inout) :: this
     end subroutine mpi_procedure
+  end interface
+
+  interface
+    !> POSIX: sleeps.
+    function usleep(microseconds) result(status) bind(c, name='usleep')
+      import :: c_int
+      implicit none (type, external)
+      integer(c_int), value :: microseconds !! to sleep [us]
+      integer(c_int) :: status
+    end function usleep
   end interface
 
   !> A run on several ranks.
@@ -67,6 +78,7 @@ contains
       call run_plain_test(run, name, test, before, after)
       failed = run%failed > failed_before
     end if
+    call wait_for_all()
     call mpi_bcast(failed, 1, mpi_logical, 0, mpi_comm_world, ierr)
     if (run%rank > 0) call run%count_result(name, .not. failed)
   end subroutine run_alone
@@ -99,10 +111,26 @@ contains
       end if
     end if
     failed = test_failures() > 0
+    call wait_for_all()
     call mpi_allreduce(mpi_in_place, failed, 1, mpi_logical, mpi_lor, mpi_comm_world, ierr)
     write (place, '(a, i0, a)') ' (', ranks, ' ranks)'
     call run%count_result(name//trim(place), .not. failed)
   end subroutine run_on_ranks
+
+  !> Waits asleep until all ranks are here: MPI's own waiting takes a core from the ranks of the test.
+  subroutine wait_for_all()
+    integer(c_int), parameter :: moment = 500 ! [us]
+    integer :: request, ierr
+    integer(c_int) :: status
+    logical :: here
+
+    call mpi_ibarrier(mpi_comm_world, request, ierr)
+    do
+      call mpi_test(request, here, mpi_status_ignore, ierr)
+      if (here) exit
+      status = usleep(moment)
+    end do
+  end subroutine wait_for_all
 
   !> One test with its `before` and `after`, on the ranks that take part.
   subroutine run_with_ranks(this, test, before, after)
