@@ -3,6 +3,7 @@
 
   hard_scenes.py                 plays all scenes; status 1 where one does not end as it must
   hard_scenes.py WORD ...        those whose part or words have one of these in them
+  hard_scenes.py --share 1/2     every second scene from the first on
   hard_scenes.py --page FILE     writes the table of all as Markdown
 """
 
@@ -86,12 +87,16 @@ def page(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("words", nargs="*", help="parts of the names of scenes")
+    parser.add_argument("--share", default="1/1", help="which of so many shares of the scenes, such as 2/3")
     parser.add_argument("--page", type=pathlib.Path, help="Markdown file to write")
     arguments = parser.parse_args()
     chosen = [scene for scene in SCENES if not arguments.words
               or any(word in f"{scene.part}: {scene.words}" for word in arguments.words)]
+    if arguments.page and arguments.share != "1/1":
+        parser.error("--page is for all scenes")
+    share, shares = map(int, arguments.share.split("/"))
     results = []
-    for scene in chosen:
+    for scene in chosen[share - 1::shares]:
         trial = played(scene)
         results.append((scene, trial))
         show(scene, trial)

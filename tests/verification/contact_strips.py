@@ -115,18 +115,17 @@ def check_exact_bump(checks, folder):
                               ("case 2's bump", PAIR, "case 2 width 18 mm")):
         exact = REFERENCE["single_bump_exact"]["values_N_per_m"][name]
         for key in ("mu 0", next(key for key in exact if key.startswith("load mu"))):
-            for times in (1, 2):
-                width = times*foil["width"]
-                bump = squeezed(folder, "bump", friction=float(key.split()[-1]), steps=4, down=0,
-                                bump_foil={**foil, "bumps": 1, "width": width, "fixed_edge": "none"},
-                                strip_load={"maximum_force": times*FORCE},
-                                mesh={"arc_elements": 24, "flat_elements": 4, "axial_elements": 50*times})
-                top, z = contact_lines(bump, "top")
-                force = top["normal_force"][-1, 0]
-                middle = force[numpy.argmin(numpy.abs(z))]*foil["width"]/bump["maximum_deflection"]/exact[key] - 1.0
-                mean = bump["loading_stiffness"]/times/exact[key] - 1.0
-                print(f"       {words}, {key}, {1e3*width:.1f} mm wide: middle off by {middle:.1e}, mean by "
-                      f"{mean:.1e}, free edge carries {force[-1]/force.max():.1f} of the largest")
+            width = 2.0*foil["width"]
+            bump = squeezed(folder, "bump", friction=float(key.split()[-1]), steps=4, down=0,
+                            bump_foil={**foil, "bumps": 1, "width": width, "fixed_edge": "none"},
+                            strip_load={"maximum_force": 2.0*FORCE},
+                            mesh={"arc_elements": 24, "flat_elements": 4, "axial_elements": 100})
+            top, z = contact_lines(bump, "top")
+            force = top["normal_force"][-1, 0]
+            middle = force[numpy.argmin(numpy.abs(z))]*foil["width"]/bump["maximum_deflection"]/exact[key] - 1.0
+            mean = bump["loading_stiffness"]/2.0/exact[key] - 1.0
+            print(f"       {words}, {key}, {1e3*width:.1f} mm wide: free edge carries "
+                  f"{force[-1]/force.max():.1f} of the largest")
             checks.below(f"{words}, {key}: the middle of a wide bump", middle, 2.0e-2)
             checks.below(f"{words}, {key}: the mean of a wide bump", mean, 2.0e-2)
 

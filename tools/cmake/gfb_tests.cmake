@@ -19,7 +19,7 @@ set(gfb_test_environment
   OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
   CACHE INTERNAL "environment of every test")
 
-# The environment, the labels and the limits of a test.
+# The environment, the labels and the limits of a test; those that may take longest begin first.
 function(gfb_test_settings name)
   cmake_parse_arguments(TEST "" "PROCESSORS;TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT TEST_PROCESSORS)
@@ -30,7 +30,7 @@ function(gfb_test_settings name)
   endif()
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "${gfb_test_environment};${TEST_ENVIRONMENT}" LABELS "${TEST_LABELS}"
-    PROCESSORS ${TEST_PROCESSORS} TIMEOUT ${TEST_TIMEOUT})
+    PROCESSORS ${TEST_PROCESSORS} TIMEOUT ${TEST_TIMEOUT} COST ${TEST_TIMEOUT})
 endfunction()
 
 # The modules of the stand-in: gfb_funit without MPI, gfb_pfunit with it. Called once.
