@@ -2,8 +2,9 @@
 module gfb_mpi_test_run
   use, intrinsic :: iso_c_binding, only: c_int
   use mpi, only: mpi_allreduce, mpi_bcast, mpi_comm_free, mpi_comm_null, mpi_comm_rank, &
-                 mpi_comm_size, mpi_comm_split, mpi_comm_world, mpi_finalize, mpi_ibarrier, mpi_in_place, &
-                 mpi_init, mpi_logical, mpi_lor, mpi_status_ignore, mpi_test, mpi_undefined
+                 mpi_comm_size, mpi_comm_split, mpi_comm_world, mpi_finalize, mpi_ibarrier, &
+                 mpi_in_place, mpi_init, mpi_logical, mpi_lor, mpi_status_ignore, mpi_test, &
+                 mpi_undefined
   use gfb_test_failures, only: begin_test, record_failure, test_failures
   use gfb_test_run, only: plain_procedure, run_plain_test, test_run_type
   use pfunit, only: MpiTestMethod
@@ -117,7 +118,7 @@ contains
     call run%count_result(name//trim(place), .not. failed)
   end subroutine run_on_ranks
 
-  !> Waits asleep until all ranks are here: MPI's own waiting takes a core from the ranks of the test.
+  !> Waits asleep until all ranks are here: MPI's own waiting takes a core from the test.
   subroutine wait_for_all()
     integer(c_int), parameter :: moment = 500 ! [us]
     integer :: request, ierr
