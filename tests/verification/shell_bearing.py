@@ -38,7 +38,7 @@ SIZES = natural_sizes(BEARING) | {name: BEARING.clearance for name in (
     "leading_edge_lift", "leading_edge_lift_edge", "trailing_edge_lift", "trailing_edge_lift_edge")}
 
 
-def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), **groups):
+def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), quiet=True, **groups):
     """Writes a case of the reference bearing with changed groups, and runs it; what is None is left out."""
     content = {
         "scene": {"analysis": "equilibrium"},
@@ -55,7 +55,7 @@ def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), **groups
         content[group] = None if keys is None else {**content.get(group, {}), **keys}
     if content["scene"]["analysis"] == "equilibrium":
         content["operation"].setdefault("load", LOAD)
-    return gfb_run.solve(folder, name, content, ranks, ["--quiet", *options], status)
+    return gfb_run.solve(folder, name, content, ranks, [*(["--quiet"] if quiet else []), *options], status)
 
 
 def held(eccentricity, **operation):
