@@ -1,7 +1,7 @@
 !> What memory a scene will take, before anything is built.
 !>
 !> Laws in the number of unknowns, the rows of nodes and the linear solver, fitted to measured
-!> peaks: docs/linear_solvers.md has the table. They hold within a factor of 1.5.
+!> peaks: docs/manual/linear_solvers.md has the table. They hold within a factor of 1.5.
 module gfb_memory_estimate
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: node_unknowns
