@@ -5,7 +5,7 @@ module gfb_check_scene
   use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing
-  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_builder, only: foil_plan_type
   use gfb_foil_plan, only: plan_foil

@@ -17,23 +17,11 @@ module gfb_bearing_builder
   use gfb_foil_model, only: foil_model_type
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
   public :: build_bearing, divide_bearing, film_mesh_of
-
-  !> What the program decided about a scene, and the mesh it asks for.
-  type, public :: bearing_plan_type
-    integer :: circumferential = 0 !! film elements along the motion
-    integer :: axial = 0           !! film elements along the whole width
-    logical :: half = .false.      !! half the width is solved
-    logical :: upwind = .false.    !! SUPG instead of Galerkin
-    logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
-    logical :: floats = .false.    !! the shaft's position is unknown
-    logical :: may_coarsen = .true. !! coarser meshes may give the start
-    integer :: order = 1           !! of film elements: bilinear, biquadratic
-    real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
-  end type bearing_plan_type
 
 contains
 

@@ -13,7 +13,8 @@ module gfb_cold_start
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: bearing_plan_type, build_bearing
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_problem, only: start_problem_type

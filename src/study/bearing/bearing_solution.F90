@@ -9,7 +9,8 @@ module gfb_bearing_solution
   use gfb_sweep_case, only: operation_at
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_scene_point, only: operating_point
-  use gfb_bearing_builder, only: bearing_plan_type, build_bearing
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_settings_type, create_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, start_partitioned

@@ -11,7 +11,7 @@ module gfb_bearing_study
   use gfb_model_case, only: film_scheme_auto, film_order_bilinear
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_bearing_answer, only: bearing_answer
-  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_newton, only: destroy_newton
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_record, only: analysis_name

@@ -7,7 +7,7 @@ module gfb_branches_study
   use gfb_scene, only: scene_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point
-  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing

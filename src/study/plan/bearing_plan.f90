@@ -17,7 +17,7 @@ module gfb_bearing_plan
   use gfb_reynolds_element, only: film_flow_type, cell_peclet
   use gfb_shaft_motion, only: entraining_speed
   use gfb_foundation_foil, only: foundation_stiffness
-  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps
   use gfb_solver_case, only: linear_solver_out_of_core

@@ -7,7 +7,7 @@ module gfb_nested_meshes
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, meshes_foils, &
                             film_order_bilinear, film_order_biquadratic, film_scheme_auto, &
                             film_scheme_galerkin, film_scheme_supg
-  use gfb_bearing_builder, only: bearing_plan_type
+  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing

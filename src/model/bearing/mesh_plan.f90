@@ -1,0 +1,19 @@
+!> What was decided about a bearing's meshes before they are made.
+module gfb_mesh_plan
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+
+  !> What the program decided about a scene, and the mesh it asks for.
+  type, public :: bearing_plan_type
+    integer :: circumferential = 0 !! film elements along the motion
+    integer :: axial = 0           !! film elements along the whole width
+    logical :: half = .false.      !! half the width is solved
+    logical :: upwind = .false.    !! SUPG instead of Galerkin
+    logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
+    logical :: floats = .false.    !! the shaft's position is unknown
+    logical :: may_coarsen = .true. !! coarser meshes may give the start
+    integer :: order = 1           !! of film elements: bilinear, biquadratic
+    real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
+  end type bearing_plan_type
+end module gfb_mesh_plan
