@@ -247,6 +247,8 @@ module gfb_result_table
     result_type('factorizations', '1', total, bearing + strip + load_step + modes, &
       '{matrix factorizations of all solves}', &
       'the same of factorizations of matrices; modes: of the shifted stiffness'), &
+    result_type('factorizations_finest', '1', total, bearing, &
+      '{matrix factorizations on the finest mesh}', 'those of them on the finest mesh'), &
     result_type('wall_time', 's', number, bearing + strip + modes + ensemble, &
       '{from start to answer}', 'from start to answer', varies=.true.), &
     result_type('peak_memory', 'B', number, bearing + strip + modes, &

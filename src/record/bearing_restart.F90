@@ -62,6 +62,7 @@ contains
     call remember_point(memory, bearing%point)
     call memory%visit('newton_iterations', newton%iterations)
     call memory%visit('factorizations', newton%factorizations)
+    call memory%visit('factorizations_before', newton%factorizations_before)
   end subroutine remember_bearing
 
   !> State, operating point, contacts, counters.

@@ -19,6 +19,7 @@ module gfb_bearing_summary
     integer :: unknowns = 0
     integer :: newton_iterations = 0
     integer :: factorizations = 0
+    integer :: factorizations_finest = 0 !! of the matrix of the finest mesh
     real(wp) :: wall_time = 0.0_wp   !! [s]
     real(wp) :: peak_memory = 0.0_wp !! of all ranks [B]
   end type cost_type
@@ -103,6 +104,7 @@ contains
 
     call add_result(list, 'unknowns', cost%unknowns)
     call add_counts(cost%newton_iterations, cost%factorizations, list)
+    call add_result(list, 'factorizations_finest', cost%factorizations_finest)
     call add_result(list, 'wall_time', cost%wall_time)
     call add_result(list, 'peak_memory', cost%peak_memory)
   end function cost_quantities

@@ -22,6 +22,7 @@ module gfb_study
     integer :: unknowns = 0
     integer :: iterations = 0                    !! of Newton, in all
     integer :: factorizations = 0                !! in all
+    integer :: factorizations_finest = 0         !! of the matrix of the finest mesh
     type(quantity_type), allocatable :: more(:)  !! what the summary is to say beside the answer
   contains
     procedure(prepare_study), deferred :: prepare !! says what the scene needs

@@ -12,7 +12,6 @@ module gfb_mesh_plan
     logical :: upwind = .false.    !! SUPG instead of Galerkin
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
-    logical :: may_coarsen = .true. !! coarser meshes may give the start
     integer :: order = 1           !! of film elements: bilinear, biquadratic
     real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
   end type bearing_plan_type

@@ -4,7 +4,7 @@ module gfb_film_mesh
   implicit none (type, external)
   private
   public :: uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
-            find_film_place
+            find_film_place, find_interval
 
   !> A film mesh by its stations along the shaft's motion and its rows along the axis.
   !>
@@ -171,10 +171,10 @@ contains
 
   !> Interval of rising numbers that holds one, and where in it the number lies, 0 to 1.
   pure subroutine find_interval(bounds, number, interval, share)
-    real(wp), intent(in) :: bounds(:)
-    real(wp), intent(in) :: number
-    integer, intent(out) :: interval
-    real(wp), intent(out) :: share
+    real(wp), intent(in) :: bounds(:)    !! rising, two at least, in any unit [SI]
+    real(wp), intent(in) :: number       !! in their unit [SI]
+    integer, intent(out) :: interval     !! between its bound and the next
+    real(wp), intent(out) :: share       !! 0 or 1 where the number lies outside all [1]
     integer :: last, middle
 
     interval = 1

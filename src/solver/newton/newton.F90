@@ -44,7 +44,8 @@ module gfb_newton
     type(newton_settings_type) :: settings
     type(run_log_type) :: log
     integer :: iterations = 0     !! since its creation
-    integer :: factorizations = 0 !! since its creation
+    integer :: factorizations = 0 !! since its creation, and before
+    integer :: factorizations_before = 0 !! of them on smaller systems, whose answer led here
     SNES, private :: snes
     Vec, private :: residual
     logical, private :: created = .false.

@@ -1,10 +1,8 @@
 #include "gfb_petsc.h"
 !> The first answer of a scene, from nothing.
 !>
-!> A scene is solved on a coarse mesh first. A finer mesh starts from the coarser one's answer, and from
-!> nothing only if that fails: `start_list.F90` has all starts, in order. Coarse meshes use SUPG, which
-!> converges from far away at cell Peclet numbers where Galerkin's pressure becomes negative. Foils that
-!> only a sweep will tilt start from the answer on half the width.
+!> A scene is solved on a smaller system first, as `smaller_scene.F90` finds it. The larger one starts from
+!> its answer, and from nothing only if that fails: `start_list.F90` has all starts, in order.
 module gfb_cold_start
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
@@ -20,15 +18,13 @@ module gfb_cold_start
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: try_starts
   use gfb_branch_search, only: seek_branch
-  use gfb_smaller_start, only: refine
+  use gfb_smaller_scene, only: find_smaller
+  use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
-  use gfb_model_case, only: meshes_foils, half_width_auto, foil_rigid
+  use gfb_model_case, only: foil_rigid
   implicit none (type)
   private
   public :: start_bearing, start_partitioned
-
-  integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
-  integer, parameter :: least_axial = 4            !! of the part of the width that is solved
 
 contains
 
@@ -50,19 +46,22 @@ contains
 
     type(bearing_system_type), target :: coarse
     type(newton_type), target :: coarse_newton
+    type(scene_type), target :: small
+    type(bearing_plan_type) :: small_plan
     type(start_problem_type) :: problem
     logical :: helped
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    helped = can_coarsen(plan) .or. can_halve(scene, plan, target)
+    call find_smaller(scene, plan, target, helped, small, small_plan)
     if (helped) then
-      call start_bearing(scene, smaller(plan), target, newton_settings, path_settings, log, coarse, &
+      call start_bearing(small, small_plan, target, newton_settings, path_settings, log, coarse, &
                          coarse_newton, report, error)
       if (allocated(error)) return
       newton%iterations = coarse_newton%iterations
       newton%factorizations = coarse_newton%factorizations
+      newton%factorizations_before = coarse_newton%factorizations
       helped = report%converged
       call destroy_newton(coarse_newton)
     end if
@@ -117,9 +116,10 @@ contains
     if (allocated(error)) return
     newton%iterations = rigid_newton%iterations
     newton%factorizations = rigid_newton%factorizations
+    newton%factorizations_before = rigid_newton%factorizations
     bearing%point = target
     bearing%pad(1)%film%flow%upwind = rigid%pad(1)%film%flow%upwind
-    call refine(rigid, bearing)
+    call transfer_answer(rigid, bearing)
     allocate (unknown(bearing%local_size()))
     call bearing%get_unknowns(unknown)
     unknown(bearing%pad(1)%foil%first + 1:bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns()) = 0.0_wp ! at rest
@@ -135,49 +135,4 @@ contains
     call destroy_newton(rigid_newton)
     call rigid%destroy()
   end subroutine start_partitioned
-
-  !> Whether half the elements each way still make a mesh.
-  pure function can_coarsen(plan) result(can)
-    type(bearing_plan_type), intent(in) :: plan
-    logical :: can
-    integer :: solved
-
-    solved = merge(plan%axial/2, plan%axial, plan%half)
-    if (plan%order > 1) then
-      can = plan%may_coarsen
-      return
-    end if
-    can = plan%may_coarsen .and. modulo(plan%circumferential, 2) == 0 .and. modulo(solved, 2) == 0 .and. &
-      plan%circumferential >= 2*least_circumferential .and. solved >= 2*least_axial
-  end function can_coarsen
-
-  !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
-  pure function can_halve(scene, plan, target) result(can)
-    type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    type(operating_point_type), intent(in) :: target
-    logical :: can
-
-    can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
-      modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
-  end function can_halve
-
-  !> The plan with half the width, or else with half the nodes in each direction.
-  pure function smaller(plan) result(coarse)
-    type(bearing_plan_type), intent(in) :: plan
-    type(bearing_plan_type) :: coarse
-
-    coarse = plan
-    if (.not. plan%may_coarsen) then
-      coarse%half = .true.
-      return
-    end if
-    coarse%upwind = .true.
-    if (plan%order > 1) then ! bilinear elements on the corners of the others
-      coarse%order = 1
-      return
-    end if
-    coarse%circumferential = plan%circumferential/2
-    coarse%axial = plan%axial/2
-  end function smaller
 end module gfb_cold_start

@@ -66,6 +66,7 @@ contains
       self%unknowns = bearing%unknowns
       self%iterations = newton%iterations
       self%factorizations = newton%factorizations
+      self%factorizations_finest = newton%factorizations - newton%factorizations_before
       self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
                                      bearing%pad(1)%film%clearance, bearing%force_scale())
     end associate
@@ -86,7 +87,7 @@ contains
     memory = sum_over_ranks([peak_memory()])
     result%converged = self%converged
     result%upwind = self%plan%upwind
-    result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, &
+    result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, self%factorizations_finest, &
                             wall_time() - context%start_time, memory(1))
     result%ranks = rank_count()
     result%origin = provenance(context%command)

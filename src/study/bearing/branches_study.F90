@@ -96,6 +96,7 @@ contains
     self%unknowns = self%bearing%unknowns
     self%iterations = self%newton%iterations
     self%factorizations = self%newton%factorizations
+    self%factorizations_finest = self%factorizations - self%newton%factorizations_before
   end subroutine solve_study
 
   !> From the answers of all other starts that are new.

@@ -56,6 +56,7 @@ contains
     call add_quantity(summary, bearing%pad(1)%foil%sizes())
     call add_quantity(summary, cost_quantities(cost_type( &
                       bearing%unknowns, newton%iterations, newton%factorizations, &
+                      newton%factorizations - newton%factorizations_before, &
                       wall_time() - context%start_time, peak_memory())))
     call write_result_set(scene, context%folder, .true., provenance(context%command), summary, record%history, &
                           foil_contact_arrays(bearing%pad(1)%foil, record%contacts, size(record%history)), grids, context%log, error)

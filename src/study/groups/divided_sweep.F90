@@ -160,6 +160,7 @@ contains
       stretch%last = ends(2)
       stretch%iterations = study%iterations
       stretch%factorizations = study%factorizations
+      stretch%factorizations_finest = study%factorizations_finest
       stretch%row = sweep%record%history(:found)
       stretch%next = sweep%record%history(found + 1:)
       stretch%contacts = foil_contact_arrays(sweep%bearing%pad(1)%foil, sweep%record%contacts, found)
@@ -233,6 +234,7 @@ contains
     result%converged = all(stretches%status == 0)
     result%upwind = study%plan%upwind
     result%cost = cost_type(study%unknowns, sum(stretches%iterations), sum(stretches%factorizations), &
+                            sum(stretches%factorizations_finest), &
                             wall_time() - job%begun, memory)
     result%ranks = job%ranks
     result%origin = origin(context, job, stretches, scene)

@@ -29,6 +29,7 @@ module gfb_sweep_stretch
     integer :: status = 0          !! exit status that gfb would have had
     integer :: iterations = 0      !! of Newton
     integer :: factorizations = 0
+    integer :: factorizations_finest = 0 !! of the matrix of the finest mesh
     type(reason_type) :: reason    !! why it ended before its last value, if it did
     type(history_row_type), allocatable :: row(:)  !! its points
     !> The first point of the stretch behind, from its own last one; none where there is none.
@@ -49,6 +50,7 @@ contains
     call memory%visit('status', stretch%status)
     call memory%visit('iterations', stretch%iterations)
     call memory%visit('factorizations', stretch%factorizations)
+    call memory%visit('factorizations_finest', stretch%factorizations_finest)
     call memory%visit('reason_code', stretch%reason%code)
     call memory%visit('reason_at', stretch%reason%at)
     call memory%visit('reason_of', stretch%reason%of)

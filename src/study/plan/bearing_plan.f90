@@ -48,7 +48,6 @@ contains
       plan%circumferential = size(plate_stations(scene)) - 1
     end if
     plan%axial = scene%mesh%axial_elements
-    plan%may_coarsen = .not. meshes_foils(scene%model%foil)
     plan%floats = scene%general%analysis == analysis_equilibrium
     call log%heading('what the scene needs')
     call describe_foil(scene, log)

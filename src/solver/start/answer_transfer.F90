@@ -1,0 +1,214 @@
+#include "gfb_petsc.h"
+!> The answer of a smaller system as the start of a larger one: on a finer mesh, or on the whole width.
+!>
+!> Pressure and foils are interpolated. The top foil is a beam along the motion: between two stations
+!> its deflection is the cubic that has their deflections and turns. All else is linear, so that what
+!> is constant or tilts along the axis stays so. The bump foil has the same stations on every mesh.
+module gfb_answer_transfer
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: fetch_entries
+  use gfb_film_mesh, only: find_film_place, find_interval
+  use gfb_shell_geometry, only: node_unknowns
+  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_meshed_foil, only: top_surface
+  use gfb_foil_builder, only: axial, about_tangent
+  use gfb_bearing, only: film_values
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: transfer_answer
+
+  integer, parameter :: corners = 4                    !! of an element
+  integer, parameter :: radial = 2, about_axis = 4     !! components of a displacement: v, alpha
+
+  !> Where the stations or rows of one mesh lie among those of a smaller one.
+  type :: places_type
+    integer, allocatable :: low(:)       !! the smaller mesh's station or row before each
+    real(wp), allocatable :: share(:)    !! of the way to the next [1]
+    real(wp), allocatable :: distance(:) !! to the next [m]
+    logical, allocatable :: mirrored(:)  !! it lies on the side that the smaller mesh has not
+  end type places_type
+
+contains
+
+  !> Makes the answer of a smaller system the state of a bearing.
+  subroutine transfer_answer(small, bearing)
+    type(bearing_system_type), intent(in) :: small      !! with its answer
+    type(bearing_system_type), intent(inout) :: bearing !! gets a start value
+    real(wp) :: coarse(small%local_size()), unknown(bearing%local_size())
+    type(foil_surface_type), allocatable :: surface(:), small_surface(:)
+    integer :: nodes, small_nodes, i
+
+    call small%get_unknowns(coarse)
+    nodes = size(bearing%pad(1)%mesh%mesh_node)
+    small_nodes = size(small%pad(1)%mesh%mesh_node)
+    unknown = 0.0_wp
+    surface = bearing%pad(1)%foil%surfaces()
+    small_surface = small%pad(1)%foil%surfaces()
+    if (size(surface) > 0 .and. size(small_surface) == size(surface)) then
+      unknown(:nodes) = merge(film_field(small, coarse(:small_nodes), bearing), 0.0_wp, bearing%pad(1)%mesh%owned)
+      if (bearing%floats) unknown(bearing%first_shaft + 1:) = merge(small%eccentricity(), 0.0_wp, bearing%last_rank)
+      do i = 1, size(surface)
+        call transfer_surface(small, small_surface(i), coarse, bearing, surface(i), i, unknown)
+      end do
+      call bearing%add_up(unknown, bearing%state)
+    else
+      unknown(:nodes) = film_field(small, coarse(:small_nodes) + small%solid_pressure(coarse), bearing)
+      call bearing%pad(1)%foil%estimate(unknown)
+      unknown(:nodes) = film_field(small, coarse(:small_nodes), bearing)
+      if (bearing%floats) unknown(bearing%first_shaft + 1:) = small%eccentricity()
+      call bearing%set_unknowns(unknown)
+    end if
+  end subroutine transfer_answer
+
+  !> A field of the smaller film at the bearing's film nodes; even where the smaller film is half.
+  function film_field(small, value, bearing) result(field)
+    type(bearing_system_type), intent(in) :: small, bearing
+    real(wp), intent(in) :: value(:) !! at the smaller film's local nodes
+    real(wp) :: field(size(bearing%pad(1)%mesh%mesh_node))
+    real(wp) :: share(corners, size(field)), corner(corners, size(field)), z
+    integer :: around(corners, size(field)), node
+
+    do node = 1, size(field)
+      z = bearing%pad(1)%film%axial(node)
+      if (small%pad(1)%whole%half) z = abs(z)
+      call find_film_place(small%pad(1)%whole, bearing%pad(1)%film%angle(node), z, around(:, node), share(:, node))
+    end do
+    corner = reshape(film_values(small, value, [around]), shape(corner))
+    ! Less one corner's value: an even field stays so to the last digit.
+    field = corner(1, :) + sum(share*(corner - spread(corner(1, :), 1, corners)), 1)
+  end function film_field
+
+  !> The owned unknowns of one surface of the foils.
+  subroutine transfer_surface(small, small_surface, coarse, bearing, surface, number, unknown)
+    type(bearing_system_type), intent(in) :: small, bearing
+    type(foil_surface_type), intent(in) :: small_surface, surface
+    real(wp), intent(in) :: coarse(:)     !! the smaller bearing's local unknowns, in SI
+    integer, intent(in) :: number         !! which of the foils' surfaces it is
+    real(wp), intent(inout) :: unknown(:) !! the bearing's
+    type(places_type) :: along, across
+    integer, allocatable :: wanted(:), station(:), row(:)
+    real(wp), allocatable :: value(:, :)
+    integer :: i
+
+    wanted = pack(surface%part%mesh_node, surface%part%owned)
+    station = (wanted - 1)/surface%mesh%rows + 1
+    row = modulo(wanted - 1, surface%mesh%rows) + 1
+    if (number == top_surface) then
+      along = find_places(small%pad(1)%whole%radius*small%pad(1)%whole%station_angle, &
+                          bearing%pad(1)%whole%radius*bearing%pad(1)%whole%station_angle(station), .false.)
+    else
+      along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
+    end if
+    across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial(row), small%pad(1)%whole%half)
+    value = interpolated(small%pad(1)%foil, small_surface, number, coarse, along, across)
+    call put_own(bearing%pad(1)%foil, number, wanted, value, unknown)
+  end subroutine transfer_surface
+
+  !> Where positions lie among rising ones; mirrored ones where only positive ones are known.
+  pure function find_places(known, position, half) result(places)
+    real(wp), intent(in) :: known(:)    !! rising [m]
+    real(wp), intent(in) :: position(:) !! [m]
+    logical, intent(in) :: half
+    type(places_type) :: places
+    integer :: i
+
+    allocate (places%low(size(position)), places%share(size(position)), places%distance(size(position)))
+    places%mirrored = half .and. position < 0.0_wp
+    do i = 1, size(position)
+      call find_interval(known, merge(-position(i), position(i), places%mirrored(i)), places%low(i), places%share(i))
+      places%distance(i) = known(places%low(i) + 1) - known(places%low(i))
+    end do
+  end function find_places
+
+  !> Displacements of the smaller surface at places on it.
+  function interpolated(foil, surface, number, coarse, along, across) result(value)
+    class(foil_model_type), intent(in) :: foil
+    type(foil_surface_type), intent(in) :: surface
+    integer, intent(in) :: number            !! which of the foils' surfaces it is
+    real(wp), intent(in) :: coarse(:)        !! local unknowns of the smaller bearing, in SI
+    type(places_type), intent(in) :: along, across
+    real(wp), allocatable :: value(:, :)     !! (5, places)
+    real(wp), allocatable :: first(:, :), second(:, :)
+    integer :: i
+
+    first = station_values(0)
+    second = station_values(1)
+    allocate (value, mold=first)
+    do i = 1, size(value, 2)
+      value(:, i) = between(first(:, i), second(:, i), along%share(i), along%distance(i))
+      if (across%mirrored(i)) value([axial, about_tangent], i) = -value([axial, about_tangent], i)
+    end do
+
+  contains
+
+    !> Values on the stations before the places, or after them.
+    function station_values(next) result(there)
+      integer, intent(in) :: next !! 0: before, 1: after
+      real(wp), allocatable :: there(:, :)
+      real(wp), allocatable :: own_value(:, :), upper(:, :)
+      integer, allocatable :: own(:), node(:)
+      integer :: k
+
+      own = pack(surface%part%mesh_node, surface%part%owned)
+      own_value = own_values(foil, number, own, coarse)
+      node = (along%low + next - 1)*surface%mesh%rows + across%low
+      there = fetch_entries(surface%mesh%nodes(), own, own_value, node)
+      upper = fetch_entries(surface%mesh%nodes(), own, own_value, node + 1)
+      do k = 1, size(node)
+        there(:, k) = there(:, k) + across%share(k)*(upper(:, k) - there(:, k))
+      end do
+    end function station_values
+  end function interpolated
+
+  !> A displacement between two stations.
+  pure function between(first, second, share, distance) result(value)
+    real(wp), intent(in) :: first(:), second(:) !! displacements there [m], [rad]
+    real(wp), intent(in) :: share    !! of the way from the first to the second [1]
+    real(wp), intent(in) :: distance !! of the stations [m]
+    real(wp) :: value(size(first))
+
+    value = first + share*(second - first)
+    if (share <= 0.0_wp .or. share >= 1.0_wp) return
+    associate (t => share, rest => 1.0_wp - share)
+      value(radial) = (1.0_wp + 2.0_wp*t)*rest**2*first(radial) + t**2*(1.0_wp + 2.0_wp*rest)*second(radial) + &
+        distance*t*rest*(rest*first(about_axis) - t*second(about_axis))
+      value(about_axis) = 6.0_wp*t*rest/distance*(second(radial) - first(radial)) + &
+        rest*(1.0_wp - 3.0_wp*t)*first(about_axis) + t*(1.0_wp - 3.0_wp*rest)*second(about_axis)
+    end associate
+  end function between
+
+  !> Displacements of this rank's own nodes of a surface; 0 where they are fixed or condensed.
+  pure function own_values(foil, number, own, coarse) result(value)
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: number, own(:) !! which surface, its nodes
+    real(wp), intent(in) :: coarse(:)     !! local unknowns of the bearing, in SI
+    real(wp) :: value(node_unknowns, size(own))
+    integer :: i, k, place
+
+    value = 0.0_wp
+    do i = 1, size(own)
+      do k = 1, node_unknowns
+        place = foil%own_unknown(number, k, own(i))
+        if (place > 0) value(k, i) = coarse(foil%first + place)
+      end do
+    end do
+  end function own_values
+
+  !> Gives displacements to this rank's own nodes of a surface.
+  pure subroutine put_own(foil, number, own, value, unknown)
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: number, own(:) !! which surface, its nodes
+    real(wp), intent(in) :: value(:, :)   !! (5, nodes)
+    real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
+    integer :: i, k, place
+
+    do i = 1, size(own)
+      do k = 1, node_unknowns
+        place = foil%own_unknown(number, k, own(i))
+        if (place > 0) unknown(foil%first + place) = value(k, i)
+      end do
+    end do
+  end subroutine put_own
+end module gfb_answer_transfer

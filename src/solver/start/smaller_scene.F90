@@ -1,0 +1,109 @@
+!> Which smaller system may give a scene its start: half the width, fewer rows, fewer stations.
+!>
+!> The way from nothing to an answer is long, and few of its iterations need the finest mesh. A film
+!> without meshed foils is solved with half the elements each way, as often as that leaves a mesh, by
+!> SUPG. Meshed foils keep their bumps, which decide the branch; their film and top foil lose rows
+!> first, then stations.
+module gfb_smaller_scene
+  use gfb_kinds, only: wp
+  use gfb_scene, only: scene_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_model_case, only: meshes_foils, half_width_auto
+  use gfb_bearing_case, only: pad_length
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_foil_builder, only: plate_stations
+  implicit none (type, external)
+  private
+  public :: find_smaller
+
+  integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
+  integer, parameter :: least_axial = 4            !! of half the width, at least
+  integer, parameter :: least_of_pitch = 3         !! of a bump's pitch, at least
+
+contains
+
+  !> The scene on the next smaller system, where there is one.
+  subroutine find_smaller(scene, plan, target, found, small, small_plan)
+    type(scene_type), intent(in) :: scene            !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan      !! its meshes
+    type(operating_point_type), intent(in) :: target !! what is to be found
+    logical, intent(out) :: found !! there is a smaller system
+    type(scene_type), intent(out) :: small             !! the scene on it
+    type(bearing_plan_type), intent(out) :: small_plan !! its meshes
+
+    small = scene
+    small_plan = plan
+    found = .true.
+    if (can_halve(scene, plan, target)) then
+      small_plan%half = .true.
+    else if (meshes_foils(scene%model%foil)) then
+      call coarsen_foils(scene, plan, found, small, small_plan)
+    else if (can_coarsen(plan)) then
+      small_plan = coarser_film(plan)
+    else
+      found = .false.
+    end if
+  end subroutine find_smaller
+
+  !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
+  pure function can_halve(scene, plan, target) result(can)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(operating_point_type), intent(in) :: target
+    logical :: can
+
+    can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
+      modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
+  end function can_halve
+
+  !> Few rows, or else half the stations of film and top foil.
+  subroutine coarsen_foils(scene, plan, found, small, small_plan)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    logical, intent(out) :: found
+    type(scene_type), intent(inout) :: small
+    type(bearing_plan_type), intent(inout) :: small_plan
+    integer :: fewest, of_pitch
+
+    fewest = 2*max(1, least_axial/plan%order)
+    of_pitch = nint(plan%circumferential*scene%bump_foil%pitch/pad_length(scene%bearing))
+    found = .true.
+    if (plan%axial >= 2*fewest) then
+      small_plan%axial = fewest
+      small%mesh%axial_elements = fewest
+    else if (of_pitch*plan%order >= 2*least_of_pitch) then
+      small%mesh%circumferential_elements = scene%mesh%circumferential_elements/2
+      small_plan%circumferential = small%mesh%circumferential_elements
+      if (scene%mesh%align_crests) small_plan%circumferential = size(plate_stations(small)) - 1
+      found = small_plan%circumferential < plan%circumferential
+    else
+      found = .false.
+    end if
+  end subroutine coarsen_foils
+
+  !> Whether half the elements of a film each way still make a mesh.
+  pure function can_coarsen(plan) result(can)
+    type(bearing_plan_type), intent(in) :: plan
+    logical :: can
+    integer :: solved
+
+    solved = merge(plan%axial/2, plan%axial, plan%half)
+    can = plan%order > 1 .or. (modulo(plan%circumferential, 2) == 0 .and. modulo(solved, 2) == 0 .and. &
+                               plan%circumferential >= 2*least_circumferential .and. solved >= 2*least_axial)
+  end function can_coarsen
+
+  !> Half the elements of a film each way, by SUPG; of biquadratic ones, bilinear ones on their corners.
+  pure function coarser_film(plan) result(coarse)
+    type(bearing_plan_type), intent(in) :: plan
+    type(bearing_plan_type) :: coarse
+
+    coarse = plan
+    coarse%upwind = .true.
+    if (plan%order > 1) then
+      coarse%order = 1
+      return
+    end if
+    coarse%circumferential = plan%circumferential/2
+    coarse%axial = plan%axial/2
+  end function coarser_film
+end module gfb_smaller_scene
