@@ -5,7 +5,7 @@ module gfb_result_names
   implicit none (type, external)
   private
   public :: find_result, result_unit, result_meaning, is_of, asked_names, compared_names, &
-            expanded_results, results_text
+            results_text
 
   character(len=*), parameter :: any_number = '<n>', any_quantity = '<quantity>'
   !> What stands for one of several words; the last one changes first.
@@ -137,19 +137,6 @@ contains
       end do
     end do
   end function names_of
-
-  !> All rows, one for each name; numbers are still `<n>`, and units may be `own_unit`.
-  pure function expanded_results() result(list)
-    type(result_type), allocatable :: list(:)
-    integer :: row, i
-
-    allocate (list(0))
-    do row = 1, size(result_rows)
-      do i = 1, fillings(result_rows(row))
-        list = [list, filled(result_rows(row), i)]
-      end do
-    end do
-  end function expanded_results
 
   !> How many names a row stands for, but for numbers.
   pure recursive function fillings(row) result(number)

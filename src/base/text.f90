@@ -3,7 +3,7 @@ module gfb_text
   use gfb_kinds, only: wp, long
   implicit none (type, external)
   private
-  public :: text, exact_text, engineering_text, lower_case, edit_distance, nearest_word, join
+  public :: text, exact_text, engineering_text, lower_case, nearest_word, join
 
   integer, parameter :: longest_word = 60 !! a longer one is a misspelling of nothing
 

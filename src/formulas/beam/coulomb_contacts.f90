@@ -15,7 +15,7 @@ module gfb_coulomb_contacts
   use gfb_linear_solve, only: solve_general
   implicit none (type, external)
   private
-  public :: coulomb_contacts_type, solve_contacts, friction_limits
+  public :: coulomb_contacts_type, solve_contacts
 
   integer, parameter :: largest_sweeps = 100000 !! mostly some thousand do
   integer, parameter :: newton_tries = 30       !! if not by then, it cycles

@@ -14,8 +14,7 @@ module gfb_contact_law
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state, &
-            drag_length
+  public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state
 
   integer, parameter, public :: law_tanh_drag = 1  !! tanh; what slid is dragged along
   integer, parameter, public :: law_tanh_reset = 2 !! tanh; the shift is reset where sliding turns

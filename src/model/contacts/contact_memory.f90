@@ -5,7 +5,7 @@ module gfb_contact_memory
   use gfb_contact_set, only: contact_set_type, contact_point_type
   implicit none (type, external)
   private
-  public :: remember_contact, pack_contacts, unpack_contacts
+  public :: pack_contacts, unpack_contacts
 
 contains
 

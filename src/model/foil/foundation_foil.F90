@@ -21,7 +21,7 @@ module gfb_foundation_foil
   use gfb_mesh_dm, only: local_mesh_type
   implicit none (type)
   private
-  public :: build_foundation, create_local_foundation, create_mean_foundation, foundation_stiffness
+  public :: build_foundation, foundation_stiffness
 
   !> The elastic foundation under the film.
   type, extends(foil_model_type), public :: foundation_foil_type

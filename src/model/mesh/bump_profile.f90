@@ -5,7 +5,7 @@ module gfb_bump_profile
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: arc_point, arc_normal, arc_radius
+  public :: arc_point, arc_normal
 
 contains
 

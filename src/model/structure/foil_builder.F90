@@ -27,7 +27,7 @@ module gfb_foil_builder
   implicit none (type)
   private
   public :: build_part, build_top, build_bumps, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
-            plate_fixed_edge, find_symmetry_supports
+            find_symmetry_supports
 
   integer, parameter, public :: axial = 3         !! component of a displacement
   integer, parameter, public :: about_tangent = 5 !! rotation about the second axis

@@ -9,7 +9,7 @@ module gfb_mesh_case
   use gfb_value_rules, only: from_to
   implicit none (type, external)
   private
-  public :: mesh_case_type, read_mesh_case, default_circumferential_elements
+  public :: mesh_case_type, read_mesh_case
 
   integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
   integer, parameter :: elements_around = 240   !! of a pad without bumps

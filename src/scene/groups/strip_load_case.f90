@@ -9,7 +9,7 @@ module gfb_strip_load_case
   use gfb_value_rules, only: any_value, from_to, positive
   implicit none (type, external)
   private
-  public :: strip_load_case_type, read_strip_load_case, crest_pressures, crest_forces
+  public :: strip_load_case_type, read_strip_load_case, crest_forces
   public :: bump_stiffness, typical_deflection
 
   integer, parameter, public :: load_crest_pressure = 1
