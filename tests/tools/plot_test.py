@@ -3,12 +3,15 @@
 Files are made up here with known numbers; one is gfb's own, of a small strip.
 """
 
+import contextlib
+import io
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import h5py
 import numpy
@@ -42,11 +45,24 @@ BEAMS = """&scene analysis = 'fixed_position' /
 """
 
 
-def call(folder, *words):
+def call_command(folder, *words):
     """tools/plot as a user calls it: status, and what it said."""
     done = subprocess.run([sys.executable, PROJECT/"tools/plot", *words], cwd=folder, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
+
+
+def call(folder, *words):
+    """The same in this process, which has loaded what draws."""
+    said = io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), \
+            unittest.mock.patch("sys.argv", ["tools/plot", *words]):
+        try:
+            status = plot_main.main()
+        except SystemExit as end:
+            status = end.code
+    plot_strip.pyplot.close("all")
+    return status, said.getvalue()
 
 
 def used(friction, law="'tanh_drag' ! law (default)"):
@@ -280,8 +296,9 @@ class PlotTest(unittest.TestCase):
             status, said = call(self.folder, *words)
             self.assertEqual((status, said), (0, f"drawn: {picture}\n"))
             self.assertEqual((self.folder/picture).read_bytes()[:4], b"\x89PNG")
-        status, said = call(self.folder, "a_strip.h5", "--list")
+        status, said = call_command(self.folder, "a_strip.h5", "--list")
         self.assertEqual((status, "plate_travel" in said), (0, True))
+        self.assertEqual(call_command(self.folder, "a_strip.h5"), (0, "drawn: a_strip.h5.png\n"))
 
     def test_wrong_calls_are_told(self):
         for words, text in ((("none.h5",), "there is no such file"),
@@ -294,6 +311,8 @@ class PlotTest(unittest.TestCase):
                             (("a_strip_up.h5", "--show", "contact"), "no contacts")):
             status, said = call(self.folder, *words)
             self.assertEqual((status, text in said), (1, True), f"{words}: {said}")
+        status, said = call_command(self.folder, "none.h5")
+        self.assertEqual((status, "there is no such file" in said), (1, True), said)
         status, said = call(self.folder, "a_strip.h5", "--step", "two")
         self.assertEqual((status, "whole numbers" in said), (2, True), said)
 

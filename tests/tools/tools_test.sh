@@ -121,33 +121,31 @@ end module gfb_good
 END
   call "$copy/tools/check"
   expect 0 'are in order' 'good sources pass'
-  # refused FILE TEXT CLAIM: standard input as FILE is refused with TEXT.
-  refused() {
-    mkdir -p -- "$(dirname -- "$copy/$1")"
-    cat >"$copy/$1"
-    call "$copy/tools/check"
-    expect 1 "$2" "$3"
-    rm -- "$copy/$1"
-  }
-  refused src/bad.f90 'bad.f90 is not indented' 'a bad indent' \
-    < <(sed 's/^  private/   private/' "$copy/src/good.f90")
-  refused src/bad.f90 C003 'a rule of fortitude' \
-    < <(sed 's/ (type, external)//' "$copy/src/good.f90")
-  refused src/bad.f90 S001 'a long line' \
-    < <(sed "s/Good/$(printf 'long%.0s' {1..30})/" "$copy/src/good.f90")
-  refused inputs/bad.nml 'tabs' 'a tab' \
-    < <(printf 'a\tb\n')
-  refused README.md 'trailing blanks' 'a trailing blank' \
-    < <(printf 'a \n')
-  refused README.md 'machine' 'a path of a machine' \
-    < <(printf 'see /%s/me/file\n' home)
-  refused tools/bad.py 'does not compile' 'a broken Python file' \
-    < <(printf 'if True\n')
+  # Everything that is refused, in one call: each has words of its own.
+  mkdir -p -- "$copy/inputs"
+  sed 's/^  private/   private/' "$copy/src/good.f90" >"$copy/src/indent.f90"
+  sed 's/ (type, external)//' "$copy/src/good.f90" >"$copy/src/habit.f90"
+  sed "s/Good/$(printf 'long%.0s' {1..30})/" "$copy/src/good.f90" >"$copy/src/line.f90"
+  printf 'a\tb\n' >"$copy/inputs/bad.nml"
+  printf 'a \nsee /%s/me/file\n' home >"$copy/README.md"
+  printf 'if True\n' >"$copy/tools/bad.py"
+  # shellcheck disable=SC2016 # as it stands
+  printf '#!/usr/bin/env bash\nls $1\n' >"$copy/tools/bad.sh"
+  call "$copy/tools/check"
+  expect 1 'src/indent.f90 is not indented' 'a bad indent'
+  expect 1 'src/habit.f90:3:3: C003' 'a rule of fortitude'
+  expect 1 'src/line.f90:1:101: S001' 'a long line'
+  expect 1 'check: tabs' 'a tab'
+  expect 1 'check: trailing blanks' 'a trailing blank'
+  expect 1 "check: a path of somebody's machine" 'a path of a machine'
+  expect 1 'check: a Python file does not compile' 'a broken Python file'
+  failures=6
   if command -v shellcheck >/dev/null; then
-    # shellcheck disable=SC2016 # as it stands
-    refused tools/bad.sh 'shellcheck complains' 'a careless script' \
-      < <(printf '#!/usr/bin/env bash\nls $1\n')
+    expect 1 'check: shellcheck complains' 'a careless script'
+    failures=7
   fi
+  expect 1 "check: $failures of its checks failed" 'nothing else'
+  rm -- "$copy/src/"{indent,habit,line}.f90 "$copy/inputs/bad.nml" "$copy/README.md" "$copy/tools/bad."{py,sh}
   sed 's/^  private/   private  /' "$copy/src/good.f90" >"$copy/src/bad.f90"
   call "$copy/tools/check" --fix
   expect 0 'indented src/bad.f90' '--fix repairs indent and blanks'

@@ -42,7 +42,7 @@ def main():
     parser.add_argument("--reuse", action="store_true", help="take runs of the same case text from --runs")
     parser.add_argument("--jobs", metavar="N", type=int, default=1,
                         help="runs at a time, at most; default: %(default)s")
-    parser.add_argument("--quick", action="store_true", help="without the tables of what the paper leaves open")
+    parser.add_argument("--quick", action="store_true", help="without the tables of what the paper leaves open, and without finer meshes")
     parser.add_argument("--gfb", metavar="PROGRAM", help="the program; default: build/release/gfb")
     parser.add_argument("--output", metavar="DIR", type=pathlib.Path,
                         help="folder of pages and pictures; default: docs/measured/gallery of this checkout")

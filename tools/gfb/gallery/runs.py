@@ -95,7 +95,7 @@ class Runs:
 
     def __init__(self, gfb, folder, reuse=False, jobs=1, quick=False):
         """folder: where each run has a folder of its own; reuse: take runs of the same case text from there;
-        jobs: runs at a time; quick: without variants.
+        jobs: runs at a time; quick: without variants and finer meshes.
         """
         self.gfb, self.folder, self.reuse, self.jobs = gfb, pathlib.Path(folder), reuse, jobs
         self.quick = quick
