@@ -96,7 +96,7 @@ def check_case_2(checks, folder):
               0.2),
              ("six bumps, free, friction 0.1", "six_bumps_both_ends_free_friction_0.1", {"bumps": 6}, 0.1))
     for words, name, foil, friction in cases:
-        loop = squeezed(folder, "loop", friction=friction, bump_foil=foil)
+        loop = squeezed(folder, "loop", friction=friction, steps=20, bump_foil=foil)
         for quantity, wanted, unit in (("maximum_deflection", "w_max_um", 1.0e-6),
                                        ("loading_stiffness", "K_load_N_per_mm", 1.0e3),
                                        ("dissipated_energy", "E_diss_mJ", 1.0e-3)):

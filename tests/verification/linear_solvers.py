@@ -7,13 +7,14 @@ import re
 import subprocess
 import tempfile
 
-from contact_strips import SMALL, pressed, squeezed
+from contact_strips import COARSE, SMALL, pressed, squeezed
 from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summary_difference
 from strips import fields, solve
 
 FACTOR = 1.5  # between estimate and peak, as the log states it
 HELD = {"support": "held", "pressure": 0.2e6, "steps_up": 1}
 FULL = {"reduction": "none"}
+WRITTEN = ("--check",)  # a case that is not solved yet
 UNIT = {"MB": 1.0e6, "GB": 1.0e9}
 
 
@@ -27,7 +28,7 @@ def check_same(checks, folder):
         return pressed(folder, name, mesh=SMALL, model=dict(FULL), strip_load={"pressure": 0.2e6, "steps_up": 2}, **groups)
 
     def rubbing(name, **groups):
-        return pressed(folder, name, top=0.1, sleeve=0.1, mesh=SMALL, model=dict(FULL),
+        return pressed(folder, name, top=0.1, sleeve=0.1, mesh=COARSE, model=dict(FULL),
                        strip_load={"pressure": 0.2e6, "steps_up": 2}, **groups)
 
     def forced(name, **groups):
@@ -63,7 +64,7 @@ def check_growth(checks, folder):
     counts = []
     for name, arc, flat, axial in (("coarse", 8, 2, 48), ("fine", 16, 4, 96)):
         solve(folder, name, strip_load=dict(HELD), model=dict(FULL), solver={"linear_solver": "iterative"},
-              mesh={"arc_elements": arc, "flat_elements": flat, "axial_elements": axial})
+              mesh={"arc_elements": arc, "flat_elements": flat, "axial_elements": axial}, options=WRITTEN)
         counts.append(iterations(pathlib.Path(folder)/f"{name}.nml", folder))
     checks.that(f"iterations {counts[0]}, on half the element size {counts[1]}",
                 counts[0] and counts[1] and max(counts[1]) <= 1.2*max(counts[0]))
@@ -73,10 +74,8 @@ def check_failures(checks, folder):
     """Iterations that do not converge, and factors that do not fit, are sentences and no answers."""
     for solver, words, petsc in (("iterative", "the linear iterations did not converge", ("-strip_ksp_max_it", "2")),
                                  ("direct", "MUMPS ran out of memory", ("-strip_mat_mumps_icntl_23", "1"))):
-        solve(folder, "failing", strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), solver={"linear_solver": solver})
-        for file in pathlib.Path(folder).glob("failing.*"):
-            if file.suffix != ".nml":
-                file.unlink()
+        solve(folder, "failing", strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), solver={"linear_solver": solver},
+              options=WRITTEN)
         status, log = run_with(pathlib.Path(folder)/"failing.nml", folder, *petsc)
         checks.that(f"{solver}: status 2 and '{words}'", status == 2 and words in log)
         checks.that(f"{solver}: no answer is written", not (pathlib.Path(folder)/"failing.summary").exists())
@@ -91,7 +90,7 @@ def estimate(path):
 
 def check_estimates(checks, folder):
     """Estimates and peaks of strips and bearings differ by no more than the stated factor."""
-    middle = {"arc_elements": 24, "flat_elements": 6, "axial_elements": 80}
+    middle = {"arc_elements": 16, "flat_elements": 4, "axial_elements": 64}
     answers = {}
     for solver in ("direct", "out_of_core", "iterative"):
         answers[f"strip, small, {solver}"] = solve(folder, f"small_{solver}", mesh=SMALL, model=dict(FULL),

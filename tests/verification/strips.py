@@ -19,7 +19,7 @@ HELD = {"support": "held"}  # the checks here are those of the linear structure
 MICROMETRE = 1.0e-6
 
 
-def solve(folder, name, ranks=1, status=0, **groups):
+def solve(folder, name, ranks=1, status=0, options=("--quiet",), **groups):
     """Writes a case of the reference strip with changed groups, and runs it; corner lines cannot lift
     where no load is given."""
     content = {"scene": {"analysis": "strip"}, "bump_foil": dict(FOIL), "model": {},
@@ -28,7 +28,7 @@ def solve(folder, name, ranks=1, status=0, **groups):
         content.setdefault(group, {}).update(keys)
     if content["scene"]["analysis"] == "strip" and "strip_load" not in content:
         content["strip_load"] = {"pressure": 0.2e6, **HELD}
-    return gfb_run.solve(folder, name, content, ranks, status=status)
+    return gfb_run.solve(folder, name, content, ranks, options, status)
 
 
 def crests(answer):
