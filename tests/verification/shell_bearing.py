@@ -72,7 +72,7 @@ def displacement(answer, part):
 def check_reference(checks, folder):
     """Both cases of the independent model from a cold start, and what friction does."""
     for edge, wanted in REFERENCE.items():
-        run = solve(folder, edge, mesh=PAPER_MESH, top_foil={"fixed_edge": edge})
+        run = solve(folder, edge, mesh=PAPER_MESH, top_foil={"fixed_edge": edge}, solver={"stability": edge == "trailing"})
         words = f"top foil fixed at the {edge} edge"
         off = run.eccentricity/BEARING.clearance - wanted["eccentricity"]
         checks.below(f"{words}: e_x/C off by", off[0], 3.0e-3)
@@ -87,10 +87,22 @@ def check_reference(checks, folder):
         # The free edge rests on the bumps: the branch the reference calls resting.
         checks.below(f"{words}: leading edge lies on the bumps [um]", run["leading_edge_lift"]/MICROMETRE, 0.5)
         check_balance(checks, words, run)
+        if edge == "trailing":
+            check_resting(checks, words, run)
     smooth, rubbing = (solve(folder, "friction", mesh=COARSE, contact={"friction_top": value, "friction_sleeve": value})
                        for value in (0.0, 0.1))
     rise = (smooth.eccentricity - rubbing.eccentricity)[0]/BEARING.clearance
     checks.within("without friction e_x/C rises by (planar model: 0.111)", rise, 0.09, 0.13)
+
+
+def check_resting(checks, words, run):
+    """A top foil that lies on the bumps has no negative eigenvalue."""
+    checks.that(f"{words}: no mode grows", run["stability"] == 0.0)
+    checks.that(f"{words}: the log calls it stable, and not nearly neutral",
+                "(stable) while the shaft is fixed" in run.log)
+    # As stiff as bumps under the sheet, a part of p_a/C.
+    checks.within(f"{words}: stiffness of the softest mode over p_a/C", run["stability_margin"], 0.05, 1.0)
+    checks.that(f"{words}: determinant positive", run["determinant_sign"] == 1.0)
 
 
 def check_balance(checks, words, run, load=LOAD):
