@@ -1,9 +1,8 @@
-!> Reads a case file into a scene, group by group, and checks what the groups ask of each other.
+!> Reads a case file into a scene, group by group.
 module gfb_scene_reading
   use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: read_accuracy_case, check_accuracy
+  use gfb_accuracy_case, only: read_accuracy_case
   use gfb_bearing_case, only: read_bearing_case
-  use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_bump_foil_case, only: read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
   use gfb_case_text, only: read_case_text
@@ -18,12 +17,8 @@ module gfb_scene_reading
   use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
   use gfb_scene, only: scene_type
-  use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
-                             check_rigid_position, check_strip, check_plates, &
-                             check_friction_memory, check_stability, check_restart, &
-                             check_linear_solver
-  use gfb_shaft_contact_case, only: read_shaft_contact_case, &
-                                    check_shaft_contact
+  use gfb_scene_checks, only: check_groups
+  use gfb_shaft_contact_case, only: read_shaft_contact_case
   use gfb_solver_case, only: read_solver_case
   use gfb_strip_load_case, only: read_strip_load_case
   use gfb_sweep_case, only: read_sweep_case
@@ -64,25 +59,7 @@ contains
     call keys%open_text(words, file)
     call read_groups(keys, scene)
     call keys%finish()
-    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis, &
-                     scene%shaft_contact%present)
-    call check_shaft_contact(keys, scene%shaft_contact, scene%model, scene%operation, scene%sweep, &
-                             scene%general%analysis)
-    call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
-    call check_foundation(keys, scene%model)
-    call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
-    call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
-    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
-                     scene%model)
-    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
-                             scene%general%analysis)
-    call check_plates(keys, scene%strip_load, scene%general%analysis)
-    call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
-    call check_turn_folds(keys, scene%sweep, scene%model)
-    call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
-    call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
+    call check_groups(keys, scene)
     scene%echo = keys%notes%echo
     call keys%report(error)
   end subroutine read_scene_text

@@ -1,0 +1,43 @@
+!> All rules between the groups of a scene, called in one place.
+module gfb_scene_checks
+  use gfb_accuracy_case, only: check_accuracy
+  use gfb_branch_rules, only: check_edge_lift, check_turn_folds
+  use gfb_case_keys, only: case_keys_type
+  use gfb_scene, only: scene_type
+  use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
+                             check_rigid_position, check_strip, check_plates, &
+                             check_friction_memory, check_stability, check_restart, &
+                             check_linear_solver
+  use gfb_shaft_contact_case, only: check_shaft_contact
+  implicit none (type, external)
+  private
+  public :: check_groups
+
+contains
+
+  !> Checks what the groups ask of each other.
+  subroutine check_groups(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis, &
+                     scene%shaft_contact%present)
+    call check_shaft_contact(keys, scene%shaft_contact, scene%model, scene%operation, scene%sweep, &
+                             scene%general%analysis)
+    call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
+    call check_foundation(keys, scene%model)
+    call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
+    call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
+    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
+                     scene%model)
+    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
+                             scene%general%analysis)
+    call check_plates(keys, scene%strip_load, scene%general%analysis)
+    call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
+    call check_turn_folds(keys, scene%sweep, scene%model)
+    call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
+    call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
+    call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
+    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
+  end subroutine check_groups
+end module gfb_scene_checks
