@@ -22,6 +22,7 @@ module gfb_command_line
     character(len=:), allocatable :: table !! name of the result file of several cases
     character(len=:), allocatable :: folder !! where results go
     logical :: check = .false.   !! read, validate, print what the scene needs, stop
+    logical :: strict = .false.  !! warnings about a case file are mistakes
     logical :: branches = .false. !! look for all equilibria
     !> ranks whose shares to show instead of solving; 0: those of the job
     integer :: shares = -1
@@ -36,9 +37,9 @@ module gfb_command_line
     procedure :: context => run_context
   end type command_line_type
 
-  character(len=11), parameter :: options(13) = [character(len=11) :: &
+  character(len=11), parameter :: options(14) = [character(len=11) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
-    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results']
+    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict']
 
 contains
 
@@ -65,6 +66,8 @@ contains
       select case (word)
       case ('--check')
         line%check = .true.
+      case ('--strict')
+        line%strict = .true.
       case ('--branches')
         line%branches = .true.
       case ('--partition')
@@ -214,6 +217,7 @@ contains
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
       '  --check         read and check the case, print what it needs, stop'//next// &
+      '  --strict        a warning about a value of the case is a mistake: status 1'//next// &
       '  --partition     how film and foils are shared out over the ranks of the job, '// &
       'stop;'//next// &
       '                  --partition=N: over N ranks'//next// &

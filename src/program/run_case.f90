@@ -38,7 +38,7 @@ contains
 
     converged = .true.
     context = line%context(log)
-    call read_scene(line%case_file, scene, error)
+    call read_scene(line%case_file, scene, error, line%strict)
     only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
@@ -64,6 +64,7 @@ contains
     call context%log%line(version_text())
     call context%log%line(scene%file//': '//scene%general%title)
     call context%log%line('results go to '//context%folder//', '//text(rank_count())//' rank(s)')
+    if (scene%warnings /= '') call context%log%line(scene%warnings)
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     call create_study(scene, branches, study, error)
     if (allocated(error)) return
@@ -74,5 +75,7 @@ contains
       if (allocated(error)) return
     end if
     call run_study(study, scene, context, summary, error)
+    ! Again, where the answer stands.
+    if (scene%warnings /= '') call context%log%line(scene%warnings)
   end subroutine run_scene
 end module gfb_run_case

@@ -49,7 +49,12 @@ contains
         call check_scene(scenes(i), line%shares, log, error)
         if (allocated(error)) return
       end do
-    else if (size(scenes) == 1) then
+      return
+    end if
+    do i = 1, size(scenes)
+      if (scenes(i)%warnings /= '') call log%line(scenes(i)%warnings)
+    end do
+    if (size(scenes) == 1) then
       call run_divided_sweep(scenes(1), context, job, status)
     else
       call run_scene_table(scenes, line%table, run_scene, context, job, status)
@@ -68,7 +73,7 @@ contains
 
     allocate (scenes(size(line%case_files)))
     do i = 1, size(scenes)
-      call read_scene(line%case_files(i)%path, scenes(i), one)
+      call read_scene(line%case_files(i)%path, scenes(i), one, line%strict)
       if (allocated(one)) call add(one%message, error, one%status)
     end do
   end subroutine read_all

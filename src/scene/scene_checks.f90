@@ -3,12 +3,14 @@ module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_case_keys, only: case_keys_type
+  use gfb_plausible_values, only: check_plausible
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
                              check_rigid_position, check_strip, check_plates, &
                              check_friction_memory, check_stability, check_restart, &
                              check_linear_solver
   use gfb_shaft_contact_case, only: check_shaft_contact
+  use gfb_shape_rules, only: check_shape
   implicit none (type, external)
   private
   public :: check_groups
@@ -39,5 +41,7 @@ contains
     call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
     call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
     call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
+    call check_shape(keys, scene)
+    call check_plausible(keys, scene)
   end subroutine check_groups
 end module gfb_scene_checks

@@ -34,33 +34,36 @@ contains
   !> Reads a case file.
   !>
   !> Fails with all mistakes of the file, one a line.
-  subroutine read_scene(file, scene, error)
+  subroutine read_scene(file, scene, error, strict)
     character(len=*), intent(in) :: file !! name of the case file
     type(scene_type), intent(out) :: scene !! what the case file asks for
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+    logical, intent(in), optional :: strict !! warnings are mistakes
     character(len=:), allocatable :: words
 
     call read_case_text(file, words, error)
     if (allocated(error)) return
-    call read_scene_text(words, file, scene, error)
+    call read_scene_text(words, file, scene, error, strict)
   end subroutine read_scene
 
   !> Reads the text of a case file.
-  subroutine read_scene_text(words, file, scene, error)
+  subroutine read_scene_text(words, file, scene, error, strict)
     character(len=*), intent(in) :: words  !! of the whole file
     character(len=*), intent(in) :: file   !! its name
     type(scene_type), intent(out) :: scene !! what the case file asks for
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+    logical, intent(in), optional :: strict !! warnings are mistakes
     type(case_keys_type) :: keys
 
     scene%file = trim(file)
     scene%name = base_name(scene%file)
     scene%verbatim = words
-    call keys%open_text(words, file)
+    call keys%open_text(words, file, strict)
     call read_groups(keys, scene)
     call keys%finish()
     call check_groups(keys, scene)
     scene%echo = keys%notes%echo
+    scene%warnings = keys%warning_lines()
     call keys%report(error)
   end subroutine read_scene_text
 

@@ -163,7 +163,7 @@ contains
                        '&bump_foil: '//join(missing(:n), ', '))
   end subroutine check_foundation
 
-  !> A bump foil that is meshed: its thickness, its flats, its size.
+  !> A bump foil that is meshed: its flats, its size.
   subroutine check_strip(keys, foil, mesh, modes, analysis, model)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
@@ -171,7 +171,6 @@ contains
     type(modes_case_type), intent(in) :: modes !! what `&modes` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     type(model_case_type), intent(in) :: model !! what `&model` asks for
-    real(wp) :: diameter
     integer(long) :: elements
     logical :: strip, bearing
 
@@ -179,13 +178,6 @@ contains
     if (analysis /= analysis_strip .and. analysis /= analysis_modes .and. .not. bearing) return
     if (analysis == analysis_modes .and. modes%part == part_top_foil) return
     strip = analysis == analysis_strip .or. modes%part == part_strip .or. bearing
-    if (foil%half_length > 0.0_wp .and. foil%height > 0.0_wp) then
-      diameter = (foil%half_length**2 + foil%height**2)/foil%height
-      if (foil%thickness >= diameter) then
-        call keys%complain('bump_foil', 'thickness', 'must be less than the diameter of a '// &
-                           "bump's arc, "//text(diameter)//' m')
-      end if
-    end if
     ! A pitch that is shorter is complained about elsewhere.
     if (foil%half_length > 0.0_wp .and. .not. has_flats(foil) .and. .not. bumps_overlap(foil)) then
       if (analysis == analysis_modes .and. modes%part == part_flat) then

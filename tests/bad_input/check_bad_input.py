@@ -3,8 +3,8 @@
 
     check_bad_input.py GFB_EXECUTABLE
 
-Each `*.nml` beside this script begins with comment lines `! expect: <part of the message>`.
-gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
+Each `*.nml` beside this script begins with comment lines `! expect: <part of the message>`, and may have a line
+`! options: ...` for the command line. gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
 that are no text files (a missing file, a folder, ...) are made in a temporary folder.
 """
 
@@ -65,7 +65,8 @@ def files_with_mistakes():
         expected = [line[len("! expect: "):] for line in lines if line.startswith("! expect: ")]
         if not expected:
             raise SystemExit(f"{path}: no line '! expect: ...'")
-        yield path.stem, ["--check", str(path)], expected
+        options = [word for line in lines if line.startswith("! options: ") for word in line.split()[2:]]
+        yield path.stem, ["--check", *options, str(path)], expected
 
 
 def places_with_mistakes(folder):

@@ -42,7 +42,8 @@ def check_options(checks, folder):
     status, words, wrong = call("--help", folder=folder)
     checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
     checks.that("--help: names every option and the exit status", all(part in words for part in (
-        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--results", "--version", "--petsc", "exit status", "CASE.nml")))
+        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--results", "--strict", "--version", "--petsc",
+        "exit status", "CASE.nml")))
     status, words, wrong = call("--version", folder=folder)
     checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
     status, words, wrong = call("--keys", folder=folder)
@@ -115,6 +116,29 @@ def check_quiet(checks, folder):
     checks.that("--quiet: none", "residual" not in quiet)
     for part in ("what the scene needs", "eccentricity", "minimum gap", "um", "friction torque", "results: "):
         checks.that(f"the log has: {part}", part in loud and part in quiet)
+
+
+def check_warnings(checks, folder):
+    """A value that is hardly meant is told before and after the answer; with --strict it is a mistake. None that come
+    with gfb is."""
+    odd = GOOD.replace("viscosity = 2e-05", "viscosity = 2e-03")
+    (folder/"odd.nml").write_text(odd, encoding="utf-8")
+    told = "warning: odd.nml:"
+    status, words, wrong = call("odd.nml", folder=folder)
+    checks.that("a viscosity a hundred times too large: an answer", odd != GOOD and status == 0 and not wrong)
+    checks.that("its warning, before and after the answer", words.count(told) == 2 and words.count("usual is 3e-6") == 2
+                and words.index(told) < words.index("what the scene needs") < words.index("results: ") < words.rindex(told))
+    status, words, wrong = call("--check", "odd.nml", folder=folder)
+    checks.that("--check: told, in order", status == 0 and words.count(told) == 1 and "in order" in words)
+    for options in ((), ("--check",), ("--check", "--groups", "1")):
+        status, words, wrong = call("--strict", *options, "odd.nml", folder=folder)
+        checks.that(f"--strict {' '.join(options)}: status 1", status == 1 and "odd.nml:" in wrong
+                    and "viscosity = 2e-03: usual is 3e-6" in wrong and "warning" not in words + wrong)
+    shipped = sorted((pathlib.Path(__file__).resolve().parents[2]/"inputs").glob("*.nml"))
+    for path in shipped:
+        status, words, wrong = call("--check", "--strict", path, folder=folder)
+        checks.that(f"{path.name}: no warning {wrong}", status == 0)
+    checks.that("there are such files", len(shipped) > 20)
 
 
 def check_rerun(checks, folder):
@@ -207,7 +231,8 @@ def check_ranks(checks, folder):
 
 def main():
     checks = Checks()
-    for check in (check_options, check_folders, check_quiet, check_rerun, check_kill, check_full_disk, check_ranks):
+    for check in (check_options, check_folders, check_quiet, check_warnings, check_rerun, check_kill,
+                  check_full_disk, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())
     checks.close()

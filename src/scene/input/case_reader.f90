@@ -21,11 +21,13 @@ module gfb_case_reader
   type :: case_reader_type
     type(namelist_file_type) :: file
     type(complaints_type) :: complaints
+    type(complaints_type) :: warnings      !! what need not be a mistake
     type(key_notes_type) :: notes          !! the echo and the table of keys
     type(key_type) :: key                  !! the one that is being read
     type(key_book_type), private :: book   !! the groups and keys there are
     integer, private :: complaints_before = 0 !! the key that is being read
     integer, private :: group_line = 0     !! of the open group, 0 where the file has none
+    logical, private :: strict = .false.   !! warnings are mistakes
   contains
     procedure :: open_text
     procedure :: start_group
@@ -33,6 +35,8 @@ module gfb_case_reader
     procedure :: finish
     procedure :: report
     procedure :: complain
+    procedure :: warn
+    procedure :: warning_lines
     procedure :: meant
     procedure :: last_key_is_right
     procedure :: describe
@@ -46,12 +50,15 @@ module gfb_case_reader
 contains
 
   !> Scans the text of a case file.
-  subroutine open_text(self, words, file)
+  subroutine open_text(self, words, file, strict)
     class(case_reader_type), intent(out) :: self !! the case file being read
     character(len=*), intent(in) :: words !! the whole file
     character(len=*), intent(in) :: file  !! its name, for complaints
+    logical, intent(in), optional :: strict !! warnings are mistakes
 
     self%complaints%file = trim(file)
+    self%warnings%file = trim(file)
+    if (present(strict)) self%strict = strict
     call scan_namelist(words, self%file, self%complaints)
   end subroutine open_text
 
@@ -95,12 +102,24 @@ contains
     call self%book%check_names(self%file, self%complaints)
   end subroutine finish
 
-  !> All mistakes as one error; none where the file is right.
+  !> All mistakes as one error, with the warnings, which may tell why; none where the file is right.
   subroutine report(self, error)
     class(case_reader_type), intent(in) :: self !! the case file being read
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    if (self%complaints%count > 0) call fail(error, self%complaints%report(), status_input)
+    character(len=:), allocatable :: words
+
+    if (self%complaints%count == 0) return
+    words = self%complaints%report()
+    if (self%warnings%count > 0) words = words//new_line('a')//self%warning_lines()
+    call fail(error, words, status_input)
   end subroutine report
+
+  !> All warnings, one a line; empty where there are none.
+  pure function warning_lines(self) result(words)
+    class(case_reader_type), intent(in) :: self !! the case file being read
+    character(len=:), allocatable :: words
+    words = self%warnings%report('warning: ')
+  end function warning_lines
 
   !> Complains about a key whose value does not fit the rest of the scene.
   subroutine complain(self, group, key, rule, element)
@@ -108,33 +127,62 @@ contains
     character(len=*), intent(in) :: group, key !! names in the case file
     character(len=*), intent(in) :: rule      !! what it should be
     integer, intent(in), optional :: element  !! of a list
-    integer, allocatable :: elements(:)
     character(len=:), allocatable :: place
+    integer :: line
+
+    call find_place(self, group, key, line, place, element)
+    call self%complaints%add(line, place//': '//rule)
+  end subroutine complain
+
+  !> Warns of a key whose value is allowed and hardly meant; a mistake where the reader is strict.
+  subroutine warn(self, group, key, words, element)
+    class(case_reader_type), intent(inout) :: self !! the case file being read
+    character(len=*), intent(in) :: group, key !! names in the case file
+    character(len=*), intent(in) :: words     !! what is odd
+    integer, intent(in), optional :: element  !! of a list
+    character(len=:), allocatable :: place
+    integer :: line
+
+    call find_place(self, group, key, line, place, element)
+    if (self%strict) then
+      call self%complaints%add(line, place//': '//words)
+    else
+      call self%warnings%add(line, place//': '//words)
+    end if
+  end subroutine warn
+
+  !> Where a key stands in the file, with its values; without it, where its group begins.
+  subroutine find_place(self, group, key, line, place, element)
+    class(case_reader_type), intent(in) :: self
+    character(len=*), intent(in) :: group, key
+    integer, intent(out) :: line !! of the file, 0 where the group is not there
+    character(len=:), allocatable, intent(out) :: place !! in words
+    integer, intent(in), optional :: element !! of a list
+    integer, allocatable :: elements(:)
     integer :: value, entry
 
+    place = '&'//group//': '//key
     do entry = 1, size(self%file%entries)
       associate (item => self%file%entries(entry))
         if (self%file%group_name(item%group) /= group) cycle
         if (self%file%key_name(entry) /= key) cycle
-        place = '&'//group//': '//key
         if (present(element)) then
           call find_elements(self%file, group, key, longest_list, elements)
           value = 0
           if (size(elements) >= element) value = elements(element)
           if (value > 0) then
-            call self%complaints%add(self%file%values(value)%line, place//'('//text(element)// &
-                                     ') = '//self%file%value_shown(value)//': '//rule)
+            line = self%file%values(value)%line
+            place = place//'('//text(element)//') = '//self%file%value_shown(value)
             return
           end if
         end if
-        call self%complaints%add(item%line, place//' = '// &
-                                 self%file%values_shown(item%first_value, item%last_value)// &
-                                 ': '//rule)
+        line = item%line
+        place = place//' = '//self%file%values_shown(item%first_value, item%last_value)
         return
       end associate
     end do
-    call self%complaints%add(self%book%group_line(group), '&'//group//': '//key//': '//rule)
-  end subroutine complain
+    line = self%book%group_line(group)
+  end subroutine find_place
 
   !> Whether a key stands in the file, be it misspelt; not before `finish`.
   function meant(self, group, key)

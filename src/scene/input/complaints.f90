@@ -47,24 +47,28 @@ contains
   end subroutine add_complaint
 
   !> The mistakes in the order of their lines, one a line.
-  pure function report_complaints(self) result(words)
+  pure function report_complaints(self, label) result(words)
     class(complaints_type), intent(in) :: self !! the mistakes so far
+    character(len=*), intent(in), optional :: label !! what each line begins with
     character(len=:), allocatable :: words
+    character(len=:), allocatable :: name
     integer, allocatable :: order(:)
     integer :: i
 
+    name = shown_name(self%file)
+    if (present(label)) name = label//name
     words = ''
     call sort_by_line(self, order)
     do i = 1, min(size(order), most_shown)
       if (i > 1) words = words//new_line('a')
       associate (complaint => self%kept(order(i)))
-        words = words//shown_name(self%file)//':'
+        words = words//name//':'
         if (complaint%line > 0) words = words//text(complaint%line)//':'
         words = words//' '//complaint%words
       end associate
     end do
     if (self%count > most_shown) then
-      words = words//new_line('a')//shown_name(self%file)//': ... and '// &
+      words = words//new_line('a')//name//': ... and '// &
               text(self%count - most_shown)//' more'
     end if
   end function report_complaints

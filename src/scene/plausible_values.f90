@@ -1,0 +1,193 @@
+!> Values that a case file may have and yet hardly means: most often a number in another unit.
+module gfb_plausible_values
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_key_elements, only: find_elements
+  use gfb_namelist_values, only: read_real, value_string
+  use gfb_scene, only: scene_type
+  use gfb_sweep_case, only: sweep_case_type, sweep_load, sweep_speed, sweep_tilt_x, sweep_tilt_y
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: check_plausible
+
+  !> What is usual of a key's values; signs do not count, and zero is always usual.
+  type :: range_type
+    character(len=13) :: group
+    character(len=22) :: key
+    real(wp) :: low, high       !! smallest and largest usual value [the key's unit]
+    character(len=8) :: unit    !! the key's
+    character(len=19) :: others !! what the number may be meant in: units, the likeliest first
+  end type range_type
+
+  type(range_type), parameter :: ranges(*) = [ &
+    range_type('bearing', 'radius', 1.0e-3_wp, 0.5_wp, 'm', 'mm,um'), &
+    range_type('bearing', 'length', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
+    range_type('bearing', 'clearance', 1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('bearing', 'leading_edge_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('gas', 'viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
+    range_type('gas', 'ambient_pressure', 1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
+    range_type('operation', 'speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
+    range_type('operation', 'eccentricity', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('operation', 'tilt', 0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg'), &
+    range_type('operation', 'leading_edge_lift', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('operation', 'leading_edge_lift_edge', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('top_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('top_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
+    range_type('top_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
+    range_type('bump_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
+    range_type('bump_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
+    range_type('bump_foil', 'half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'width', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
+    range_type('contact', 'friction_top', 0.0_wp, 2.0_wp, '1', '%'), &
+    range_type('contact', 'friction_sleeve', 0.0_wp, 2.0_wp, '1', '%'), &
+    range_type('contact', 'stick_length', 1.0e-12_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('shaft_contact', 'roughness', 1.0e-8_wp, 1.0e-4_wp, 'm', 'um,mm'), &
+    range_type('shaft_contact', 'pressure', 1.0e4_wp, 1.0e11_wp, 'Pa', 'MPa,GPa'), &
+    range_type('shaft_contact', 'friction', 0.0_wp, 2.0_wp, '1', '%'), &
+    range_type('strip_load', 'pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
+    range_type('strip_load', 'bump_pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
+    range_type('strip_load', 'maximum_displacement', 0.0_wp, 1.0e-2_wp, 'm', 'mm,um'), &
+    range_type('model', 'foundation_stiffness', 1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
+    range_type('solver', 'touch_down_gap', 0.0_wp, 1.0e-4_wp, 'm', 'mm,um')]
+
+  !> A unit in which a number may be meant.
+  type :: unit_type
+    character(len=8) :: name
+    real(wp) :: size !! in the key's unit [1]
+  end type unit_type
+
+  type(unit_type), parameter :: units(*) = [ &
+    unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
+    unit_type('mrad', 1.0e-3_wp), unit_type('deg', acos(-1.0_wp)/180.0_wp), &
+    unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
+    unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &
+    unit_type('krpm', 1.0e3_wp), unit_type('%', 1.0e-2_wp), &
+    unit_type('g/cm^3', 1.0e3_wp), unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp)]
+
+  !> No gas film carries a larger load over p_a D L [1].
+  real(wp), parameter :: most_carried = 50.0_wp
+
+contains
+
+  !> Warns of values that are hardly meant, key by key.
+  subroutine check_plausible(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    integer :: i, mistakes
+
+    mistakes = keys%complaints%count + keys%warnings%count
+    do i = 1, size(ranges)
+      call check_values(keys, trim(ranges(i)%group), trim(ranges(i)%key), ranges(i))
+    end do
+    call check_sweep_values(keys, scene%sweep)
+    ! A load that is large against a wrong pressure is not wrong.
+    if (keys%complaints%count + keys%warnings%count == mistakes) call check_load(keys, scene)
+  end subroutine check_plausible
+
+  !> Warns of the first value of a key that is not usual.
+  subroutine check_values(keys, group, key, range)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: group, key !! names in the case file
+    type(range_type), intent(in) :: range      !! of the values
+    integer, allocatable :: elements(:)
+    character(len=:), allocatable :: problem
+    real(wp) :: number
+    integer :: i
+
+    call find_elements(keys%file, group, key, longest_list, elements)
+    do i = 1, size(elements)
+      if (keys%file%values(elements(i))%kind == value_string) cycle
+      call read_real(keys%file%value_text(elements(i)), number, problem)
+      if (problem /= '' .or. is_usual(range, number)) cycle
+      if (size(elements) == 1) then
+        call keys%warn(group, key, range_words(range)//guess(range, number))
+      else
+        call keys%warn(group, key, range_words(range)//guess(range, number), i)
+      end if
+      return
+    end do
+  end subroutine check_values
+
+  !> The values of a sweep are those of what it changes; a start from rest has slow ones, too.
+  subroutine check_sweep_values(keys, sweep)
+    type(case_keys_type), intent(inout) :: keys
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=:), allocatable :: key
+    type(range_type) :: range
+    integer :: i
+
+    if (sweep%parameter == 0 .or. sweep%parameter == sweep_load) return
+    key = 'eccentricity'
+    if (sweep%parameter == sweep_speed) key = 'speed_rpm'
+    if (sweep%parameter == sweep_tilt_x .or. sweep%parameter == sweep_tilt_y) key = 'tilt'
+    do i = 1, size(ranges)
+      if (ranges(i)%group /= 'operation' .or. ranges(i)%key /= key) cycle
+      range = ranges(i)
+      range%low = 0.0_wp
+      call check_values(keys, 'sweep', 'values', range)
+    end do
+  end subroutine check_sweep_values
+
+  !> Warns of a load that no film carries.
+  subroutine check_load(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: carried, loads !! [N] by a film of p_a, at most; asked for
+
+    associate (bearing => scene%bearing)
+      carried = scene%gas%ambient_pressure*2.0_wp*bearing%radius*bearing%length
+    end associate
+    loads = norm2(scene%operation%load)
+    if (.not. carried > 0.0_wp .or. loads <= most_carried*carried) return
+    call keys%warn('operation', 'load', 'is '//text(loads/carried, 3)//' p_a D L; gas films '// &
+                   'carry some p_a D L at most')
+  end subroutine check_load
+
+  !> Whether a value lies where values of its key lie.
+  elemental function is_usual(range, number) result(usual)
+    type(range_type), intent(in) :: range
+    real(wp), intent(in) :: number !! [the key's unit]
+    logical :: usual
+
+    usual = .not. abs(number) > 0.0_wp .or. &
+            (abs(number) >= range%low .and. abs(number) <= range%high)
+  end function is_usual
+
+  !> A range in words.
+  pure function range_words(range) result(words)
+    type(range_type), intent(in) :: range
+    character(len=:), allocatable :: words
+
+    words = 'usual is at most '//text(range%high)
+    if (range%low > 0.0_wp) words = 'usual is '//text(range%low)//' to '//text(range%high)
+    if (range%unit /= '1') words = words//' '//trim(range%unit)
+  end function range_words
+
+  !> The unit in which a number would be usual, as a question; empty where there is none.
+  pure function guess(range, number) result(words)
+    type(range_type), intent(in) :: range
+    real(wp), intent(in) :: number !! [the key's unit]
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: left, name
+    integer :: comma, i
+
+    words = ''
+    left = trim(range%others)
+    do while (left /= '')
+      comma = index(left//',', ',')
+      name = left(:comma - 1)
+      left = left(min(comma, len(left)) + 1:)
+      do i = 1, size(units)
+        if (units(i)%name /= name .or. .not. is_usual(range, number*units(i)%size)) cycle
+        words = '; did you mean '//text(number)//' '//name//' = '//text(number*units(i)%size)
+        if (range%unit /= '1') words = words//' '//trim(range%unit)
+        words = words//'?'
+        return
+      end do
+    end do
+  end function guess
+end module gfb_plausible_values

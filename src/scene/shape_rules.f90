@@ -1,0 +1,109 @@
+!> Sizes for which the model has no meaning: films, foils and bumps are thin against the bearing.
+module gfb_shape_rules
+  use gfb_kinds, only: wp
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: foil_rigid
+  use gfb_scene, only: scene_type
+  use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: check_shape
+
+  real(wp), parameter :: thin = 0.05_wp         !! film or foil, over the radius [1]
+  real(wp), parameter :: thin_in_bump = 0.5_wp  !! foil, over half a bump's chord [1]
+  real(wp), parameter :: low_in_pad = 0.25_wp   !! bump, over the radius of what it lies on [1]
+
+  character(len=*), parameter :: thin_film = ' of the radius: the film is thin and the pad unrolled'
+
+contains
+
+  !> Checks the sizes of a scene against each other; a size that is not known breaks no rule.
+  subroutine check_shape(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    associate (radius => scene%bearing%radius, clearance => scene%bearing%clearance)
+      call must_be_less(keys, 'bearing', 'clearance', clearance, thin*radius, '1/20'//thin_film)
+      call must_be_less(keys, 'top_foil', 'thickness', scene%top_foil%thickness, thin*radius, &
+                        '1/20 of the radius: the foil is a thin shell, unrolled')
+      call must_be_less(keys, 'shaft_contact', 'roughness', scene%shaft_contact%roughness, &
+                        clearance, 'the clearance: beyond it there is no film')
+      call check_bumps(keys, scene%bump_foil, radius)
+    end associate
+    call must_be_less(keys, 'strip_load', 'maximum_displacement', &
+                      scene%strip_load%maximum_displacement, scene%bump_foil%height, &
+                      'the height of the bumps')
+    call check_position(keys, scene)
+  end subroutine check_shape
+
+  !> Bumps are low against the bearing, and their foil is thin against them.
+  subroutine check_bumps(keys, foil, radius)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp), intent(in) :: radius !! of the bearing, 0 where there is none [m]
+    character(len=*), parameter :: group = 'bump_foil'
+
+    if (foil%half_length > 0.0_wp .and. foil%thickness >= thin_in_bump*foil%half_length) then
+      call must_be_less(keys, group, 'thickness', foil%thickness, thin_in_bump*foil%half_length, &
+                        'half of half_length: a bump is a thin shell')
+    else
+      call must_be_less(keys, group, 'thickness', foil%thickness, thin*radius, &
+                        '1/20 of the radius: the foil is a thin shell, unrolled')
+    end if
+    call must_be_less(keys, group, 'height', foil%height, low_in_pad*radius, &
+                      '1/4 of the radius: the strip is unrolled')
+  end subroutine check_bumps
+
+  !> The shaft and the free edge stay near the foil. A rigid pad has a stricter rule of its own.
+  subroutine check_position(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: arm !! of a tilt: half the length [m]
+    integer :: point
+
+    arm = 0.5_wp*scene%bearing%length
+    associate (radius => scene%bearing%radius, operation => scene%operation, sweep => scene%sweep)
+      call must_be_less(keys, 'operation', 'leading_edge_lift', &
+                        operation%leading_edge_lift(1), thin*radius, '1/20'//thin_film)
+      call must_be_less(keys, 'operation', 'leading_edge_lift_edge', &
+                        operation%leading_edge_lift(2), thin*radius, '1/20'//thin_film)
+      if (scene%model%foil == foil_rigid) return
+      call must_be_less(keys, 'operation', 'eccentricity', norm2(operation%eccentricity), &
+                        thin*radius, '1/20'//thin_film)
+      call must_be_less(keys, 'operation', 'tilt', arm*norm2(operation%tilt), thin*radius, &
+                        '1/20'//thin_film, of='at the ends of the bearing')
+      if (.not. allocated(sweep%values)) return
+      do point = 1, size(sweep%values)
+        select case (sweep%parameter)
+        case (sweep_eccentricity_x, sweep_eccentricity_y)
+          call must_be_less(keys, 'sweep', 'values', abs(sweep%values(point)), thin*radius, &
+                            '1/20'//thin_film, point)
+        case (sweep_tilt_x, sweep_tilt_y)
+          call must_be_less(keys, 'sweep', 'values', abs(arm*sweep%values(point)), thin*radius, &
+                            '1/20'//thin_film, point, 'at the ends of the bearing')
+        case default
+          exit
+        end select
+      end do
+    end associate
+  end subroutine check_position
+
+  !> Complains about a size that is not less than its limit; none where the limit is not known.
+  subroutine must_be_less(keys, group, key, value, limit, what, point, of)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: group, key !! names in the case file
+    real(wp), intent(in) :: value              !! the size, or what it makes [m]
+    real(wp), intent(in) :: limit              !! 0 where it is not known [m]
+    character(len=*), intent(in) :: what       !! the limit is, and why
+    integer, intent(in), optional :: point     !! of a list
+    character(len=*), intent(in), optional :: of !! where the value counts
+    character(len=:), allocatable :: words
+
+    if (.not. limit > 0.0_wp .or. value < limit) return
+    words = 'must be less than '//text(limit)//' m'
+    if (present(of)) words = 'moves the sleeve by '//text(value)//' m '//of//'; this '//words
+    call keys%complain(group, key, words//', '//what, point)
+  end subroutine must_be_less
+end module gfb_shape_rules
