@@ -58,7 +58,7 @@ contains
     case (sweep_speed)
       if (analysis /= analysis_equilibrium .or. sweep%hold_position .or. may_rest) return
       do point = 1, size(sweep%values)
-        if (sweep%values(point) > 0.0_wp) cycle
+        if (abs(sweep%values(point)) > 0.0_wp) cycle ! a negative one has been complained about
         call keys%complain('sweep', 'values', 'must be positive: a film without speed carries '// &
                            'no load', point)
       end do

@@ -4,10 +4,15 @@ module gfb_operation_case
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
-  use gfb_value_rules, only: not_negative
+  use gfb_value_rules, only: any_value, not_negative
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed
+
+  character(len=*), parameter, public :: other_sense = &
+    'must not be negative: the shaft turns in +theta. For the other sense mirror the scene: '// &
+    'change the signs of y in load and eccentricity and of the tilt about x, and swap leading '// &
+    'and trailing edges'
 
   real(wp), parameter :: radians_per_second_of_rpm = acos(-1.0_wp)/30.0_wp
 
@@ -36,7 +41,8 @@ contains
                           optional=is_structure(analysis), &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
-                       not_negative, is_bearing(analysis))
+                       any_value, is_bearing(analysis))
+    if (operation%speed_rpm < 0.0_wp) call keys%complain('operation', 'speed_rpm', other_sense)
     if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &
         .not. (operation%speed_rpm > 0.0_wp .or. may_rest)) then
       call keys%complain('operation', 'speed_rpm', 'must be positive: a film without speed '// &

@@ -2,7 +2,7 @@
 module gfb_sweep_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
-  use gfb_operation_case, only: operation_case_type
+  use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
@@ -41,16 +41,21 @@ contains
     type(sweep_case_type), intent(out) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
     type(rule_type) :: rule
+    integer :: point
 
     call keys%start_group('sweep', optional=.true., present_in_file=sweep%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%choice_key('parameter', sweep%parameter, parameter_words, &
                          'what is varied; load: its magnitude, in the direction of `load`', .true.)
     rule = any_value
-    if (sweep%parameter == sweep_load .or. sweep%parameter == sweep_speed) rule = not_negative
+    if (sweep%parameter == sweep_load) rule = not_negative
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
                             'values of the parameter, in the order in which they are computed', &
                             rule)
+    do point = 1, size(sweep%values)
+      if (sweep%parameter /= sweep_speed .or. .not. sweep%values(point) < 0.0_wp) cycle
+      call keys%complain('sweep', 'values', other_sense, point)
+    end do
     call keys%logical_key('hold_position', sweep%hold_position, &
                           'hold the shaft where the equilibrium at `&operation` is')
     call keys%logical_key('turn_folds', sweep%turn_folds, &

@@ -3,7 +3,7 @@ module gfb_key_elements
   use gfb_kinds, only: long
   use gfb_complaints, only: complaints_type
   use gfb_namelist_file, only: namelist_file_type, bad_index
-  use gfb_namelist_values, only: value_word
+  use gfb_namelist_values, only: value_number, value_word
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -87,7 +87,8 @@ contains
         call complain('the index must lie between 1 and '//text(most))
       else if (first - 1 + n > size(filled)) then
         call complain('takes '//most_words(size(filled))//', not '//text(first - 1 + n)// &
-                      missing_equals(file, item%first_value + 1, item%last_value))
+                      missing_equals(file, item%first_value + 1, item%last_value)// &
+                      decimal_comma(file, item%first_value, item%last_value))
       else
         element = first
         do value = item%first_value, item%last_value
@@ -140,6 +141,28 @@ contains
     words = ''
     if (element > 0) words = '('//text(element)//')'
   end function index_shown
+
+  !> A hint where two values look like one number with a comma: digits, comma, digits.
+  pure function decimal_comma(file, first, last) result(words)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: first, last
+    character(len=:), allocatable :: words
+    integer :: value
+
+    words = ''
+    do value = first, last - 1
+      associate (whole => file%values(value), part => file%values(value + 1))
+        if (whole%kind /= value_number .or. part%kind /= value_number) cycle
+        if (part%first /= whole%last + 2) cycle ! a blank beside the comma, or a repeat count
+        if (file%words(whole%last + 1:whole%last + 1) /= ',') cycle
+        if (verify(file%value_text(value), '+-0123456789') > 0) cycle
+        if (verify(file%words(part%first:part%first), '0123456789') > 0) cycle
+        words = '; a number has a decimal point, no comma: '//file%value_shown(value)//'.'// &
+                file%value_shown(value + 1)
+      end associate
+      return
+    end do
+  end function decimal_comma
 
   !> A hint where a word among values looks like a key.
   pure function missing_equals(file, first, last) result(words)

@@ -81,6 +81,8 @@ contains
         call take_comma(self, i, complaints)
       else if (token%kind == token_word .or. token%kind == token_string) then
         call take_value(self, i, complaints)
+      else if (self%in_entry .and. (token%kind == token_open .or. token%kind == token_close)) then
+        call take_parenthesis(self, i, complaints)
       else
         call complaints%add(token%line, place(self)//"unexpected '"//token_words(self, i)//"'")
         self%told = .true.
@@ -227,6 +229,21 @@ contains
     end if
     self%after_comma = .true.
   end subroutine take_comma
+
+  !> Takes a parenthesis among values, which are none of a language's tuples.
+  pure subroutine take_parenthesis(self, i, complaints)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: i
+    type(complaints_type), intent(inout) :: complaints
+    character(len=:), allocatable :: key
+
+    if (self%told) return
+    key = shown(self%file%key_name(self%n_entries))
+    call complaints%add(self%tokens(i)%line, place(self)//key//": unexpected '"// &
+                        token_words(self, i)//"'; values stand without parentheses: "//key// &
+                        ' = 1.0, 2.0')
+    self%told = .true.
+  end subroutine take_parenthesis
 
   !> Takes a value, with its repeat count where it has one.
   pure subroutine take_value(self, i, complaints)
