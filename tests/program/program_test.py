@@ -55,6 +55,8 @@ def check_options(checks, folder):
         "| `minimum_gap` | m | bearing |", "`crest_deflection_<n>`", "| `force_x`, `force_y` | N |")))
     status, words, wrong = call("--check", "good.nml", folder=folder)
     checks.that("--check: says what the scene needs", status == 0 and "48 x 8" in words and "in order" in words)
+    checks.that("--check: numbers without unit", all(f"{line}\n" in words for line in (
+        "C/R: 0.001", "(R/C)^2: 2", "load over p_a D L: 0.125")))
     checks.that("--check: leaves nothing behind", sorted(os.listdir(folder)) == ["good.nml"])
     status, words, wrong = call("--partition=3", "good.nml", folder=folder)
     rows = [line.split() for line in words.splitlines() if re.match(r"^ +[0-2] +\d+ +0 +\d+ +[\d.]+$", line)]

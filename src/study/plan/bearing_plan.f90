@@ -23,6 +23,7 @@ module gfb_bearing_plan
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_memory_estimate, only: film_memory, bearing_memory
   use gfb_memory_check, only: show_memory
+  use gfb_scene_numbers, only: show_numbers
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -50,6 +51,7 @@ contains
     plan%axial = scene%mesh%axial_elements
     plan%floats = scene%general%analysis == analysis_equilibrium
     call log%heading('what the scene needs')
+    call show_numbers(scene, log)
     call describe_foil(scene, log)
     call choose_width(scene, log, plan)
     call choose_scheme(scene, log, plan)
