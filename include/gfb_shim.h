@@ -13,4 +13,8 @@ PetscErrorCode gfb_create_plex(MPI_Fint communicator, PetscInt cells, PetscInt v
    parts, and the cells of each part one after the other. */
 PetscErrorCode gfb_set_shell_partition(intptr_t dm, PetscInt parts, const PetscInt sizes[], const PetscInt cells[]);
 
+/* All options that PETSc knows now, names and values with blanks between, as far as `length` characters hold them
+   with the closing zero. */
+PetscErrorCode gfb_all_options(char words[], size_t length);
+
 #endif

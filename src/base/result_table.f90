@@ -280,6 +280,9 @@ module gfb_result_table
     result_type('libraries', '', word, origin, 'versions of the solver libraries'), &
     result_type('blas', '', word, origin, 'library of the dense kernels'), &
     result_type('command', '', word, origin, 'command line', varies=.true.), &
+    result_type('petsc_options', '', word, origin, 'options of PETSc that were given', &
+      'options of PETSc from `PETSC_OPTIONS`, an options file or `--petsc`, where they can '// &
+      'change the answer or its cost; absent without them'), &
     result_type('host', '', word, origin, 'machine of the first rank', varies=.true.), &
     result_type('date', '', word, origin, 'when it was written', varies=.true.), &
     result_type('ranks', '1', total, origin + ensemble, 'processes of the job'), &

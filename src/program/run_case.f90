@@ -64,6 +64,9 @@ contains
     call context%log%line(version_text())
     call context%log%line(scene%file//': '//scene%general%title)
     call context%log%line('results go to '//context%folder//', '//text(rank_count())//' rank(s)')
+    if (context%petsc_options /= '') then
+      call context%log%line('options given to PETSc: '//context%petsc_options)
+    end if
     if (scene%warnings /= '') call context%log%line(scene%warnings)
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     call create_study(scene, branches, study, error)

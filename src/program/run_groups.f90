@@ -51,6 +51,9 @@ contains
       end do
       return
     end if
+    if (context%petsc_options /= '') then
+      call log%line('options given to PETSc: '//context%petsc_options)
+    end if
     do i = 1, size(scenes)
       if (scenes(i)%warnings /= '') call log%line(scenes(i)%warnings)
     end do

@@ -19,7 +19,7 @@ module gfb_scene_table
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
   use gfb_group_log, only: open_group_log, close_group_log
-  use gfb_provenance, only: provenance, version_text
+  use gfb_provenance, only: version_text
   implicit none (type)
   private
   public :: run_scene_table, scene_runner
@@ -167,7 +167,7 @@ contains
       call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do
     stem = context%folder//'/'//name
-    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, provenance(context%command), summary, members, &
+    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, context%origin(), summary, members, &
                           file, error)
     if (.not. allocated(error)) call keep_result_file(file, error)
     if (allocated(error)) then

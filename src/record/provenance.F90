@@ -25,8 +25,9 @@ contains
   end function program_words
 
   !> What the result file says of its origin.
-  function provenance(command) result(list)
+  function provenance(command, petsc_options) result(list)
     character(len=*), intent(in) :: command !! the whole command line
+    character(len=*), intent(in), optional :: petsc_options !! that were given; empty: none
     type(quantity_type), allocatable :: list(:)
 
     call add_result(list, 'program_version', GFB_VERSION)
@@ -36,6 +37,9 @@ contains
     call add_result(list, 'libraries', petsc_version_text())
     call add_result(list, 'blas', blas_in_use())
     call add_result(list, 'command', command)
+    if (present(petsc_options)) then
+      if (petsc_options /= '') call add_result(list, 'petsc_options', petsc_options)
+    end if
     call add_result(list, 'host', host_name())
     call add_result(list, 'date', date_text())
     call add_result(list, 'ranks', rank_count())

@@ -6,6 +6,8 @@ module gfb_run_context
   use gfb_errors, only: error_type, fail
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: this_rank, any_rank
+  use gfb_provenance, only: provenance
+  use gfb_quantity, only: quantity_type
   use gfb_scene, only: scene_type
   use gfb_text_file, only: folder_is_writable
   use gfb_restart, only: restart_type, find_restart_file => find_restart
@@ -33,6 +35,7 @@ module gfb_run_context
   type, public :: run_context_type
     character(len=:), allocatable :: folder  !! where the results go
     character(len=:), allocatable :: command !! the whole command line
+    character(len=:), allocatable :: petsc_options !! that were given; not allocated: not asked
     logical :: resumes = .false.             !! from the scene's restart file, where there is one
     real(wp) :: start_time = 0.0_wp          !! of the run [s]
     type(run_log_type) :: log
@@ -40,6 +43,7 @@ module gfb_run_context
     class(run_listener_type), pointer :: listener => null()
   contains
     procedure :: find_restart
+    procedure :: origin
     procedure :: point_done
   end type run_context_type
 
@@ -57,6 +61,14 @@ contains
     call find_restart_file(scene, self%folder, self%resumes, self%command, self%log, &
                            self%restart, error)
   end subroutine find_restart
+
+  !> What the result files say of their origin.
+  function origin(self) result(list)
+    class(run_context_type), intent(in) :: self !! the context
+    type(quantity_type), allocatable :: list(:)
+
+    list = provenance(self%command, self%petsc_options)
+  end function origin
 
   !> A point of a sweep has its answer: for who listens.
   subroutine point_done(self, words)

@@ -11,6 +11,8 @@ import sys
 import tempfile
 import time
 
+import h5py
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
 from gfb_run import (GFB, MPIEXEC, Bearing, Checks, case_text, natural_sizes, run, run_file,  # noqa: E402
                      summary_difference)
@@ -26,13 +28,13 @@ PLATE = """&scene analysis='modes' /
 SECONDS = 120
 
 
-def call(*words, folder, ranks=1):
+def call(*words, folder, ranks=1, environment=None):
     """Status, output and error stream."""
     command = [GFB, *map(str, words)]
     if ranks > 1:
         command = [MPIEXEC, "-n", str(ranks), *command]
     done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS,
-                          check=False)
+                          check=False, env={**os.environ, **(environment or {})})
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 
@@ -143,6 +145,22 @@ def check_warnings(checks, folder):
     checks.that("there are such files", len(shipped) > 20)
 
 
+def check_petsc_options(checks, folder):
+    """Options that PETSc has from elsewhere are told where they can change the solver, and only there."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    for words_given, expected in (("-log_view :profile -bearing_snes_max_it 30", "-bearing_snes_max_it 30"),
+                                  ("-log_view :profile", "")):
+        status, words, _ = call("--output", ".", "good.nml", folder=folder, environment={"PETSC_OPTIONS": words_given})
+        with h5py.File(folder/"good.h5") as file:
+            kept = file["provenance/petsc_options"][()].decode() if "petsc_options" in file["provenance"] else ""
+        checks.that(f"PETSC_OPTIONS={words_given}: '{kept}' in the file", status == 0 and kept == expected)
+        checks.that("in the log, too", ("options given to PETSc: " + expected + "\n" in words) == bool(expected))
+    (folder/"petscrc").write_text("-bearing_ksp_type gmres # an experiment\n", encoding="utf-8")
+    status, words, _ = call("good.nml", "--petsc", "-bearing_snes_max_it", "30", folder=folder)
+    checks.that("from a file and the command line", "-bearing_snes_max_it 30" in words and (
+        "-bearing_ksp_type gmres" in words))
+
+
 def check_rerun(checks, folder):
     """The echo computes the same again, and echoes itself."""
     cases = {
@@ -233,7 +251,7 @@ def check_ranks(checks, folder):
 
 def main():
     checks = Checks()
-    for check in (check_options, check_folders, check_quiet, check_warnings, check_rerun, check_kill,
+    for check in (check_options, check_folders, check_quiet, check_warnings, check_petsc_options, check_rerun, check_kill,
                   check_full_disk, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())

@@ -27,3 +27,14 @@ PetscErrorCode gfb_set_shell_partition(intptr_t dm, PetscInt parts, const PetscI
   PetscCall(PetscPartitionerShellSetPartition(partitioner, parts, sizes, cells));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode gfb_all_options(char words[], size_t length)
+{
+  char *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetAll(NULL, &all));
+  PetscCall(PetscStrncpy(words, all, length));
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(0);
+}

@@ -17,7 +17,6 @@ module gfb_bearing_study
   use gfb_bearing_record, only: analysis_name
   use gfb_bearing_summary, only: cost_type, answer_quantities
   use gfb_contact_record, only: foil_contact_arrays
-  use gfb_provenance, only: provenance
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
   use gfb_sweep, only: sweep_type
@@ -90,7 +89,7 @@ contains
     result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, self%factorizations_finest, &
                             wall_time() - context%start_time, memory(1))
     result%ranks = rank_count()
-    result%origin = provenance(context%command)
+    result%origin = context%origin()
     associate (record => self%sweep%record)
       result%contacts = foil_contact_arrays(self%sweep%bearing%pad(1)%foil, record%contacts, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)

@@ -19,7 +19,6 @@ module gfb_branches_writing
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_output, only: add_foil_grids
   use gfb_contact_record, only: foil_contact_arrays
-  use gfb_provenance, only: provenance
   use gfb_run_context, only: run_context_type
   use gfb_answer_judgement, only: judge_answer
   implicit none (type, external)
@@ -58,7 +57,7 @@ contains
                       bearing%unknowns, newton%iterations, newton%factorizations, &
                       newton%factorizations - newton%factorizations_before, &
                       wall_time() - context%start_time, peak_memory())))
-    call write_result_set(scene, context%folder, .true., provenance(context%command), summary, record%history, &
+    call write_result_set(scene, context%folder, .true., context%origin(), summary, record%history, &
                           foil_contact_arrays(bearing%pad(1)%foil, record%contacts, size(record%history)), grids, context%log, error)
   end subroutine write_branches
 

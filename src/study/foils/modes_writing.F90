@@ -20,7 +20,7 @@ module gfb_modes_writing
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement
-  use gfb_provenance, only: provenance, blas_in_use
+  use gfb_provenance, only: blas_in_use
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
@@ -62,7 +62,7 @@ contains
     call add_quantity(history(1)%quantity, cost_quantities(component, context%start_time))
     call add_quantity(summary, history(1)%quantity)
     call add_quantity(summary, found%reduced)
-    call write_result_set(scene, context%folder, found%converged, provenance(context%command), summary, history, &
+    call write_result_set(scene, context%folder, found%converged, context%origin(), summary, history, &
                           found%arrays, [grid], context%log, error)
   end subroutine write_modes
 

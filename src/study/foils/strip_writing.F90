@@ -20,7 +20,7 @@ module gfb_strip_writing
   use gfb_strip_record, only: strip_run_type
   use gfb_strip_companions, only: strip_companions, show_companions, companion_arrays
   use gfb_contact_record, only: contact_arrays
-  use gfb_provenance, only: provenance, blas_in_use
+  use gfb_provenance, only: blas_in_use
   use gfb_run_context, only: run_context_type
   use gfb_load_steps, only: load_steps_type
   implicit none (type)
@@ -106,7 +106,7 @@ contains
       call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
       arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
       call add_arrays(arrays, companion_arrays(run%companions))
-      call write_result_set(scene, context%folder, run%converged, provenance(context%command), summary, run%history, &
+      call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
                             arrays, [grid], context%log, error)
     end associate
   end subroutine write_files

@@ -19,7 +19,7 @@ module gfb_divided_sweep
   use gfb_bearing_summary, only: cost_type
   use gfb_contact_record, only: foil_contact_arrays
   use gfb_restart, only: drop_restart
-  use gfb_provenance, only: provenance, version_text
+  use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type
   use gfb_reasons, only: reason_failed
   use gfb_bearing_study, only: bearing_study_type
@@ -258,7 +258,7 @@ contains
     type(quantity_type), allocatable :: list(:)
     integer :: i
 
-    list = provenance(context%command)
+    list = context%origin()
     do i = 1, size(list)
       if (list(i)%name == 'ranks') list(i)%number = real(job%ranks, wp)
     end do
