@@ -18,7 +18,7 @@ LIMIT = 1.0e-8
 BEARING = Bearing()
 MESH = (48, 8)
 UNIT = BEARING.force_unit
-SPRINGS = {"foundation_stiffness": 2.0*BEARING.ambient_pressure/BEARING.clearance}
+SPRINGS = {"foundation_stiffness": 2.0*BEARING.ambient_pressure/BEARING.clearance, "foundation_pressure": "local"}
 PLACE = (0.3*BEARING.clearance, 0.5*BEARING.clearance)
 LOAD = (-0.4*UNIT, 0.1*UNIT)
 # A sweep that tilts about the other axis too knows its secants by its first point alone.

@@ -113,7 +113,8 @@ def check_turned(checks, folder):
     """A ring that is turned with its shaft has the turned angular stiffness."""
     place = 0.6*RING.clearance
     for words, (foil, model) in {"rigid": ("rigid", {}), "springs": (
-            "elastic_foundation", {"foundation_stiffness": RING.ambient_pressure/RING.clearance})}.items():
+            "elastic_foundation", {"foundation_stiffness": RING.ambient_pressure/RING.clearance,
+                                   "foundation_pressure": "local"})}.items():
         found = []
         for angle in (0.0, 2.0*math.pi*5.0/64.0):
             found.append(matrix(run(

@@ -14,7 +14,8 @@ RING = Bearing(leading_edge_condition="periodic")
 STIFFNESS = 2.0*BEARING.ambient_pressure/BEARING.clearance
 PLACE = (0.3*BEARING.clearance, 0.5*BEARING.clearance)
 LOAD = (-0.4*BEARING.force_unit, 0.1*BEARING.force_unit)
-LOCAL = {"foil": "elastic_foundation", "groups": {"model": {"foundation_stiffness": STIFFNESS}}}
+LOCAL = {"foil": "elastic_foundation", "groups": {"model": {"foundation_stiffness": STIFFNESS,
+                                                            "foundation_pressure": "local"}}}
 MEAN = {"foil": "elastic_foundation", "groups": {"model": {"foundation_stiffness": STIFFNESS,
                                                            "foundation_pressure": "axial_mean"}}}
 

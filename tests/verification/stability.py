@@ -103,7 +103,7 @@ def force_slope(folder, eccentricity, **groups):
 def check_determinants(checks, folder):
     """Where the foils are stable the determinant has the sign of the force's slopes by the position."""
     scenes = {"rigid": {"foil": "rigid"}, "beams": {"foil": "beam"},
-              "foundation": {"foil": "elastic_foundation", "foundation_stiffness": 5.0e9}}
+              "foundation": {"foil": "elastic_foundation", "foundation_stiffness": 5.0e9, "foundation_pressure": "local"}}
     for words, model in scenes.items():
         groups = {"model": model}
         if words != "beams":

@@ -62,7 +62,7 @@ module gfb_model_case
     integer :: film_order = film_order_bilinear
     integer :: coupling = coupling_monolithic    !! film and foil together, or in turns
     real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
-    integer :: foundation_pressure = foundation_pressure_local
+    integer :: foundation_pressure = foundation_pressure_axial_mean
   end type model_case_type
 
 contains
@@ -92,7 +92,8 @@ contains
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
     call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
-                         'what deflects the foundation: the pressure there, or its axial mean')
+                         'what deflects the foundation: the pressure at each point, which '// &
+                         'leaves the edges undeflected, or its mean along the axis')
     if (model%coupling == coupling_partitioned .and. model%foil == foil_elastic_foundation .and. &
         model%foundation_pressure == foundation_pressure_local) then
       call keys%complain('model', 'coupling', "cannot be 'partitioned' where "// &

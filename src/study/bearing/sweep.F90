@@ -6,6 +6,7 @@ module gfb_sweep
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_scene, only: scene_type
+  use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: operation_at
   use gfb_petsc_session, only: wall_time
@@ -160,6 +161,10 @@ contains
     reason%detail = report%reason
     associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)
       call log%line(reason%words())
+      if (has_stiff_edges(self%scene)) then
+        call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do not deflect and may '// &
+                      'touch first; ''axial_mean'' in &model lets them')
+      end if
       select case (reason%code)
       case (reason_fixed_shaft)
         call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)// &
@@ -175,6 +180,15 @@ contains
       end select
     end associate
   end subroutine explain
+
+  !> Whether the pad's edges stay where they are: on springs that feel the ambient pressure there.
+  pure function has_stiff_edges(scene)
+    type(scene_type), intent(in) :: scene
+    logical :: has_stiff_edges
+
+    has_stiff_edges = scene%model%foil == foil_elastic_foundation .and. &
+                      scene%model%foundation_pressure == foundation_pressure_local
+  end function has_stiff_edges
 
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
   subroutine show_progress(context, scene, point, begun)
