@@ -52,14 +52,14 @@ contains
     if (.not. sweep%turn_folds) return
     if (sweep%friction_memory) then
       call keys%complain('sweep', 'turn_folds', 'has no use beside friction_memory: what slid '// &
-                         'must not depend on the way round a fold')
+                         'must not depend on the path round a fold')
     end if
     if (model%coupling == coupling_partitioned) then
       call keys%complain('sweep', 'turn_folds', "needs coupling = 'monolithic' in &model")
     end if
     if (.not. allocated(sweep%values)) return
     if (size(sweep%values) == 1) then
-      call keys%complain('sweep', 'turn_folds', 'needs two values at least, the ends of the way')
+      call keys%complain('sweep', 'turn_folds', 'needs two values at least, the ends of the path')
     else if (size(sweep%values) > 1) then
       change = sweep%values(2:) - sweep%values(:size(sweep%values) - 1)
       if (any(change*change(1) <= 0.0_wp)) then

@@ -39,8 +39,8 @@ contains
 
     if (.not. sweep%present .or. analysis == 0) return
     if (sweep%hold_position .and. analysis /= analysis_equilibrium) then
-      call keys%complain('sweep', 'hold_position', "needs analysis = 'equilibrium': it holds "// &
-                         'the shaft where the equilibrium at &operation is')
+      call keys%complain('sweep', 'hold_position', "needs analysis = 'equilibrium': it fixes "// &
+                         'the shaft at its equilibrium at &operation')
     end if
     select case (sweep%parameter)
     case (sweep_load)
@@ -110,7 +110,7 @@ contains
     if (output%restart_every == 0 .or. analysis == 0) return
     if (analysis /= analysis_strip .and. .not. sweep%present) then
       call keys%complain('output', 'restart_every', "needs a &sweep, or analysis = 'strip': "// &
-                         'nothing else has steps to go on from')
+                         'nothing else has steps to resume from')
     end if
   end subroutine check_restart
 

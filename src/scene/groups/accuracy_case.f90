@@ -32,12 +32,13 @@ contains
                           misplaced=misplaced_group(analysis, is_bearing(analysis) .or. &
                                                     analysis == analysis_strip))
     call keys%choice_key('quantity', accuracy%quantity, asked_names(), &
-                         'the number that must be known so well', accuracy%present)
+                         'result whose error is estimated', accuracy%present)
     call keys%real_key('target', accuracy%target, '1', &
-                       'error allowed, over the number itself; meshes are refined until the '// &
+                       'error allowed, relative to the result; meshes are refined until the '// &
                        'estimate meets it', between(0.0_wp, 1.0_wp))
     call keys%integer_key('maximum_refinements', accuracy%maximum_refinements, &
-                          'of a mesh four times as coarse as `&mesh` says, each by two', &
+                          'refinements, each by two, of a first mesh that is four times '// &
+                          'coarser than `&mesh`', &
                           from_to(2.0_wp, 8.0_wp))
     call keys%finish_group()
   end subroutine read_accuracy_case
@@ -60,8 +61,8 @@ contains
       call keys%complain('accuracy', 'quantity', 'needs a scene of one answer, without &sweep')
     end if
     if (output%restart_every > 0) then
-      call keys%complain('accuracy', 'quantity', 'is found on several meshes: no restart file '// &
-                         'goes on with them, so restart_every must be 0')
+      call keys%complain('accuracy', 'quantity', 'is found on several meshes, which no restart '// &
+                         'file resumes: restart_every must be 0')
     end if
   end subroutine check_accuracy
 

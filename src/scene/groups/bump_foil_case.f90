@@ -71,7 +71,7 @@ contains
                        with_width, default='required for strips; a bearing''s length')
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
-                         'how the strip begins at its fixed edge')
+                         'the strip begins at its fixed edge with an arc, a flat, or half a flat')
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
 

@@ -70,7 +70,7 @@ contains
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &
                           present_in_file=contact%present, misplaced=misplaced)
     call keys%real_key('exponent', contact%exponent, '1', &
-                       'of the penetration in the normal force', from_to(1.0_wp, 3.0_wp))
+                       'exponent of the penetration in the normal force', from_to(1.0_wp, 3.0_wp))
     contact%normal_stiffness = default_stiffness(deflection, foil, contact%exponent)
     call scene_key('normal_stiffness', contact%normal_stiffness, 'N/m^(1+exponent)', &
                    'normal force per metre of contact line over penetration^exponent', &
@@ -85,14 +85,15 @@ contains
     end if
     contact%stick_length = merge(stick_in_bearing, stick_part, bearing)*deflection
     call scene_key('stick_length', contact%stick_length, 'm', &
-                   'tangential way at which friction turns from stick to slip', &
+                   'tangential displacement at which a contact goes from stick to slip', &
                    '1/5000 of the typical deflection; bearings: 1/300 of the clearance')
     call keys%choice_key('friction_law', contact%friction_law, law_words, &
-                         'what sticks is dragged along, starts anew at a reversal, or sticks '// &
-                         'elastically')
+                         'smoothed law whose stick point is dragged along by the slip, the '// &
+                         'same with a new start at each reversal, or elastic sticking up '// &
+                         'to Coulomb''s limit')
     call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
-                         "against the slip in the tangent plane, or along the shaft's motion "// &
-                         'alone as planar models have it')
+                         'friction opposes the slip in the tangent plane, or acts along the '// &
+                         "shaft's motion alone, as in planar models")
     call keys%finish_group()
 
   contains

@@ -63,8 +63,8 @@ contains
                 foil%half_length > 0.0_wp .and. foil%height > 0.0_wp
     mesh%align_crests = can_align
     call keys%logical_key('align_crests', mesh%align_crests, &
-                          'lines of nodes of film and top foil above the crests; their number '// &
-                          'then follows circumferential_elements nearly', &
+                          'put lines of nodes of film and top foil above the crests; the '// &
+                          'number of elements is then near circumferential_elements', &
                           default='`.true.` for shells and beams with bumps')
     if (mesh%align_crests .and. .not. can_align .and. model%foil > 0) then
       call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch, "// &

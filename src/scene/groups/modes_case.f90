@@ -34,9 +34,9 @@ contains
 
     call keys%start_group('modes', optional=analysis /= analysis_modes, &
                           misplaced=misplaced_group(analysis, analysis == analysis_modes))
-    call keys%integer_key('count', modes%count, 'modes wanted, the lowest', &
+    call keys%integer_key('count', modes%count, 'number of modes, from the lowest frequency up', &
                           from_to(1.0_wp, 1000.0_wp))
-    call keys%choice_key('part', modes%part, part_words, 'what vibrates')
+    call keys%choice_key('part', modes%part, part_words, 'component that vibrates')
     call keys%integer_key('substructure_modes', modes%substructure_modes, &
                           'fixed-interface modes kept in every super-element of a strip '// &
                           '(Craig-Bampton)', from_to(0.0_wp, 1000.0_wp))

@@ -52,15 +52,16 @@ contains
                               required=analysis == analysis_equilibrium, &
                               default='required for an equilibrium', given=operation%load_given)
     call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
-                              'the sleeve relative to the shaft, x and y: held, or to start at', &
+                              'position of the sleeve relative to the shaft, x and y: fixed, '// &
+                              'or where the search for an equilibrium starts', &
                               required=analysis == analysis_fixed_position, &
                               default='required for a fixed position', &
                               given=operation%eccentricity_given)
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
-                              'the sleeve relative to the shaft, about x and y')
+                              'rotation of the sleeve relative to the shaft, about x and y')
     call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
-                       'start on the equilibrium whose top foil''s free leading edge is lifted '// &
-                       'so much at the midplane, towards the shaft', not_negative, &
+                       'look for the equilibrium whose top foil''s free leading edge is lifted '// &
+                       'this far towards the shaft at the midplane', not_negative, &
                        default=no_default, given=operation%lift_given(1))
     call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
                        'the same at the ends of the bearing', not_negative, default=no_default, &

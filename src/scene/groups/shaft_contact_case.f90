@@ -35,10 +35,11 @@ contains
     call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%real_key('roughness', contact%roughness, 'm', &
-                       'mean height of the asperities of shaft and foil together: over each so '// &
-                       'much more film their pressure falls by e', positive, .true.)
+                       'roughness height s of shaft and foil together: asperities carry the '// &
+                       'pressure p_0 exp(-h/s) where the film has the thickness h', &
+                       positive, .true.)
     call keys%real_key('pressure', contact%pressure, 'Pa', &
-                       'pressure of the asperities where the film is gone', positive, .true.)
+                       'pressure p_0 of the asperities at zero film thickness', positive, .true.)
     call keys%real_key('friction', contact%friction, '1', &
                        'friction coefficient of the asperities', from_to(0.0_wp, highest_friction))
     call keys%finish_group()

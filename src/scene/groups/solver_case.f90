@@ -43,29 +43,30 @@ contains
 
     call keys%start_group('solver')
     call keys%real_key('residual_tolerance', solver%residual_tolerance, '1', &
-                       'scaled residual at which Newton stops', between(0.0_wp, 1.0_wp))
+                       'scaled residual at which Newton''s method stops', between(0.0_wp, 1.0_wp))
     call keys%real_key('step_tolerance', solver%step_tolerance, '1', &
-                       'scaled step at which Newton stops', between(0.0_wp, 1.0_wp))
+                       'scaled step at which Newton''s method stops', between(0.0_wp, 1.0_wp))
     call keys%integer_key('maximum_iterations', solver%maximum_iterations, &
                           'Newton steps of one load step at most', from_to(1.0_wp, most_iterations))
     call keys%integer_key('maximum_load_steps', solver%maximum_load_steps, &
                           'load steps at most', from_to(1.0_wp, most_iterations))
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
-                       'load step, as a part of the whole way, below which it is given up', &
+                       'smallest load step, over the whole path, before the path is given up', &
                        between(0.0_wp, 1.0_wp))
     if (.not. touches) solver%touch_down_gap = touch_down_part*bearing%clearance
     call keys%real_key('touch_down_gap', solver%touch_down_gap, 'm', &
-                       'smallest film below which an equilibrium is refused', positive, &
+                       'film thickness below which an equilibrium is refused as touch-down', &
+                       positive, &
                        default='1e-4 of the clearance; none with &shaft_contact')
     if (bearing%clearance > 0.0_wp .and. solver%touch_down_gap >= bearing%clearance) then
       call keys%complain('solver', 'touch_down_gap', 'must be less than the clearance, '// &
                          text(bearing%clearance)//' m')
     end if
     call keys%logical_key('stability', solver%stability, &
-                          'count the modes of the foils that grow while the shaft is held')
+                          'count the growing modes of the foils, with the shaft fixed')
     call keys%choice_key('linear_solver', solver%linear_solver, linear_words, &
-                         'factors in memory, factors in files, or iterations (strips of shells '// &
-                         'that are not condensed)')
+                         'factors in memory, factors in files, or iterations (uncondensed '// &
+                         'strips of shells only)')
     call keys%logical_key('memory_check', solver%memory_check, &
                           'refuse a scene that needs more memory than the machine has')
     call keys%finish_group()

@@ -61,15 +61,15 @@ contains
     call read_pressures(keys, load, bumps, needed .and. load%kind == load_crest_pressure)
     call read_maximum('maximum_force', load%maximum_force, 'N', 'largest force on the upper plate')
     call read_maximum('maximum_displacement', load%maximum_displacement, 'm', &
-                      'largest way of the upper plate towards the strip')
-    call keys%integer_key('steps_up', load%steps_up, 'load steps up to the whole load', &
+                      'largest displacement of the upper plate towards the strip')
+    call keys%integer_key('steps_up', load%steps_up, 'load steps up to the full load', &
                           from_to(1.0_wp, most_steps))
     if (load%kind == load_plates) load%steps_down = load%steps_up
     call keys%integer_key('steps_down', load%steps_down, 'load steps back to zero', &
                           from_to(0.0_wp, most_steps), &
                           default='`steps_up` with plates, otherwise 0')
     call keys%choice_key('support', load%support, support_words, &
-                         'corner lines rest on the sleeve, or cannot leave it')
+                         'corner lines rest on the sleeve and can lift, or cannot leave it')
     call keys%finish_group()
 
   contains
@@ -93,7 +93,7 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(strip_load_case_type), intent(inout) :: load
     character(len=*), parameter :: name = 'distribution'
-    character(len=*), parameter :: meaning = 'of the crest pressure over the bumps'
+    character(len=*), parameter :: meaning = 'distribution of the crest pressure over the bumps'
 
     if (load%kind == load_plates) then
       call keys%useless_key(name, meaning, not_with_plates)
@@ -113,8 +113,9 @@ contains
     plates = load%kind == load_plates
     table = .not. plates .and. load%distribution == distribution_table
     known = .not. plates .and. load%distribution /= 0
-    call keys%real_key('pressure', load%pressure, 'Pa', 'uniform pressure, or the peak', &
-                       any_value, needed .and. known .and. .not. table, &
+    call keys%real_key('pressure', load%pressure, 'Pa', &
+                       'crest pressure: the uniform one, or the largest', any_value, &
+                       needed .and. known .and. .not. table, &
                        default='required unless plates or a table', given=given)
     if (given .and. plates) then
       call keys%complain('strip_load', 'pressure', not_with_plates)
@@ -123,8 +124,8 @@ contains
                          'bump_pressure gives the pressures')
     end if
     call keys%real_list_key('bump_pressure', load%bump_pressure, longest_list, 'Pa', &
-                            'pressure on every bump of a table', any_value, needed .and. table, &
-                            'required for a table')
+                            'crest pressure of every bump, with a table', any_value, &
+                            needed .and. table, 'required for a table')
     if (keys%key%given .and. plates) then
       call keys%complain('strip_load', 'bump_pressure', not_with_plates)
     else if (table .and. bumps > 0 .and. keys%last_key_is_right()) then

@@ -46,7 +46,8 @@ contains
     call keys%start_group('sweep', optional=.true., present_in_file=sweep%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%choice_key('parameter', sweep%parameter, parameter_words, &
-                         'what is varied; load: its magnitude, in the direction of `load`', .true.)
+                         'quantity that is varied; load: its magnitude, in the direction of '// &
+                         '`load`', .true.)
     rule = any_value
     if (sweep%parameter == sweep_load) rule = not_negative
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
@@ -57,13 +58,13 @@ contains
       call keys%complain('sweep', 'values', other_sense, point)
     end do
     call keys%logical_key('hold_position', sweep%hold_position, &
-                          'hold the shaft where the equilibrium at `&operation` is')
+                          'keep the shaft fixed at its equilibrium at `&operation`')
     call keys%logical_key('turn_folds', sweep%turn_folds, &
-                          'go on round the folds of the branch, where the parameter turns '// &
-                          'back, until the branch leaves the values'' range')
+                          'follow the branch round its folds, where the parameter turns back, '// &
+                          'until it leaves the range of the values')
     call keys%logical_key('friction_memory', sweep%friction_memory, &
-                          'points are steps of one loading: what slid stays slid; '// &
-                          'otherwise every point is loaded from rest')
+                          'points are steps of one loading history: friction keeps its slip '// &
+                          'from point to point; otherwise every point is loaded from rest')
     call keys%finish_group()
   end subroutine read_sweep_case
 
