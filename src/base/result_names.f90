@@ -4,8 +4,8 @@ module gfb_result_names
   use gfb_text, only: join
   implicit none (type, external)
   private
-  public :: find_result, result_unit, result_meaning, is_of, asked_names, compared_names, &
-            results_text
+  public :: find_result, result_unit, result_meaning, is_of, is_nodal, asked_names, &
+            compared_names, results_text
 
   character(len=*), parameter :: any_number = '<n>', any_quantity = '<quantity>'
   !> What stands for one of several words; the last one changes first.
@@ -109,6 +109,16 @@ contains
     is = found%name /= ''
     if (is) is = iand(found%studies, study) /= 0
   end function is_of
+
+  !> Whether a result is the largest or smallest of values at nodes.
+  pure function is_nodal(name) result(is)
+    character(len=*), intent(in) :: name !! of a result
+    logical :: is
+    type(result_type) :: found
+
+    call find_result(name, found)
+    is = found%name /= '' .and. found%nodal
+  end function is_nodal
 
   !> Names that `&accuracy` may ask for, in the order of the table.
   pure recursive function asked_names() result(names)

@@ -35,6 +35,7 @@ module gfb_result_table
     logical :: compared = .false. !! where groups of ranks meet, to see that answers are the same
     logical :: varies = .false.   !! with the machine and from run to run
     logical :: joins = .false.    !! in the manual it shares the line above
+    logical :: nodal = .false.    !! the largest or smallest of values at nodes
   end type result_type
 
   character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`
@@ -100,15 +101,17 @@ module gfb_result_table
     result_type('power_loss', 'W', number, bearing, 'friction torque times speed', &
       asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
-      asked=.true., compared=.true.), &
+      asked=.true., compared=.true., nodal=.true.), &
     result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
-      'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true.), &
+      'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true., &
+      nodal=.true.), &
     result_type('minimum_gap_edge', 'm', number, bearing, &
-      'smallest film thickness at the bearing edges', asked=.true., joins=.true.), &
+      'smallest film thickness at the bearing edges', asked=.true., joins=.true., &
+      nodal=.true.), &
     result_type('maximum_pressure', 'Pa', number, bearing, 'largest absolute pressure', &
-      'largest and smallest absolute pressure', asked=.true.), &
+      'largest and smallest absolute pressure', asked=.true., nodal=.true.), &
     result_type('minimum_pressure', 'Pa', number, bearing, 'smallest absolute pressure', &
-      asked=.true., joins=.true.), &
+      asked=.true., joins=.true., nodal=.true.), &
     result_type('maximum_peclet', '1', number, bearing, 'largest cell Peclet number of the film'), &
     result_type('leading_edge_lift', 'm', number, bearing, &
       'way of the top foil''s edge towards the shaft, at z = 0', &

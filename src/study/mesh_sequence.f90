@@ -4,6 +4,7 @@ module gfb_mesh_sequence
   use gfb_accuracy_case, only: accuracy_case_type, asked_name
   use gfb_grid_convergence, only: convergence_type, estimate_error
   use gfb_quantity, only: quantity_type
+  use gfb_result_names, only: is_nodal
   use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
@@ -29,6 +30,7 @@ module gfb_mesh_sequence
     character(len=:), allocatable :: unit  !! its unit
     real(wp) :: target = 0.0_wp            !! error allowed, relative
     real(wp) :: formal_order = 0.0_wp      !! of the elements [1]
+    logical :: nodal = .false.             !! the number is the largest or smallest at the nodes
     type(mesh_answer_type), allocatable :: answer(:)
     real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
   contains
@@ -55,6 +57,7 @@ contains
     sequence%unit = ''
     sequence%target = accuracy%target
     sequence%formal_order = formal_order
+    sequence%nodal = is_nodal(sequence%name)
     allocate (sequence%answer(0), sequence%value(0))
   end function start_sequence
 
@@ -73,7 +76,7 @@ contains
     one%found = .true.
     one%unknowns = unknowns
     one%seconds = seconds
-    one%estimate = estimate_error(self%value, self%formal_order)
+    one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
     self%answer = [self%answer, one]
   end subroutine sequence_add
 

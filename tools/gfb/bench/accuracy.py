@@ -1,6 +1,6 @@
 """What a run says of its own error (&accuracy), against answers on meshes far finer.
 
-Forty scenes: rigid bearings and bearings on springs of several eccentricities, speeds, clearances, widths and
+More than forty scenes: rigid bearings and bearings on springs of several eccentricities, speeds, clearances, widths and
 tilts, with a slit or periodic, position or load given, bilinear and biquadratic films, and planar beams. Each names
 a quantity and a target. Told are the share of scenes whose true error is no larger than the estimate, and the
 median of estimate over true error. The answers stand in docs/measured/accuracy_fine_meshes.json; --reference
@@ -54,6 +54,13 @@ SCENES = {
     "rigid_21": ("eccentricity_x", 1e-3, 2, "rigid", "slit", ("load", -100.0, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "rigid_22": ("friction_torque", 1e-4, 2, "rigid", "periodic", ("held", 0.8, 0.0), 2e4, 31.8, 1.0, (0, 0)),
     "rigid_23": ("force_x", 1e-3, 2, "rigid", "periodic", ("held", 0.5, 0.3), 1.2e5, 25.0, 0.5, (0, 0)),
+    # Fast, narrow and tilted: nodal extremes that converge with the elements' order by chance.
+    "rigid_24": ("maximum_pressure", 1e-2, 1, "rigid", "slit", ("held", 0.5, 0.0), 3.46e5, 31.8, 0.5, (6e-4, 3e-4)),
+    "rigid_25": ("minimum_pressure", 1e-2, 1, "rigid", "slit", ("held", 0.5, 0.0), 3.46e5, 31.8, 0.5, (6e-4, 3e-4)),
+    "rigid_26": ("maximum_pressure", 1e-3, 1, "rigid", "slit", ("held", 0.3, 0.2), 3.46e5, 31.8, 0.5, (0, 8e-4)),
+    "rigid_27": ("minimum_pressure", 1e-3, 1, "rigid", "slit", ("held", 0.3, 0.2), 3.46e5, 31.8, 0.5, (0, 8e-4)),
+    "rigid_28": ("maximum_pressure", 1e-3, 1, "rigid", "periodic", ("held", 0.4, 0.0), 3.46e5, 31.8, 0.5, (8e-4, 0)),
+    "rigid_29": ("minimum_pressure", 1e-3, 1, "rigid", "periodic", ("held", 0.4, 0.0), 3.46e5, 31.8, 0.5, (8e-4, 0)),
     "springs_01": ("force_x", 1e-3, 1, "springs", "slit", ("held", 0.6, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "springs_02": ("force_y", 1e-2, 1, "springs", "slit", ("held", 0.9, 0.2), 3e4, 31.8, 1.0, (0, 0)),
     "springs_03": ("eccentricity_x", 1e-2, 1, "springs", "slit", ("load", -100.0, 0.0), 3e4, 31.8, 1.0, (0, 0)),
@@ -67,6 +74,7 @@ SCENES = {
     "springs_11": ("eccentricity_y", 1e-3, 2, "springs", "slit", ("load", -100.0, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "springs_12": ("minimum_pressure", 1e-3, 2, "springs", "periodic", ("held", 0.7, 0.2), 3e4, 31.8, 1.0, (0, 0)),
     "springs_13": ("friction_torque", 1e-4, 2, "springs", "slit", ("held", 0.5, 0.5), 3e4, 31.8, 1.0, (2e-4, 0)),
+    "springs_14": ("maximum_pressure", 1e-3, 1, "springs", "slit", ("held", 0.5, 0.0), 3.46e5, 31.8, 0.5, (6e-4, 3e-4)),
     "beams_01": ("force_x", 1e-2, 1, "beam", "slit", ("held", 0.5, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "beams_02": ("force_y", 1e-2, 1, "beam", "slit", ("held", 0.6, 0.1), 3e4, 31.8, 1.0, (0, 0)),
     "beams_03": ("friction_torque", 1e-2, 1, "beam", "slit", ("held", 0.9, 0.2), 3e4, 31.8, 1.0, (0, 0)),
