@@ -15,7 +15,7 @@ module gfb_angular_stiffness
   use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_columns, only: shaft_column
   use gfb_newton, only: newton_type
-  use gfb_direct_solver, only: use_factors
+  use gfb_direct_solver, only: use_factors, make_factors
   implicit none (type)
   private
   public :: angular_stiffness
@@ -37,7 +37,7 @@ contains
     KSPConvergedReason :: reason
     PetscErrorCode :: ierr
     integer :: axis
-    logical :: moved
+    logical :: moved, made
 
     stiffness = ieee_value(1.0_wp, ieee_quiet_nan)
     call bearing%settle(bearing%state, moved)
@@ -46,7 +46,8 @@ contains
     call create_solver(bearing, linear)
     PetscCallA(VecDuplicate(bearing%state, change, ierr))
     PetscCallA(VecDuplicate(bearing%state, response, ierr))
-    do axis = 1, 2
+    call make_factors(linear, bearing%jacobian, made, newton%enlargements)
+    do axis = 1, merge(2, 0, made)
       call shaft_column(bearing, tilts + axis, change)
       PetscCallA(KSPSolve(linear, change, response, ierr))
       PetscCallA(KSPGetConvergedReason(linear, reason, ierr))

@@ -46,6 +46,7 @@ module gfb_stability
     complex(wp) :: nearest = 0.0_wp     !! lambda nearest to a change, its real part the smallest [1]
     logical :: nearly_neutral = .false. !! it is next to none
     integer :: factorizations = 0       !! spent
+    integer :: enlargements = 0         !! of the factors' workspace
   end type stability_type
 
 contains
@@ -77,6 +78,7 @@ contains
     stability%counted = plain%found
     stability%negative = plain%growing
     stability%factorizations = stability%factorizations + plain%factorizations
+    stability%enlargements = stability%enlargements + plain%enlargements
     PetscCallA(VecDestroy(damping, ierr))
     PetscCallA(MatDestroy(stiffness, ierr))
   end subroutine find_stability
@@ -145,7 +147,7 @@ contains
     shift = first_shift
     do attempt = 1, most_shifts
       call shift_matrix(stiffness, damping, shift, shifted)
-      call factor_matrix(inner, shifted, sign_of_shifted)
+      call factor_matrix(inner, shifted, sign_of_shifted, stability%enlargements)
       stability%factorizations = stability%factorizations + 1
       safe = sign_of_shifted /= 0
       if (safe) call leading_values(operator, shift, value)
@@ -298,7 +300,7 @@ contains
     integer :: signs
 
     if (any(abs(value) <= too_near)) return
-    call factor_matrix(linear, stiffness, signs)
+    call factor_matrix(linear, stiffness, signs, stability%enlargements)
     stability%factorizations = stability%factorizations + 1
     signs = signs*sign_of_shifted
     if (signs == 0) return

@@ -1,5 +1,9 @@
 #include "gfb_petsc.h"
 !> A linear solver that factors its matrix by MUMPS, and what the factors tell of it.
+!>
+!> PETSc does not factor again with what MUMPS failed on once: after a zero pivot it takes the next factors
+!> for made although MUMPS was not called, after any other failure it repeats the failure. So factors that
+!> failed are dropped whole.
 module gfb_direct_solver
   use petscksp
   use gfb_kinds, only: wp
@@ -8,13 +12,19 @@ module gfb_direct_solver
   use gfb_petsc_session, only: rank_count
   implicit none (type)
   private
-  public :: use_factors, factor_matrix, factor_failure, keep_factors_on_disk, set_option_default
+  public :: use_factors, make_factors, factor_matrix, factor_failure, enlarge_workspace, keep_factors_on_disk, &
+            set_option_default
 
   !> Prefixes of PETSc's options of all solvers that factor.
   character(len=*), parameter :: prefixes(*) = [character(len=10) :: 'strip_', 'bearing_', 'film_', &
                                                 'foil_', 'stability_']
 
   integer, parameter :: few_ranks = 16 !! on which right sides stay distributed
+  integer, parameter :: first_room = 100  !! for pivoting, of a workspace that was too small at first [%]
+  integer, parameter :: most_room = 2000  !! five times more from `first_room` on, doubled each time [%]
+  integer, parameter :: too_small = -9    !! MUMPS' INFOG(1) where its workspace is
+  integer, parameter :: status_place = 1  !! in MUMPS' INFOG
+  integer, parameter :: room_place = 14   !! in MUMPS' ICNTL
 
 contains
 
@@ -60,34 +70,77 @@ contains
   function factor_failure(linear) result(words)
     KSP, intent(in) :: linear !! after its matrix was to be factored
     character(len=:), allocatable :: words
+    integer :: status
 
-    integer, parameter :: status_place = 1 ! in MUMPS' INFOG
+    words = ''
+    call find_failure(linear, status)
+    if (status == 0) return
+    select case (status)
+    case (-5, -7, -8, too_small, -11, -13, -14, -15, -17, -18, -19, -20) ! allocations and workspaces
+      words = 'MUMPS ran out of memory for the factors (INFOG(1) = '//text(status)// &
+              "): a coarser mesh, more nodes, linear_solver = 'out_of_core', or 'iterative' for a strip"
+    case (-90)
+      words = 'MUMPS could not write its factors to files: MUMPS_OOC_TMPDIR names their folder'
+    case (-10, -6, 1)
+      words = 'the matrix is singular'
+    case default
+      words = 'MUMPS could not factor the matrix (INFOG(1) = '//text(status)//')'
+    end select
+  end function factor_failure
+
+  !> MUMPS' INFOG(1) where a solver has no factors, 1 where they are another package's; 0 where it has.
+  subroutine find_failure(linear, status)
+    KSP, intent(in) :: linear !! after its matrix was to be factored
+    integer, intent(out) :: status
     character(len=80) :: package
     KSPConvergedReason :: reason
-    PetscInt :: status
+    PetscInt :: number
     Mat :: factor
     PC :: factors
     PetscErrorCode :: ierr
 
-    words = ''
+    status = 0
     PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
     if (GFB_REASON(reason) /= GFB_REASON(KSP_DIVERGED_PC_FAILED)) return
-    words = 'the matrix is singular'
+    status = 1
     package = ''
     PetscCallA(KSPGetPC(linear, factors, ierr))
     PetscCallA(PCFactorGetMatSolverType(factors, package, ierr))
     if (package /= MATSOLVERMUMPS) return
     PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
-    PetscCallA(MatMumpsGetInfog(factor, int(status_place, pint), status, ierr))
-    select case (int(status))
-    case (-5, -7, -8, -9, -11, -13, -14, -15, -17, -18, -19, -20) ! allocations and workspaces
-      words = 'MUMPS ran out of memory for the factors (INFOG(1) = '//text(int(status))// &
-              "): a coarser mesh, more nodes, linear_solver = 'out_of_core', or 'iterative' for a strip"
-    case (-90)
-      words = 'MUMPS could not write its factors to files: MUMPS_OOC_TMPDIR names their folder'
-    case default ! MUMPS found no pivot
-    end select
-  end function factor_failure
+    PetscCallA(MatMumpsGetInfog(factor, int(status_place, pint), number, ierr))
+    status = int(number)
+  end subroutine find_failure
+
+  !> Drops factors that failed, and enlarges the workspace of the next ones where MUMPS found it too small: at
+  !> most five times in a run. The solver has no matrix afterwards.
+  !>
+  !> The size goes by PETSc's options, so that all later factors with the same prefix have it.
+  subroutine enlarge_workspace(linear, room)
+    KSP, intent(in) :: linear    !! after its matrix could not be factored
+    integer, intent(out) :: room !! for pivoting, from now on [%]; 0 where nothing was enlarged
+
+    character(len=80) :: prefix
+    PetscInt :: given
+    Mat :: factor
+    PC :: factors
+    PetscErrorCode :: ierr
+    integer :: status
+
+    room = 0
+    call find_failure(linear, status)
+    if (status == too_small) then
+      PetscCallA(KSPGetPC(linear, factors, ierr))
+      PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
+      PetscCallA(MatMumpsGetIcntl(factor, int(room_place, pint), given, ierr))
+      if (given < most_room/2) room = max(first_room, 2*int(given))
+    end if
+    if (room > 0) then
+      PetscCallA(KSPGetOptionsPrefix(linear, prefix, ierr))
+      PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, '-'//trim(prefix)//'mat_mumps_icntl_14', text(room), ierr))
+    end if
+    PetscCallA(KSPReset(linear, ierr))
+  end subroutine enlarge_workspace
 
   !> Sets an option of PETSc's unless the user has.
   subroutine set_option_default(name, value)
@@ -101,30 +154,52 @@ contains
     end if
   end subroutine set_option_default
 
+  !> Factors a matrix now, with a larger workspace where MUMPS asks for one; the solver keeps the factors
+  !> until the matrix is touched.
+  subroutine make_factors(linear, matrix, made, enlargements)
+    KSP, intent(in) :: linear !! prepared by `use_factors`
+    Mat, intent(in) :: matrix !! to be factored, scaled
+    logical, intent(out) :: made !! else the solver has neither factors nor matrix
+    integer, intent(inout) :: enlargements !! of the workspace, counted on
+    KSPConvergedReason :: reason
+    PetscErrorCode :: ierr
+    integer :: room
+
+    do
+      PetscCallA(KSPSetOperators(linear, matrix, matrix, ierr))
+      PetscCallA(KSPSetReusePreconditioner(linear, PETSC_FALSE, ierr))
+      PetscCallA(KSPSetUp(linear, ierr))
+      PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
+      made = GFB_REASON(reason) /= GFB_REASON(KSP_DIVERGED_PC_FAILED)
+      if (made) return
+      call enlarge_workspace(linear, room)
+      if (room == 0) return
+      enlargements = enlargements + 1
+    end do
+  end subroutine make_factors
+
   !> Factors a matrix now; the solver keeps the factors until the matrix is touched.
   !>
   !> The sign is that of the determinant: 1, -1, or 0 where the matrix could not be factored, or the
   !> user chose another package than MUMPS. Rows and columns that are numbered alike otherwise, as on
   !> other ranks, leave it as it is.
-  subroutine factor_matrix(linear, matrix, sign_of_determinant)
+  subroutine factor_matrix(linear, matrix, sign_of_determinant, enlargements)
     KSP, intent(in) :: linear !! prepared by `use_factors`
     Mat, intent(in) :: matrix !! to be factored, scaled
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
+    integer, intent(inout) :: enlargements !! of MUMPS' workspace, counted on
 
     integer, parameter :: mantissa_place = 12 ! in MUMPS' RINFOG
     character(len=80) :: package
     PetscReal :: mantissa
-    KSPConvergedReason :: reason
     Mat :: factor
     PC :: factors
     PetscErrorCode :: ierr
+    logical :: made
 
     sign_of_determinant = 0
-    PetscCallA(KSPSetOperators(linear, matrix, matrix, ierr))
-    PetscCallA(KSPSetReusePreconditioner(linear, PETSC_FALSE, ierr))
-    PetscCallA(KSPSetUp(linear, ierr))
-    PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
-    if (GFB_REASON(reason) == GFB_REASON(KSP_DIVERGED_PC_FAILED)) return
+    call make_factors(linear, matrix, made, enlargements)
+    if (.not. made) return
     PetscCallA(KSPGetPC(linear, factors, ierr))
     PetscCallA(PCFactorGetMatSolverType(factors, package, ierr))
     if (package /= MATSOLVERMUMPS) return

@@ -9,13 +9,13 @@ module gfb_linear_solver
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: use_factors, factor_failure
+  use gfb_direct_solver, only: use_factors, factor_failure, enlarge_workspace
   use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
   use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
   implicit none (type)
   private
   public :: choose_solver, begin_solve, decide_factors, keep_ready, judge_linear, choose_factors, linear_failure, &
-            forget_solver
+            drop_failed_factors, forget_solver
 
   real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
   real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
@@ -155,6 +155,27 @@ contains
     words = factor_failure(linear)
     if (words == '') words = 'the matrix is singular'
   end function linear_failure
+
+  !> Forgets factors that could not be made, as PETSc would not make them again; whether those to come get a
+  !> larger workspace, so that it is worth while to try.
+  subroutine drop_failed_factors(solver, snes, enlarged)
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    SNES, intent(in) :: snes !! after a solve without an answer
+    logical, intent(out) :: enlarged !! the workspace was too small
+    KSP :: linear
+    PetscInt :: failures
+    PetscErrorCode :: ierr
+    integer :: room
+
+    enlarged = .false.
+    PetscCallA(SNESGetLinearSolveFailures(snes, failures, ierr))
+    if (solver%iterates .or. failures == 0) return ! what the linear solver says is of an earlier solve
+    PetscCallA(SNESGetKSP(snes, linear, ierr))
+    if (factor_failure(linear) == '') return
+    call enlarge_workspace(linear, room)
+    call forget_solver(solver, snes)
+    enlarged = room > 0
+  end subroutine drop_failed_factors
 
   !> Forgets all factors and what they have cost.
   subroutine forget_solver(solver, snes)

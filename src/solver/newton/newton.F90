@@ -21,10 +21,10 @@ module gfb_newton
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: factor_matrix
   use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, decide_factors, keep_ready, &
-                               linear_failure, forget_solver
+                               linear_failure, drop_failed_factors, forget_solver
   use gfb_line_search, only: line_search_type, take_step, stagnation
   use gfb_backward_error, only: backward_error
-  use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration
+  use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
   implicit none (type)
   private
   public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, forget_factors, &
@@ -46,6 +46,7 @@ module gfb_newton
     integer :: iterations = 0     !! since its creation
     integer :: factorizations = 0 !! since its creation, and before
     integer :: factorizations_before = 0 !! of them on smaller systems, whose answer led here
+    integer :: enlargements = 0   !! of the factors' workspace, since its creation
     SNES, private :: snes
     Vec, private :: residual
     logical, private :: created = .false.
@@ -96,6 +97,27 @@ contains
     type(newton_type), target, intent(inout) :: newton !! the solver
     type(newton_report_type), intent(out) :: report !! how it ended
 
+    integer :: before
+    logical :: enlarged
+
+    before = newton%iterations
+    do
+      call run_newton(newton, report)
+      newton%iterations = newton%iterations + report%iterations
+      if (report%converged) exit
+      call drop_failed_factors(newton%linear, newton%snes, enlarged)
+      if (.not. enlarged) exit ! else on from where it stopped
+      newton%enlargements = newton%enlargements + 1
+      call show_enlargements(newton%log, newton%enlargements)
+    end do
+    report%iterations = newton%iterations - before
+  end subroutine solve_newton
+
+  !> One run of SNES.
+  subroutine run_newton(newton, report)
+    type(newton_type), target, intent(inout) :: newton
+    type(newton_report_type), intent(out) :: report
+
     SNESConvergedReason :: reason
     PetscInt :: iterations
     PetscReal :: norm
@@ -121,8 +143,7 @@ contains
     report%at_round_off = newton%rounded
     if (GFB_REASON(reason) == GFB_REASON(SNES_DIVERGED_MAX_IT)) call blame_round_off(newton, norm, report%reason)
     if (newton%rounded) report%round_off = newton%line%step
-    newton%iterations = newton%iterations + report%iterations
-  end subroutine solve_newton
+  end subroutine run_newton
 
   !> Sign of the determinant of the system's matrix at its present state: 1, -1, or 0 where there is
   !> none. It changes from state to state only where an eigenvalue goes through zero, as at a fold.
@@ -133,14 +154,17 @@ contains
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
     KSP :: linear
     PetscErrorCode :: ierr
+    integer :: before
 
     call newton%system%linearise(newton%system%state)
     newton%factorizations = newton%factorizations + 1
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-    call factor_matrix(linear, newton%system%jacobian, sign_of_determinant)
+    before = newton%enlargements
+    call factor_matrix(linear, newton%system%jacobian, sign_of_determinant, newton%enlargements)
     call keep_ready(newton%linear, sign_of_determinant /= 0, newton%system%times_filled)
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
+    if (newton%enlargements > before) call show_enlargements(newton%log, newton%enlargements)
   end subroutine find_determinant_sign
 
   !> Solves a linear system with the factors that `find_determinant_sign` made.

@@ -7,7 +7,7 @@ module gfb_newton_report
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
-  public :: reason_in_words, show_iteration
+  public :: reason_in_words, show_iteration, show_enlargements
 
   !> How a solve ended.
   type, public :: newton_report_type
@@ -65,4 +65,13 @@ contains
     end if
     call log%detail(trim(line))
   end subroutine show_iteration
+
+  !> Says that MUMPS found its workspace too small, and how often so far.
+  subroutine show_enlargements(log, enlargements)
+    type(run_log_type), intent(in) :: log   !! gets the line
+    integer, intent(in) :: enlargements !! of the workspace, since the solver's creation
+
+    call log%line('the factors'' workspace was too small (MUMPS'' INFOG(1) = -9): enlarged, '//text(enlargements)// &
+                  ' time(s) so far')
+  end subroutine show_enlargements
 end module gfb_newton_report

@@ -30,6 +30,7 @@ contains
     if (scene%solver%stability) then
       call find_stability(bearing, stability)
       newton%factorizations = newton%factorizations + stability%factorizations
+      newton%enlargements = newton%enlargements + stability%enlargements
       call log%line('stability: '//stability_words(stability, &
                     bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell))
       if (stability%counted) call add_result(list, 'stability', stability%negative)
