@@ -4,6 +4,9 @@
 #include <stdint.h>
 #include <petscsys.h>
 
+/* Makes what a library cannot do, such as factors that do not fit, end the program with a sentence and status 3. */
+PetscErrorCode gfb_end_with_sentences(void);
+
 /* A DMPlex of quadrilaterals, of which every rank gives some cells (numbers of their vertices among all, from 0)
    and the places of some vertices (in the order of the ranks); hands out its Fortran handle. */
 PetscErrorCode gfb_create_plex(MPI_Fint communicator, PetscInt cells, PetscInt vertices, PetscInt all_vertices,

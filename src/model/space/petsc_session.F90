@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> Start and end of PETSc, SLEPc and MPI, and what they say of themselves.
 module gfb_petsc_session
+  use, intrinsic :: iso_c_binding, only: c_int
   use slepcsys
   use petscvec
   use gfb_kinds, only: wp
@@ -12,6 +13,14 @@ module gfb_petsc_session
   public :: start_petsc, stop_petsc, this_rank, rank_count, ranks_on_node, petsc_version_text, wall_time, &
             sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries
 
+  interface
+    !> Makes what a library cannot do end the program with a sentence and status 3.
+    function gfb_end_with_sentences() result(status) bind(c)
+      import :: c_int
+      integer(c_int) :: status !! PETSc's error code, 0 for none
+    end function gfb_end_with_sentences
+  end interface
+
 contains
 
   !> Starts MPI, PETSc and SLEPc.
@@ -21,6 +30,7 @@ contains
 
     call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
     if (ierr /= 0) error stop 'PETSc could not be started'
+    if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
     ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-options_left', given, ierr))
     if (.not. given) then

@@ -1,6 +1,34 @@
 #include "gfb_shim.h"
 #include <petscdmplex.h>
 #include <petscsf.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* PETSc's own handler aborts with the error's number as status. */
+static PetscErrorCode end_with_sentence(MPI_Comm communicator, int line, const char *function, const char *file,
+                                        PetscErrorCode code, PetscErrorType kind, const char *message, void *context)
+{
+  const int status_machine = 3;
+  int       ranks, initialized;
+
+  if (code != PETSC_ERR_LIB && code != PETSC_ERR_MEM && code != PETSC_ERR_NOT_CONVERGED)
+    return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
+  if (kind != PETSC_ERROR_INITIAL) return code;
+  fflush(stdout);
+  fprintf(stderr, "a library failed, in %s: %s\n", function ? function : "a library",
+          message && *message ? message : (code == PETSC_ERR_MEM ? "no memory" : "no reason was given"));
+  fflush(stderr);
+  MPI_Initialized(&initialized);
+  if (initialized && MPI_Comm_size(MPI_COMM_WORLD, &ranks) == MPI_SUCCESS && ranks > 1) MPI_Abort(MPI_COMM_WORLD, status_machine);
+  exit(status_machine);
+}
+
+PetscErrorCode gfb_end_with_sentences(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPushErrorHandler(end_with_sentence, NULL));
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode gfb_create_plex(MPI_Fint communicator, PetscInt cells, PetscInt vertices, PetscInt all_vertices,
                                const PetscInt cell[], const PetscReal coordinate[], intptr_t *dm)
