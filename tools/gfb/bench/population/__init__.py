@@ -1,0 +1,90 @@
+"""A population of bearings: how many have an answer, how many are refused by name, what either costs.
+
+--set random: bearings drawn from a fixed seed, member by member, so that the first hundred of a thousand are the same.
+--set engineer: one bearing, 12 directions of the load x 4 loads x 3 speeds, beams and shells.
+Touch-downs and folds are shown a second way. A run is stopped at a bound on its CPU time, which counts as no answer.
+Rows are kept in build/bench/population.json, so that an interrupted command goes on with --reuse.
+"""
+
+import concurrent.futures
+import hashlib
+import json
+import pathlib
+import threading
+
+from gfb.bench.population import page
+from gfb.bench.population.members import FOUNDATION, MODELS, SETS
+from gfb.bench.population.trial import BOUND, second_way, try_case
+from gfb.bench.runs import keep_rows, kept_rows
+from gfb.run import write_case
+from gfb.tool import MEASURED, ROOT, stop
+
+STORE = ROOT/"build/bench/population.json"
+WORDS = {"foundation": FOUNDATION, **{model: model for model in MODELS}}
+
+
+def add_options(parser):
+    """The command's own options."""
+    parser.add_argument("--set", choices=SETS, default="random", help="which population; default: %(default)s")
+    parser.add_argument("--count", metavar="N", type=int, default=1000, help="its first N members; default: %(default)s")
+    parser.add_argument("--models", metavar="LIST", default="foundation,beam,shell",
+                        help="of %(default)s; members have them in turn")
+    parser.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at a time; default: %(default)s")
+    parser.add_argument("--seconds", metavar="S", type=float, default=300.0,
+                        help="CPU time of a run at most; default: %(default)s")
+    parser.add_argument("--reuse", action="store_true", help="go on with the runs of an earlier call")
+    parser.add_argument("--only-write", metavar="DIR", type=pathlib.Path, help="write the case files there, run nothing")
+    parser.add_argument("--docs", action="store_true", help="write the page to docs/measured")
+
+
+def run(options):
+    """Runs the members; returns the table and leaves the page."""
+    models = [WORDS.get(word) for word in options.models.split(",")]
+    if None in models:
+        stop(f"--models {options.models}: {', '.join(WORDS)}")
+    if options.count < 1 or options.jobs < 1 or options.seconds <= 0.0:
+        stop("--count, --jobs and --seconds: more than 0")
+    members = SETS[options.set](options.count, models)
+    if options.only_write:
+        options.only_write.mkdir(parents=True, exist_ok=True)
+        for member in members:
+            write_case(options.only_write, file_name(member), member.groups)
+        return f"{len(members)} case files are in {options.only_write}\n"
+    rows = measure(members, options)
+    return page.write(members, rows, options, MEASURED if options.docs else options.output)
+
+
+def file_name(member):
+    """A member's name as a file has it."""
+    return f"{member.model}_{member.name}".replace(", ", "_").replace(" ", "")
+
+
+def key_of(member):
+    """What a row is kept under."""
+    text = json.dumps(member.groups, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def measure(members, options):
+    """A row a member; those that are kept are not run again."""
+    program = hashlib.sha256(pathlib.Path(options.gfb).read_bytes()).hexdigest()[:16]
+    rows = kept_rows(STORE, program) if options.reuse else {}
+    lock = threading.Lock()
+
+    def one(member):
+        key = key_of(member)
+        if key in rows and not (rows[key]["outcome"] == BOUND and rows[key]["bound"] < options.seconds):
+            return
+        row = try_case(options.gfb, member.groups, options.seconds)
+        row["bound"] = options.seconds
+        row["shown"], row["cpu_shown"] = second_way(options.gfb, member, row, options.seconds)
+        with lock:
+            rows[key] = row
+            keep_rows(STORE, program, rows)
+        print(f"{member.model} {member.name}: {row['outcome']}{', ' + row['shown'] if row['shown'] else ''}, "
+              f"{row['cpu']:.1f} s, {row['summary'].get('factorizations', 0):.0f} factorizations", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for done in [pool.submit(one, member) for member in members]:
+            done.result()
+    return [rows[key_of(member)] for member in members]

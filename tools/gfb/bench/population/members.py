@@ -1,0 +1,118 @@
+"""Members of tools/bench population: bearings drawn by numbers from a fixed seed, and an engineer's bearing on a grid."""
+
+import dataclasses
+import math
+import random
+
+SEED = 20
+AMBIENT, VISCOSITY = 101350.0, 1.95e-5  # [Pa], [Pa s]
+SHEET = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29}
+FOUNDATION, BEAM, SHELL = "elastic_foundation", "beam", "shell"
+MODELS = (FOUNDATION, BEAM, SHELL)
+TURN = (BEAM, FOUNDATION, BEAM, FOUNDATION, SHELL)  # which model a member has, in turn
+PITCH = (1.5e-3, 10.0e-3)  # of bumps that are made [m]
+ELEMENTS_A_BUMP, ELEMENTS_AROUND = 6, 96  # the film's, at least
+STEEL_MESH = {"arc_elements": 8, "flat_elements": 2}
+
+# Radius and length 15 and 30 mm; loads from light to beyond what it carries at the lowest of the speeds.
+ENGINEER_ANGLES = tuple(range(0, 360, 30))  # of the load, from x [deg]
+ENGINEER_LOADS = (20.0, 60.0, 100.0, 140.0)  # [N]
+ENGINEER_SPEEDS = (40000.0, 80000.0, 120000.0)  # [rpm]
+
+
+@dataclasses.dataclass(frozen=True)
+class Member:
+    """A bearing of a population."""
+
+    name: str     # by which it can be asked for again
+    model: str
+    groups: dict  # of its case file
+
+    @property
+    def load(self):
+        """Its magnitude [N]."""
+        return math.hypot(*self.groups["operation"]["load"])
+
+
+def logarithmic(chance, low, high):
+    """A number between two others, every decade as likely."""
+    return low*(high/low)**chance.random()
+
+
+def steel(thickness, **more):
+    """A foil."""
+    return {"thickness": thickness, **SHEET, **more}
+
+
+def random_member(number, model):
+    """A bearing by its number: the same one whatever else is asked for."""
+    chance = random.Random(f"{SEED}, {number}")
+    radius = chance.uniform(8.0e-3, 50.0e-3)
+    length = 2.0*radius*chance.uniform(0.5, 1.5)
+    clearance = radius*logarithmic(chance, 0.0005, 0.003)
+    around = 2.0*math.pi*radius
+    bumps = chance.randint(max(8, math.ceil(around/PITCH[1])), min(40, math.floor(around/PITCH[0])))
+    half_length = 0.5*around/bumps*chance.uniform(0.5, 0.9)
+    height = half_length*chance.uniform(0.15, 0.45)
+    foils = [logarithmic(chance, 50.0e-6, 200.0e-6) for _ in range(2)]
+    edges = [chance.choice(("leading", "trailing")) for _ in range(2)]
+    friction = [max(0.0, chance.uniform(-0.1, 0.3)) for _ in range(2)]  # none for one in four
+    speed = logarithmic(chance, 5.0e3, 120.0e3)
+    load = 2.0*radius*length*logarithmic(chance, 2.0e3, 4.0e5)
+    angle = chance.uniform(0.0, 2.0*math.pi)
+    groups = {
+        "scene": {"analysis": "equilibrium"},
+        "bearing": {"radius": radius, "length": length, "clearance": clearance},
+        "gas": {"viscosity": VISCOSITY, "ambient_pressure": AMBIENT},
+        "operation": {"speed_rpm": speed, "load": (load*math.cos(angle), load*math.sin(angle))},
+        "top_foil": steel(foils[0], fixed_edge=edges[0]),
+        "bump_foil": steel(foils[1], half_length=half_length, height=height, bumps=bumps, fixed_edge=edges[1],
+                           fixed_line=chance.choice(("corner", "half_flat"))),
+        "contact": {"friction_top": friction[0], "friction_sleeve": friction[1]},
+    }
+    return Member(f"{number}", model, meshed(groups, model))
+
+
+def meshed(groups, model):
+    """Groups of a bearing of shells with the mesh that a population has, and without what a model has no use for."""
+    bumps = groups["bump_foil"]["bumps"]
+    mesh = {"circumferential_elements": bumps*max(ELEMENTS_A_BUMP, math.ceil(ELEMENTS_AROUND/bumps)),
+            "axial_elements": 8}
+    groups = {**groups, "model": {"foil": model}, "mesh": {**mesh, **STEEL_MESH}, "output": {"fields": "none"}}
+    if model == FOUNDATION:
+        groups = {name: keys for name, keys in groups.items() if name not in ("top_foil", "contact")}
+        groups["mesh"] = mesh
+        groups["bump_foil"] = {key: value for key, value in groups["bump_foil"].items() if key[:5] != "fixed"}
+    return groups
+
+
+def engineer_member(degrees, load, speed, model):
+    """A bearing as an engineer would try it: thin foils, friction 0.1, both edges fixed at the trailing end."""
+    angle = math.radians(degrees)
+    groups = {
+        "scene": {"analysis": "equilibrium"},
+        "bearing": {"radius": 15.0e-3, "length": 30.0e-3, "clearance": 25.0e-6},
+        "gas": {"viscosity": VISCOSITY, "ambient_pressure": AMBIENT},
+        "operation": {"speed_rpm": speed, "load": (round(load*math.cos(angle), 9), round(load*math.sin(angle), 9))},
+        "top_foil": steel(0.1e-3, fixed_edge="trailing"),
+        "bump_foil": steel(0.1e-3, half_length=1.4e-3, height=0.45e-3, bumps=26, fixed_edge="trailing"),
+        "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
+    }
+    return Member(f"{degrees} deg, {load:g} N, {speed:g} rpm", model, meshed(groups, model))
+
+
+def random_set(count, models):
+    """The first members of the population; models in turn."""
+    turn = [one for one in TURN if one in models]
+    return [random_member(number, turn[number % len(turn)]) for number in range(count)]
+
+
+def engineer_set(count, models):
+    """The grid of the engineer's bearing, of which the first are far apart."""
+    grid = [(degrees, load, speed, model) for speed in ENGINEER_SPEEDS for load in ENGINEER_LOADS
+            for degrees in ENGINEER_ANGLES for model in models if model != FOUNDATION]
+    random.Random(SEED).shuffle(grid)
+    return [engineer_member(*one) for one in grid[:count]]
+
+
+SETS = {"random": random_set, "engineer": engineer_set}

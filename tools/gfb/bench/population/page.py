@@ -1,0 +1,139 @@
+"""The page of tools/bench population: outcomes, their cost, second ways, the worst."""
+
+import statistics
+
+from gfb.bench.population.members import MODELS
+from gfb.bench.population.trial import (ANSWER, BY_GAP, BY_SWEEP, FALLING, OUTCOMES, REFUSALS, RISING, SECOND_WAYS,
+                                        THIN, imbalance)
+from gfb.tables import markdown_table, plain_table
+
+WORST = 10
+FILES = {"random": "population.md", "engineer": "population_engineer.md"}
+SAID = {
+    "random": "Bearings drawn from a fixed seed: radius 8 to 50 mm, L/D 0.5 to 1.5, C/R 0.0005 to 0.003, 8 to 40 bumps of a pitch "
+              "of 1.5 to 10 mm,\nfoils of 50 to 200 um, friction 0 to 0.3, either fixed edge, 5,000 to 120,000 rpm, loads in all "
+              "directions of 0.02 to 4 bar\nover the projected area W/(D L), which is beyond what many carry. 6 elements a bump or "
+              "more, 96 around or more, 8 over the width.",
+    "engineer": "One bearing: radius 15 mm, length 30 mm, clearance 25 um, 26 bumps of 0.1 mm (half length 1.4 mm, height "
+                "0.45 mm), top foil 0.1 mm,\nfriction 0.1, both foils fixed at the trailing edge; 20, 60, 100 and 140 N in twelve "
+                "directions at 40,000, 80,000 and 120,000 rpm.",
+}
+HEAD = """# Population: {name}
+
+Written by `tools/bench population --set {name} --count {count} --docs`.
+
+{said}
+
+Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound*. *no reason*: the run
+ends with status 2, but its sentence names nothing of the bearing. Factorizations and CPU times are medians; the ratio is that of the medians of
+refusals to those of answers of the same model. Times depend on the machine and on what else runs there.
+
+"""
+
+
+def write(members, rows, options, folder):
+    """Leaves the page; returns its tables for the terminal."""
+    tables = [outcome_table(members, rows), ratio_table(members, rows), shown_table(members, rows),
+              worst_table(members, rows)]
+    text = HEAD.format(name=options.set, count=len(members), said=SAID[options.set], seconds=options.seconds)
+    text += facts(members, rows) + "\n"
+    for table in tables:
+        text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder/FILES[options.set]).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
+    return facts(members, rows) + "\n" + "\n".join(plain_table(*table) for table in tables)
+
+
+def notes(title):
+    """What a table's words mean."""
+    if title != SHOWN:
+        return ""
+    rising, falling = (", ".join(f"{share:g}" for share in shares) for shares in (RISING, FALLING))
+    return (f"*{BY_GAP}*: the smallest gap of the last state is at most {THIN:g} touch_down_gap. *{BY_SWEEP}*: else a sweep of the load, "
+            f"from a\ncold start at {rising} of it, ends for the same reason before the whole load; where the film draws the edge "
+            f"to the shaft, at\n{falling}, and the branch ends in a fold or there. *contradicted*: the sweep gets to the load. "
+            "*not shown*: neither.\n\n")
+
+
+OUTCOME, RATIO, SHOWN, DEAR = "Outcomes", "Refusals against answers", "Second ways", f"The {WORST} most expensive"
+
+
+def facts(members, rows):
+    """Sentences before the tables."""
+    answers = [(member, row) for member, row in zip(members, rows) if row["outcome"] == ANSWER]
+    named = sum(row["outcome"] in REFUSALS for row in rows)
+    text = (f"{len(rows)} members: {len(answers)} answers, {named} refused by name, {len(rows) - len(answers) - named} "
+            f"without a reason; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
+    if answers:
+        text += f"Force of the answers off the load by at most {max(imbalance(*one) for one in answers):.0e} of it.\n"
+    enlarged = sum(row["enlarged"] > 0 for row in rows)
+    if enlarged:
+        text += f"MUMPS' workspace was enlarged in {enlarged} of the runs.\n"
+    return text
+
+
+def median(numbers, form="{:.1f}"):
+    """The median in words."""
+    return form.format(statistics.median(numbers)) if numbers else "-"
+
+
+def of(members, rows, model, outcomes):
+    """Rows of a model that ended in one of the ways."""
+    return [row for member, row in zip(members, rows) if member.model == model and row["outcome"] in outcomes]
+
+
+def factorizations(rows):
+    """Where they are known."""
+    return [row["summary"]["factorizations"] for row in rows if "factorizations" in row["summary"]]
+
+
+def outcome_table(members, rows):
+    """Numbers, shares and costs of all outcomes."""
+    table = []
+    for model in MODELS:
+        total = len(of(members, rows, model, OUTCOMES))
+        for outcome in OUTCOMES:
+            some = of(members, rows, model, (outcome,))
+            if some:
+                cpu = [row["cpu"] for row in some]
+                table.append([model, outcome, f"{len(some)}", f"{100.0*len(some)/total:.0f} %", median(cpu),
+                              f"{max(cpu):.1f}", median(factorizations(some), "{:.0f}")])
+    return OUTCOME, ["model", "outcome", "members", "share", "CPU [s]", "most [s]", "factorizations"], table
+
+
+def ratio_table(members, rows):
+    """Costs of refusals over those of answers."""
+    table = []
+    for model in MODELS:
+        answers = of(members, rows, model, (ANSWER,))
+        for words, outcomes in (("by name", tuple(REFUSALS)), ("without a reason", OUTCOMES[1 + len(REFUSALS):])):
+            refused = of(members, rows, model, outcomes)
+            if answers and refused:
+                table.append([model, words, *(ratio(refused, answers, get) for get in
+                                              (lambda some: [row["cpu"] for row in some], factorizations))])
+    return RATIO, ["model", "refused", "CPU time", "factorizations"], table
+
+
+def ratio(refused, answers, get):
+    """Of two medians, in words."""
+    above, below = get(refused), get(answers)
+    return f"{statistics.median(above)/max(statistics.median(below), 1.0e-9):.1f}" if above and below else "-"
+
+
+def shown_table(members, rows):
+    """Refusals by what shows them."""
+    table = []
+    for model in MODELS:
+        for outcome in REFUSALS:
+            some = of(members, rows, model, (outcome,))
+            if some:
+                table.append([model, outcome, *(f"{sum(row['shown'] == way for row in some)}" for way in SECOND_WAYS)])
+    return SHOWN, ["model", "refusal", *SECOND_WAYS], table
+
+
+def worst_table(members, rows):
+    """The most expensive runs."""
+    order = sorted(zip(members, rows), key=lambda one: -one[1]["cpu"])[:WORST]
+    return DEAR, ["member", "how it ended", "CPU [s]", "factorizations"], [
+        [f"{member.model} {member.name}", (row["reason"] or row["outcome"]).replace("|", "/")[:160], f"{row['cpu']:.1f}",
+         median(factorizations([row]), "{:.0f}")] for member, row in order]

@@ -1,0 +1,103 @@
+"""Runs of tools/bench population: how a member ends, what that costs, and whether a refusal is shown a second way."""
+
+import math
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import tempfile
+
+from gfb.results import read_history, read_summary
+from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
+
+ANSWER, NO_REASON, BOUND, BROKEN, INVALID = "answer", "no reason", "CPU bound", "broke off", "wrong input"
+REFUSALS = {"touch-down": "touches down", "fold": "ends in a fold", "suction": "draws the free edge"}
+OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, BOUND, BROKEN, INVALID)
+NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
+TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
+THIN = 2.0                 # a film this many times touch_down_gap has touched down
+RISING = (0.1, 0.25, 0.5, 0.75, 1.0)    # of the load, in the sweep that must stop
+FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)    # where light loads are what the film draws the edge at
+BY_GAP, BY_SWEEP, AGAINST, OPEN = "by its last film", "by a load sweep", "contradicted", "not shown"
+SECOND_WAYS = (BY_GAP, BY_SWEEP, AGAINST, OPEN)
+
+
+def run_bounded(gfb, path, folder, seconds):
+    """Runs a case file on one rank, for so many seconds of CPU time at most; status, log, CPU time."""
+    def bound():
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5))
+
+    with open(pathlib.Path(folder)/"log", "w+", encoding="utf-8", errors="replace") as log:
+        process = subprocess.Popen(command_of(gfb, path, folder, options=("--quiet",)), stdin=subprocess.DEVNULL,
+                                   stdout=log, stderr=subprocess.STDOUT, preexec_fn=bound,
+                                   env={**ENVIRONMENT, **os.environ})
+        _, status, usage = os.wait4(process.pid, 0)  # its own usage, whatever else runs
+        process.returncode = os.waitstatus_to_exitcode(status)
+        log.seek(0)
+        return process.returncode, log.read(), usage.ru_utime + usage.ru_stime
+
+
+def reason_in(log):
+    """The sentence of a run without an answer, on one line."""
+    for line in log.splitlines():
+        if any(words in line for words in NOT_FOUND):
+            return line.strip()
+    lines = [line.strip() for line in log.splitlines() if line.strip()]
+    return lines[-1][:200] if lines else ""
+
+
+def outcome_of(status, log):
+    """A word for how a run ended."""
+    if status == DONE:
+        return ANSWER
+    if status == WRONG_INPUT:
+        return INVALID
+    if status in (-signal.SIGXCPU, -signal.SIGKILL):
+        return BOUND
+    if status != NOT_CONVERGED:
+        return BROKEN
+    reason = reason_in(log)
+    return next((name for name, words in REFUSALS.items() if words in reason), NO_REASON)
+
+
+def try_case(gfb, groups, seconds):
+    """How a case ends and what it costs."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = write_case(folder, "case", groups)
+        status, log, cpu = run_bounded(gfb, path, folder, seconds)
+        outcome = outcome_of(status, log)
+        row = {"outcome": outcome, "status": status, "cpu": cpu, "summary": {},
+               "reason": "" if outcome == ANSWER else reason_in(log), "enlarged": log.count("workspace was too small")}
+        file = pathlib.Path(folder)/("case.summary" if outcome == ANSWER else "case.unconverged.summary")
+        if file.exists():
+            row["summary"] = {name: value for name, value in read_summary(file)[0].items() if isinstance(value, float)}
+        if "sweep" in groups and file.with_suffix(".h5").exists():
+            row["points"] = len(read_history(file.with_suffix(".h5"))["force_x"])
+    return row
+
+
+def second_way(gfb, member, row, seconds):
+    """Whether a refusal is shown another way, and the CPU time of that."""
+    if row["outcome"] not in REFUSALS:
+        return "", 0.0
+    clearance = member.groups["bearing"]["clearance"]
+    gap = row["summary"].get("minimum_gap", math.inf)
+    if row["outcome"] == "touch-down" and gap <= THIN*TOUCH_DOWN_SHARE*clearance:
+        return BY_GAP, 0.0
+    shares, ends = (FALLING, ("fold", "suction")) if row["outcome"] == "suction" else (RISING, (row["outcome"],))
+    operation = member.groups["operation"]
+    first = {**operation, "load": tuple(shares[0]*part for part in operation["load"])}
+    sweep = {"parameter": "load", "values": tuple(share*member.load for share in shares)}
+    again = try_case(gfb, {**member.groups, "operation": first, "sweep": sweep}, seconds)
+    if again["outcome"] == ANSWER:
+        return AGAINST, again["cpu"]
+    begun = again.get("points", 0) > 0
+    return (BY_SWEEP if begun and again["outcome"] in ends else OPEN), again["cpu"]
+
+
+def imbalance(member, row):
+    """Of the film's force and the load, over the load."""
+    load = member.groups["operation"]["load"]
+    force = (row["summary"].get("force_x", math.inf), row["summary"].get("force_y", math.inf))
+    return math.hypot(force[0] - load[0], force[1] - load[1])/math.hypot(*load)
