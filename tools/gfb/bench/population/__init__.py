@@ -77,7 +77,7 @@ def measure(members, options):
             return
         row = try_case(options.gfb, member.groups, options.seconds)
         row["bound"] = options.seconds
-        row["shown"], row["cpu_shown"] = second_way(options.gfb, member, row, options.seconds)
+        row["shown"], row["cpu_shown"] = second_way(options.gfb, member, row)
         with lock:
             rows[key] = row
             keep_rows(STORE, program, rows)

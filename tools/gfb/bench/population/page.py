@@ -3,8 +3,8 @@
 import statistics
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (ANSWER, BY_GAP, BY_SWEEP, FALLING, OUTCOMES, REFUSALS, RISING, SECOND_WAYS,
-                                        THIN, imbalance)
+from gfb.bench.population.trial import (ANSWER, BOUND, BY_GAP, BY_SWEEP, CHEAP, FALLING, OUTCOMES, REFUSALS,
+                                        RISING, SECOND_WAYS, THIN, imbalance)
 from gfb.tables import markdown_table, plain_table
 
 WORST = 10
@@ -20,13 +20,14 @@ SAID = {
 }
 HEAD = """# Population: {name}
 
-Written by `tools/bench population --set {name} --count {count} --docs`.
+Written by `tools/bench population --set {name} --count {count} --seconds {seconds:g} --docs`.
 
 {said}
 
-Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound*. *no reason*: the run
-ends with status 2, but its sentence names nothing of the bearing. Factorizations and CPU times are medians; the ratio is that of the medians of
-refusals to those of answers of the same model. Times depend on the machine and on what else runs there.
+Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound* (on a busy
+machine the system's limit may strike before that by the times given here). *no reason*: the run ends with status 2, but its
+sentence names nothing of the bearing. Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
+those of answers of the same model. Times depend on the machine and on what else runs there.
 
 """
 
@@ -62,8 +63,9 @@ def facts(members, rows):
     """Sentences before the tables."""
     answers = [(member, row) for member, row in zip(members, rows) if row["outcome"] == ANSWER]
     named = sum(row["outcome"] in REFUSALS for row in rows)
+    stopped = sum(row["outcome"] == BOUND for row in rows)
     text = (f"{len(rows)} members: {len(answers)} answers, {named} refused by name, {len(rows) - len(answers) - named} "
-            f"without a reason; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
+            f"without a reason,\n{stopped} of these stopped at the bound; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
     if answers:
         text += f"Force of the answers off the load by at most {max(imbalance(*one) for one in answers):.0e} of it.\n"
     enlarged = sum(row["enlarged"] > 0 for row in rows)
