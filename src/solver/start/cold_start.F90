@@ -49,13 +49,15 @@ contains
     type(scene_type), target :: small
     type(bearing_plan_type) :: small_plan
     type(start_problem_type) :: problem
-    logical :: helped
+    type(path_report_type) :: refusal
+    logical :: has_smaller, helped
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    call find_smaller(scene, plan, target, helped, small, small_plan)
-    if (helped) then
+    helped = .false.
+    call find_smaller(scene, plan, target, has_smaller, small, small_plan)
+    if (has_smaller) then
       call start_bearing(small, small_plan, target, newton_settings, path_settings, log, coarse, &
                          coarse_newton, report, error)
       if (allocated(error)) return
@@ -72,11 +74,16 @@ contains
     problem%bearing => bearing
     problem%newton => newton
     if (helped) problem%smaller => coarse
+    problem%refused = has_smaller .and. .not. helped .and. bearing%pad(1)%foil%has_contacts()
+    if (problem%refused) refusal = report
     call try_starts(problem, report)
     if (.not. report%converged .and. plan%may_upwind .and. .not. plan%upwind) then
       bearing%pad(1)%film%flow%upwind = .true.
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call try_starts(problem, report)
+    end if
+    if (problem%refused .and. .not. (report%converged .or. report%touched .or. report%folded)) then
+      report%reason = refusal%reason ! of all starts, not of one
     end if
     call coarse%destroy()
     if (report%converged .and. .not. problem%from_smaller .and. any(scene%operation%lift_given)) then

@@ -93,7 +93,8 @@ contains
     call nearest%kept%destroy()
   end subroutine try_starts
 
-  !> Numbers of the starts that apply to a problem.
+  !> Numbers of the starts that apply to a problem; where the smaller system has none that leads to an answer, the
+  !> first of those that count shows the same on this one.
   function applying(starts, problem) result(list)
     type(cold_start_type), intent(in) :: starts(:)
     type(start_problem_type), intent(in) :: problem
@@ -102,7 +103,9 @@ contains
 
     allocate (list(0))
     do i = 1, size(starts)
-      if (starts(i)%applies(problem)) list = [list, i]
+      if (.not. starts(i)%applies(problem)) cycle
+      list = [list, i]
+      if (problem%refused .and. starts(i)%counts) exit
     end do
   end function applying
 

@@ -32,6 +32,7 @@ module gfb_start_problem
     type(bearing_system_type), pointer :: bearing => null()
     type(newton_type), pointer :: newton => null()             !! its solver
     type(bearing_system_type), pointer :: smaller => null()    !! the answer on a coarser mesh or half the width, if there is one
+    logical :: refused = .false.         !! no start led to an answer of the smaller system
     logical :: slowed = .false.          !! the target is at half the speed of another problem
     logical :: others_left = .false.     !! other starts with soft contacts follow
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
