@@ -24,6 +24,8 @@ module gfb_bearing_summary
     real(wp) :: peak_memory = 0.0_wp !! of all ranks [B]
   end type cost_type
 
+  real(wp), parameter :: lifted = 0.02_wp !! of an edge off its bumps, over the clearance: another equilibrium is likely [1]
+
 contains
 
   !> Quantities of one answer.
@@ -164,6 +166,10 @@ contains
                     lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
+      if (any([answer%leading_edge_lift, answer%trailing_edge_lift] > lifted*clearance)) then
+        call log%line('                 an edge is lifted; the foil may also rest on its bumps, with another film: '// &
+                      'gfb --branches lists equilibria')
+      end if
     end if
     if (answer%has_solid_contact) then
       call log%line('solid contact    '//pair(answer%solid_force(1:2), 'N', 1.0_wp)// &

@@ -4,7 +4,7 @@ module gfb_operation_case
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
-  use gfb_value_rules, only: any_value, not_negative
+  use gfb_value_rules, only: any_value
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed
@@ -61,10 +61,10 @@ contains
                               'rotation of the sleeve relative to the shaft, about x and y')
     call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
                        'look for the equilibrium whose top foil''s free leading edge is lifted '// &
-                       'this far towards the shaft at the midplane', not_negative, &
+                       'this far towards the shaft at the midplane, or, negative, away from it', any_value, &
                        default=no_default, given=operation%lift_given(1))
     call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
-                       'the same at the ends of the bearing', not_negative, default=no_default, &
+                       'the same at the ends of the bearing', any_value, default=no_default, &
                        given=operation%lift_given(2))
     call keys%finish_group()
   end subroutine read_operation_case
