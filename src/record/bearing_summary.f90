@@ -24,7 +24,8 @@ module gfb_bearing_summary
     real(wp) :: peak_memory = 0.0_wp !! of all ranks [B]
   end type cost_type
 
-  real(wp), parameter :: lifted = 0.02_wp !! of an edge off its bumps, over the clearance: another equilibrium is likely [1]
+  !> Of an edge off its bumps, over the clearance: another equilibrium is likely [1].
+  real(wp), parameter :: lifted = 0.02_wp
 
 contains
 
@@ -167,7 +168,7 @@ contains
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
       if (any([answer%leading_edge_lift, answer%trailing_edge_lift] > lifted*clearance)) then
-        call log%line('                 an edge is lifted; the foil may also rest on its bumps, with another film: '// &
+        call log%line('                 an edge is lifted; the foil may also rest on its bumps: '// &
                       'gfb --branches lists equilibria')
       end if
     end if

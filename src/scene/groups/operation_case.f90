@@ -61,7 +61,8 @@ contains
                               'rotation of the sleeve relative to the shaft, about x and y')
     call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
                        'look for the equilibrium whose top foil''s free leading edge is lifted '// &
-                       'this far towards the shaft at the midplane, or, negative, away from it', any_value, &
+                       'this far towards the shaft at the midplane, or, negative, away from it', &
+                       any_value, &
                        default=no_default, given=operation%lift_given(1))
     call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
                        'the same at the ends of the bearing', any_value, default=no_default, &
