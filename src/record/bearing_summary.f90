@@ -167,8 +167,8 @@ contains
                     lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
-      if (any([answer%leading_edge_lift, answer%trailing_edge_lift] > lifted*clearance)) then
-        call log%line('                 an edge is lifted; the foil may also rest on its bumps: '// &
+      if (maxval([answer%leading_edge_lift, answer%trailing_edge_lift]) > lifted*clearance) then
+        call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
                       'gfb --branches lists equilibria')
       end if
     end if
