@@ -7,14 +7,15 @@
 module gfb_bearing
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, fetch_entries
+  use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks, fetch_entries
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
   use gfb_shaft_motion, only: shaft_unknowns
   use gfb_operating_point, only: operating_point_type
-  use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_local_exchange, only: local_exchange_type
+  use gfb_contact_path, only: begin_contact_path, next_contact, switch_contact
   use gfb_pad, only: pad_type
   implicit none (type)
   private
@@ -32,6 +33,7 @@ module gfb_bearing
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp), allocatable :: unknown_scale(:) !! of the local unknowns, in SI
     type(local_exchange_type) :: exchange  !! between local unknowns and vectors
+    integer, private :: changing(contact_name) = 0 !! contact that changes next: its rank from 1, its pad, its number there
   contains
     procedure :: get_unknowns
     procedure :: set_unknowns
@@ -48,6 +50,9 @@ module gfb_bearing
     procedure :: reaction
     procedure :: force_scale
     procedure :: equation_scale
+    procedure :: begin_path => begin_bearing_path
+    procedure :: next_change => next_bearing_change
+    procedure :: cross_change => cross_bearing_change
   end type bearing_type
 
 contains
@@ -275,4 +280,78 @@ contains
       force = force + share(:, i)
     end do
   end function local_force
+
+  !> A step is about to be followed along which contacts open and close.
+  subroutine begin_bearing_path(self, can)
+    class(bearing_type), intent(inout) :: self !! the bearing
+    logical, intent(out) :: can !! there are contacts, and their forces are straight lines
+    logical :: straight
+    integer :: i
+
+    can = self%is_meshed()
+    do i = 1, size(self%pad)
+      if (.not. self%pad(i)%foil%has_contacts()) cycle
+      call begin_contact_path(self%pad(i)%foil%contacts, straight)
+      can = can .and. straight
+    end do
+  end subroutine begin_bearing_path
+
+  !> How much of a step can be taken until a contact of any pad opens or closes.
+  subroutine next_bearing_change(self, state, step, share, name)
+    class(bearing_type), intent(inout) :: self !! the bearing; it remembers the contact
+    Vec, intent(in) :: state !! scaled
+    Vec, intent(in) :: step  !! subtracted from it, scaled
+    real(wp), intent(out) :: share !! of the step, may be above 1; huge where none does [1]
+    integer, intent(out) :: name(contact_name) !! of the contact: its rank from 1, its pad, its number there
+    real(wp) :: here(self%local_size()), ahead(self%local_size()), nearest, first(1), rank(1)
+    integer :: i, number
+
+    call self%get_unknowns(here, state)
+    call self%get_unknowns(ahead, step)
+    ahead = here - ahead
+    share = huge(share)
+    name = 0
+    do i = 1, size(self%pad)
+      associate (pad => self%pad(i))
+        if (.not. pad%foil%has_contacts()) cycle
+        call next_contact(pad%foil%contacts, pad%foil%own_part(here(pad%first + 1:pad%last)), &
+                          pad%foil%own_part(ahead(pad%first + 1:pad%last)), nearest, number)
+        if (nearest >= share) cycle
+        share = nearest
+        name = [this_rank() + 1, i, number]
+      end associate
+    end do
+    first = -largest_over_ranks([-share])
+    if (share > first(1)) name = 0
+    share = first(1)
+    rank = largest_over_ranks([real(name(1), wp)]) ! one of those that tie
+    if (name(1) /= nint(rank(1))) name = 0
+    name = nint(sum_over_ranks(real(name, wp)))
+    self%changing = name
+  end subroutine next_bearing_change
+
+  !> The contact that `next_change` found opens or closes.
+  subroutine cross_bearing_change(self, column, row)
+    class(bearing_type), intent(inout) :: self !! the bearing
+    Vec, intent(in) :: column !! of what the matrix changes by, scaled; overwritten
+    Vec, intent(in) :: row    !! the same, scaled; overwritten
+    real(wp) :: force(self%local_size()), rate(self%local_size())
+    integer :: rank, before
+    PetscErrorCode :: ierr
+
+    force = 0.0_wp
+    rate = 0.0_wp
+    rank = this_rank() + 1
+    if (self%changing(1) == rank) then
+      associate (pad => self%pad(self%changing(2)))
+        before = pad%first + pad%foil%first
+        call switch_contact(pad%foil%contacts, self%changing(3), force(before + 1:before + pad%foil%local_unknowns()), &
+                            rate(before + 1:before + pad%foil%local_unknowns()))
+      end associate
+    end if
+    PetscCallA(VecSet(column, 0.0_wp, ierr))
+    call self%exchange%add(force/self%equation_scale(self%point), column)
+    PetscCallA(VecSet(row, 0.0_wp, ierr))
+    call self%exchange%add(rate*self%unknown_scale, row)
+  end subroutine cross_bearing_change
 end module gfb_bearing

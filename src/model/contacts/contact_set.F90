@@ -11,6 +11,7 @@ module gfb_contact_set
                              next_place, contact_state
   implicit none (type, external)
   private
+  public :: add_at_node
 
   integer, parameter :: spatial = 3
   real(wp), parameter :: touching = 1.0e-8_wp !! penetration that counts, over the typical one
@@ -52,6 +53,7 @@ module gfb_contact_set
     real(wp) :: adhesion = 0.0_wp              !! stiffness against opening over that, of a homotopy
     logical :: glued = .false.                 !! closed whatever happens, free to slide: a first guess
     logical :: settled = .true.                !! every contact is linearised where it is
+    logical, allocatable :: closed(:)          !! along a step; before it as the contacts are linearised
   contains
     procedure :: approach
     procedure :: next_change
@@ -65,7 +67,7 @@ module gfb_contact_set
     procedure :: friction_work
     procedure :: penalty_energy
     procedure :: state_of
-    procedure, private :: law_of
+    procedure :: law_of
   end type contact_set_type
 
 contains

@@ -6,6 +6,8 @@ module gfb_nonlinear_system
   implicit none (type)
   private
 
+  integer, parameter, public :: contact_name = 3 !! numbers that name a contact
+
   !> Equations \( f(x) = 0 \) in scaled unknowns, with their exact derivative.
   type, abstract, public :: nonlinear_system_type
     Vec :: state    !! x, scaled; owned by the system
@@ -22,6 +24,9 @@ module gfb_nonlinear_system
     procedure :: settle
     procedure :: begin_step
     procedure :: virtual_work
+    procedure :: begin_path
+    procedure :: next_change
+    procedure :: cross_change
     procedure(evaluate), deferred :: evaluate
     procedure(linearise), deferred :: linearise
   end type nonlinear_system_type
@@ -69,4 +74,29 @@ contains
     real(wp) :: work
     work = 0.0_wp
   end function virtual_work
+
+  !> A step is about to be followed along which contacts open and close; here none does.
+  subroutine begin_path(self, can)
+    class(nonlinear_system_type), intent(inout) :: self !! the equations
+    logical, intent(out) :: can !! it can be followed
+    can = .false.
+  end subroutine begin_path
+
+  !> How much of a step can be taken until a contact opens or closes, and which one that is.
+  subroutine next_change(self, state, step, share, name)
+    class(nonlinear_system_type), intent(inout) :: self !! the equations; they remember the contact
+    Vec, intent(in) :: state !! scaled
+    Vec, intent(in) :: step  !! subtracted from it, scaled
+    real(wp), intent(out) :: share !! of the step, may be above 1; huge where none does [1]
+    integer, intent(out) :: name(contact_name) !! of the contact, on all ranks
+    share = huge(share)
+    name = 0
+  end subroutine next_change
+
+  !> The contact that `next_change` found opens or closes: the matrix changes by the dyad of two vectors.
+  subroutine cross_change(self, column, row)
+    class(nonlinear_system_type), intent(inout) :: self !! the equations
+    Vec, intent(in) :: column !! scaled; overwritten
+    Vec, intent(in) :: row    !! scaled; overwritten
+  end subroutine cross_change
 end module gfb_nonlinear_system

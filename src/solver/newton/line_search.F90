@@ -3,12 +3,14 @@
 !>
 !> A step is halved until it can be evaluated and the residual is not larger than the largest of the
 !> last few: a residual may grow for a while, but not beyond that. Where contacts change their state
-!> along a step, the work of the forces on the structure shortens it further. A step of lagged factors
-!> that leads nowhere is dropped, and new factors follow.
+!> along a step, the work of the forces on the structure shortens it further. After some steps contacts
+!> are taken to alternate: then a step is bent wherever one opens or closes, and shortened back along its
+!> path. A step of lagged factors that leads nowhere is dropped, and new factors follow.
 module gfb_line_search
   use petscsnes
   use gfb_kinds, only: wp
   use gfb_nonlinear_system, only: nonlinear_system_type
+  use gfb_bent_step, only: bent_step_type, bend_step, state_on_path, destroy_bent_step
   use gfb_linear_solver, only: linear_solver_type, judge_linear, choose_factors
   implicit none (type)
   private
@@ -19,6 +21,8 @@ module gfb_line_search
   real(wp), parameter :: sufficient = 1.0e-4_wp    !! decrease asked for, relative to a full step's [1]
   real(wp), parameter :: blocked_length = 0.01_wp  !! of a step that goes nowhere [1]
   integer, parameter :: most_blocked = 2           !! such steps before it is given up
+  integer, parameter :: path_halvings = 8          !! of a bent step, before the straight one is tried
+  real(wp), parameter :: least_reached = 0.1_wp    !! share of a step that its path must reach to be followed [1]
   integer, parameter :: balances = 8               !! trials of a step's length for contacts
   integer, parameter :: patience = 12              !! steps after which contacts are taken to cycle
   real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
@@ -32,6 +36,7 @@ module gfb_line_search
     real(wp) :: step = huge(1.0_wp)      !! last relative step, before it was shortened [1]
     real(wp) :: step_before = huge(1.0_wp) !! the one before [1]
     real(wp) :: size_x = 1.0_wp          !! largest unknown, at least 1, scaled [1]
+    integer :: straight = 0              !! steps before contacts are taken to alternate
     logical :: impossible = .false.      !! no trial along the step could be evaluated
     integer, private :: steps = 0        !! so far
     integer, private :: blocked = 0      !! steps in succession that were cut very short for that
@@ -53,6 +58,7 @@ contains
     Vec :: x, f, y, trial, trial_residual
     PetscReal :: before, after
     logical :: found, solved
+    type(bent_step_type) :: path
 
     PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
     PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
@@ -72,12 +78,20 @@ contains
         return
       end if
     end if
-    call find_length(line, snes, solver%fresh .or. system%slow_change, x, y, trial, trial_residual, found, ierr)
-    CHKERRQ(ierr)
-    if (found) then
-      call move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+    found = .false.
+    if (solver%fresh .and. .not. system%slow_change .and. line%steps > line%straight) then
+      call bend_step(snes, system, x, y, path, ierr)
       CHKERRQ(ierr)
-    else
+      call go_along_path(line, system, snes, path, x, f, y, trial, trial_residual, found, ierr)
+      CHKERRQ(ierr)
+    end if
+    if (.not. found) then
+      call find_length(line, snes, solver%fresh .or. system%slow_change, x, y, trial, trial_residual, found, ierr)
+      CHKERRQ(ierr)
+      if (found) call move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+      CHKERRQ(ierr)
+    end if
+    if (.not. found) then
       line%length = 0.0_wp
       if (solver%fresh .or. system%slow_change) then
         PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
@@ -85,8 +99,10 @@ contains
       line%impossible = line%impossible .and. solver%fresh
     end if
     PetscCall(VecNorm(f, NORM_2, after, ierr))
-    call choose_factors(solver, .not. (line%length < 1.0_wp .or. .not. system%settled), line%steps == 1, line%step, &
-                        line%step_before, .not. after > residual_goal, before, after)
+    ! Where contacts have changed their state the matrix has, too.
+    call choose_factors(solver, .not. (line%length < 1.0_wp .or. .not. system%settled .or. path%changes > 0), &
+                        line%steps == 1, line%step, line%step_before, .not. after > residual_goal, before, after)
+    call destroy_bent_step(path)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine take_step
 
@@ -109,6 +125,46 @@ contains
     line%length = 1.0_wp
     line%impossible = .true.
   end subroutine measure_step
+
+  !> Takes the end of a bent step as the new state, or what of its path can be evaluated and has a
+  !> residual that is small enough. Contacts are where they are at each trial.
+  subroutine go_along_path(line, system, snes, path, x, f, y, trial, trial_residual, found, ierr)
+    type(line_search_type), intent(inout) :: line
+    class(nonlinear_system_type), target, intent(inout) :: system
+    SNES, intent(in) :: snes
+    type(bent_step_type), intent(in) :: path
+    Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
+    Vec, intent(in) :: trial, trial_residual !! are overwritten
+    logical, intent(out) :: found            !! else all is as it was, but for the trial
+    PetscErrorCode, intent(out) :: ierr
+    PetscReal :: after
+    integer :: halving
+    logical :: moved
+
+    ierr = 0
+    found = .false.
+    if (path%changes == 0 .or. path%reached < least_reached) return
+    do halving = 0, path_halvings
+      line%length = 0.5_wp**halving
+      call state_on_path(path, line%length*path%length, x, y, trial, ierr)
+      CHKERRQ(ierr)
+      call system%settle(trial, moved)
+      PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+      PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
+      if (after <= huge(1.0_wp)) found = after <= (1.0_wp - sufficient*line%length)*maxval(line%past)
+      if (found) exit
+    end do
+    if (found) then
+      line%length = line%length*path%reached
+      line%impossible = .false.
+      line%blocked = 0
+      PetscCall(VecCopy(trial, x, ierr))
+      PetscCall(VecCopy(trial_residual, f, ierr))
+    else
+      line%length = 1.0_wp
+      call system%settle(x, moved)
+    end if
+  end subroutine go_along_path
 
   !> Halves a step until it can be evaluated and its residual is small enough.
   subroutine find_length(line, snes, may_halve, x, y, trial, trial_residual, found, ierr)

@@ -37,6 +37,7 @@ module gfb_newton
     real(wp) :: residual_tolerance = 1.0e-8_wp !! of the scaled residual's root mean square [1]
     real(wp) :: step_tolerance = 1.0e-10_wp    !! of the largest relative step [1]
     integer :: maximum_iterations = 40         !! of one solve
+    integer :: straight_steps = 8              !! of one solve, before they are bent at contacts that change
   end type newton_settings_type
 
   !> The solver and its memory. It is handed to SNES by address: keep it where it is.
@@ -127,6 +128,7 @@ contains
     call begin_solve(newton%linear, newton%system%times_filled)
     newton%rounded = .false.
     newton%line = line_search_type()
+    newton%line%straight = newton%settings%straight_steps
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
     ! PETSc marks what it cannot evaluate or solve with one over zero.
     call newton%system%settle(newton%system%state, moved)
