@@ -27,6 +27,7 @@ module gfb_line_search
   integer, parameter :: patience = 12              !! steps after which contacts are taken to cycle
   real(wp), parameter :: unbalanced(2) = [10.0_wp, 0.5_wp] !! work at a step's end over that at its
   !! beginning, before and after that [1]
+  real(wp), parameter :: driving = 0.5_wp          !! work over that at the beginning from which on a shortened step may be longer [1]
   real(wp), parameter :: at_rest = 1.0e-2_wp       !! work at a step's beginning that is none, over that at its end [1]
   real(wp), parameter, public :: stagnation = 1.0e-6_wp !! steps this small that shrink no more are round-off [1]
 
@@ -228,6 +229,10 @@ contains
   !> Shortens a step along which contacts change their state, where the forces on the structure turn
   !> against it: to where they do little work along it. Without friction and film that is a search
   !> for the least energy, which converges from anywhere.
+  !>
+  !> The length is kept between one at which the forces still drive the step and one at which they turn
+  !> too much against it. A straight line between them guesses far too short where a hard contact
+  !> closes, so that at least half of the distance is tried.
   subroutine balance_work(line, system, snes, x, f, y, trial, trial_residual, ierr)
     type(line_search_type), intent(inout) :: line
     class(nonlinear_system_type), target, intent(inout) :: system
@@ -235,28 +240,36 @@ contains
     Vec, intent(in) :: x, f, y               !! state, residual, step
     Vec, intent(in) :: trial, trial_residual !! at the present length of the step
     PetscErrorCode, intent(out) :: ierr
-    real(wp) :: start, low, high, work_low, work
+    real(wp) :: start, low, high, work_low, work_high, work, allowed
     integer :: attempt
     logical :: moved
-    real(wp) :: allowed
 
     ierr = 0
     allowed = merge(unbalanced(1), unbalanced(2), line%steps <= patience)
     start = system%virtual_work(f, y)
     work = system%virtual_work(trial_residual, y)
+    ! Where the step begins in equilibrium, as when only the load has moved, there is nothing to compare.
+    if (line%steps <= patience .and. start <= at_rest*abs(work)) return
+    if (.not. start > 0.0_wp .or. work >= -allowed*start) return
     low = 0.0_wp
     work_low = start
     high = line%length
-    ! Where the step begins in equilibrium, as when only the load has moved, there is nothing to compare.
-    if (line%steps <= patience .and. start <= at_rest*abs(work)) return
+    work_high = work
     do attempt = 1, balances
-      if (.not. start > 0.0_wp .or. work >= -allowed*start) return
-      line%length = low + (high - low)*max(0.1_wp, min(0.9_wp, work_low/(work_low - work)))
+      line%length = low + (high - low)*max(0.5_wp, min(0.9_wp, work_low/(work_low - work_high)))
       PetscCall(VecWAXPY(trial, -line%length, y, x, ierr))
       call system%settle(trial, moved)
       PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
       work = system%virtual_work(trial_residual, y)
-      high = line%length
+      if (work > driving*start) then
+        low = line%length
+        work_low = work
+      else if (work < -allowed*start) then
+        high = line%length
+        work_high = work
+      else
+        exit
+      end if
     end do
   end subroutine balance_work
 end module gfb_line_search
