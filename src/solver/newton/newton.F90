@@ -37,7 +37,9 @@ module gfb_newton
     real(wp) :: residual_tolerance = 1.0e-8_wp !! of the scaled residual's root mean square [1]
     real(wp) :: step_tolerance = 1.0e-10_wp    !! of the largest relative step [1]
     integer :: maximum_iterations = 40         !! of one solve
-    integer :: straight_steps = 8              !! of one solve, before they are bent at contacts that change
+    !> Of one solve, before they are bent at contacts that change. A bent step may end on another branch: only a search
+    !> for any answer bends them, a path that follows a branch does not.
+    integer :: straight_steps = huge(1)
   end type newton_settings_type
 
   !> The solver and its memory. It is handed to SNES by address: keep it where it is.

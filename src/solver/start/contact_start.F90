@@ -27,7 +27,7 @@ module gfb_contact_start
   real(wp), parameter, public :: shortest_trial = 0.02_wp !! step of a start while others are left [1]
   real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a path, with contacts of full stiffness [1]
 
-  type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25) !! with soft contacts
+  type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25, 8) !! with soft contacts
   integer, parameter :: releasing = 1, stiffening = 2 !! what is done to contacts
   real(wp), parameter :: shortest_decades = 0.05_wp    !! of a step, before it is given up [1]
   real(wp), parameter :: enough = 4.0_wp             !! decades of the release that are all where steps do not grow
@@ -67,6 +67,7 @@ contains
     soft = settings
     soft%look_for_folds = .false. ! they would be those of soft contacts
     wanted = newton%settings
+    newton%settings%straight_steps = rough%straight_steps
     newton%settings%residual_tolerance = max(wanted%residual_tolerance, rough%residual_tolerance)
     newton%settings%step_tolerance = max(wanted%step_tolerance, rough%step_tolerance)
     newton%settings%maximum_iterations = min(wanted%maximum_iterations, rough%maximum_iterations)
@@ -88,7 +89,9 @@ contains
     end if
     newton%settings = wanted
     if (report%converged) then
+      newton%settings%straight_steps = rough%straight_steps
       call solve_at(bearing, newton, target, .false., settings, report)
+      newton%settings = wanted
     else if (real_contacts) then
       call follow_path(bearing, newton, target, first_hard_step, settings, report)
     else
