@@ -112,10 +112,7 @@ contains
     type(newton_report_type) :: solved
     type(kept_state_type) :: last
     real(wp) :: gone, total, step, trial ! decades
-    integer :: straight !! steps before they are bent, of other solves
 
-    straight = newton%settings%straight_steps
-    if (change == releasing) newton%settings%straight_steps = 0 ! most contacts are near first touch
     total = least_adhesion
     if (change == stiffening) total = log10(bearing%pad(1)%foil%softest())
     total = -total
@@ -137,7 +134,6 @@ contains
       end if
     end do
     call last%destroy()
-    newton%settings%straight_steps = straight
     if (present(arrived)) arrived = gone >= total
     if (gone >= total .or. .not. report%converged) return
     report%converged = .false.

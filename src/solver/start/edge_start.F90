@@ -19,7 +19,7 @@ module gfb_edge_start
   use gfb_contact_start, only: try_soft_contacts, usual_contacts, shortest_trial
   implicit none (type)
   private
-  public :: try_held_edge, has_free_edge
+  public :: try_resting_edge, try_held_edge, has_free_edge
 
   real(wp), parameter :: lowest = -0.05_wp       !! height of the edge, over the clearance [1]
   real(wp), parameter :: next_height = 0.1_wp    !! above the one before, the same [1]
@@ -45,6 +45,22 @@ contains
 
     has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
   end function has_free_edge
+
+  !> Fixes the edge where it rests while contacts are released, and then releases it: to the equilibrium with a resting
+  !> edge, where there is one, rather than to those whose edge is lifted.
+  recursive subroutine try_resting_edge(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
+    type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
+    type(path_report_type), intent(out) :: report !! how it ended
+    logical, intent(out) :: ends !! never
+
+    ends = .false.
+    call hold_at(problem, 0.0_wp, report)
+    report%touched = .false. ! with the edge fixed
+    if (report%converged) then
+      call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
+    end if
+  end subroutine try_resting_edge
 
   !> Fixes the edge higher and higher, and releases it where it may stay.
   !>

@@ -11,7 +11,7 @@ module gfb_start_list
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
-  use gfb_edge_start, only: try_held_edge, has_free_edge
+  use gfb_edge_start, only: try_resting_edge, try_held_edge, has_free_edge
   implicit none (type)
   private
   public :: cold_starts, try_starts
@@ -36,6 +36,7 @@ contains
       cold_start_type("the smaller system's answer", has_smaller, try_smaller_answer), &
       cold_start_type("the smaller system's position, with the shaft fixed", floats_with_smaller, try_smaller_position), &
       cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
+      cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_resting_edge), &
       cold_start_type('soft contacts, released early under a load', has_contacts, try_soft_contacts, &
                       usual_contacts, .true.), &
       cold_start_type('the free edge fixed at heights', floats_with_free_edge, try_held_edge), &
