@@ -56,7 +56,8 @@ contains
       modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%tilt) > 0.0_wp)
   end function can_halve
 
-  !> Few rows, or else half the stations of film and top foil.
+  !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot give way where the foil deflects
+  !> otherwise, keeps its stations.
   subroutine coarsen_foils(scene, plan, found, small, small_plan)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
@@ -71,7 +72,8 @@ contains
     if (plan%axial >= 2*fewest) then
       small_plan%axial = fewest
       small%mesh%axial_elements = fewest
-    else if (of_pitch*plan%order >= 2*least_of_pitch) then
+    else if (plan%floats .and. of_pitch*plan%order >= 2*least_of_pitch .and. &
+             plan%circumferential*plan%order >= 2*least_circumferential) then
       small%mesh%circumferential_elements = scene%mesh%circumferential_elements/2
       small_plan%circumferential = small%mesh%circumferential_elements
       if (scene%mesh%align_crests) small_plan%circumferential = size(plate_stations(small)) - 1
