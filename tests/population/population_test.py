@@ -21,7 +21,7 @@ from gfb.bench.population import members, page, trial  # noqa: E402
 from gfb.run import DONE, call, write_case  # noqa: E402
 
 SCENES = pathlib.Path(__file__).resolve().parent/"scenes"
-SECONDS = 20.0     # CPU time of a member's run at most: how many are stopped depends on the machine, and is no claim
+SECONDS = 5.0      # CPU time of a member's run at most: how many are stopped depends on the machine, and is no claim
 SCENE_SECONDS = 600.0
 # From the best to the worst: an outcome may move up.
 RANKS = {trial.ANSWER: 0, **{name: 1 for name in trial.REFUSALS}, trial.NO_REASON: 2, trial.BOUND: 3, trial.BROKEN: 4,
