@@ -37,6 +37,8 @@ contains
     type(bearing_system_type), intent(in) :: small      !! with its answer
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
     real(wp) :: coarse(small%local_size()), unknown(bearing%local_size())
+    real(wp) :: share(corners, size(bearing%pad(1)%mesh%mesh_node))
+    integer :: around(corners, size(bearing%pad(1)%mesh%mesh_node))
     type(foil_surface_type), allocatable :: surface(:), small_surface(:)
     integer :: nodes, small_nodes, i
 
@@ -44,37 +46,48 @@ contains
     nodes = size(bearing%pad(1)%mesh%mesh_node)
     small_nodes = size(small%pad(1)%mesh%mesh_node)
     unknown = 0.0_wp
+    call find_film_places(small, bearing, around, share)
     surface = bearing%pad(1)%foil%surfaces()
     small_surface = small%pad(1)%foil%surfaces()
     if (size(surface) > 0 .and. size(small_surface) == size(surface)) then
-      unknown(:nodes) = merge(film_field(small, coarse(:small_nodes), bearing), 0.0_wp, bearing%pad(1)%mesh%owned)
+      unknown(:nodes) = merge(film_field(small, coarse(:small_nodes), around, share), 0.0_wp, bearing%pad(1)%mesh%owned)
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = merge(small%eccentricity(), 0.0_wp, bearing%last_rank)
       do i = 1, size(surface)
         call transfer_surface(small, small_surface(i), coarse, bearing, surface(i), i, unknown)
       end do
       call bearing%add_up(unknown, bearing%state)
     else
-      unknown(:nodes) = film_field(small, coarse(:small_nodes) + small%solid_pressure(coarse), bearing)
+      unknown(:nodes) = film_field(small, coarse(:small_nodes) + small%solid_pressure(coarse), around, share)
       call bearing%pad(1)%foil%estimate(unknown)
-      unknown(:nodes) = film_field(small, coarse(:small_nodes), bearing)
+      unknown(:nodes) = film_field(small, coarse(:small_nodes), around, share)
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = small%eccentricity()
       call bearing%set_unknowns(unknown)
     end if
   end subroutine transfer_answer
 
-  !> A field of the smaller film at the bearing's film nodes; even where the smaller film is half.
-  function film_field(small, value, bearing) result(field)
+  !> Where the bearing's film nodes lie in the smaller film; mirrored where that is half.
+  subroutine find_film_places(small, bearing, around, share)
     type(bearing_system_type), intent(in) :: small, bearing
-    real(wp), intent(in) :: value(:) !! at the smaller film's local nodes
-    real(wp) :: field(size(bearing%pad(1)%mesh%mesh_node))
-    real(wp) :: share(corners, size(field)), corner(corners, size(field)), z
-    integer :: around(corners, size(field)), node
+    integer, intent(out) :: around(:, :) !! (4, nodes) nodes of the smaller film's whole mesh
+    real(wp), intent(out) :: share(:, :) !! (4, nodes) of each [1]
+    real(wp) :: z
+    integer :: node
 
-    do node = 1, size(field)
+    do node = 1, size(share, 2)
       z = bearing%pad(1)%film%axial(node)
       if (small%pad(1)%whole%half) z = abs(z)
       call find_film_place(small%pad(1)%whole, bearing%pad(1)%film%angle(node), z, around(:, node), share(:, node))
     end do
+  end subroutine find_film_places
+
+  !> A field of the smaller film at those places.
+  function film_field(small, value, around, share) result(field)
+    type(bearing_system_type), intent(in) :: small
+    real(wp), intent(in) :: value(:)    !! at the smaller film's local nodes
+    integer, intent(in) :: around(:, :) !! (4, places) nodes of its whole mesh
+    real(wp), intent(in) :: share(:, :) !! (4, places) of each [1]
+    real(wp) :: field(size(share, 2)), corner(corners, size(share, 2))
+
     corner = reshape(film_values(small, value, [around]), shape(corner))
     ! Less one corner's value: an even field stays so to the last digit.
     field = corner(1, :) + sum(share*(corner - spread(corner(1, :), 1, corners)), 1)
@@ -130,9 +143,12 @@ contains
     real(wp), intent(in) :: coarse(:)        !! local unknowns of the smaller bearing, in SI
     type(places_type), intent(in) :: along, across
     real(wp), allocatable :: value(:, :)     !! (5, places)
-    real(wp), allocatable :: first(:, :), second(:, :)
+    real(wp), allocatable :: first(:, :), second(:, :), own_value(:, :)
+    integer, allocatable :: own(:)
     integer :: i
 
+    own = pack(surface%part%mesh_node, surface%part%owned)
+    own_value = own_values(foil, number, own, coarse)
     first = station_values(0)
     second = station_values(1)
     allocate (value, mold=first)
@@ -147,12 +163,10 @@ contains
     function station_values(next) result(there)
       integer, intent(in) :: next !! 0: before, 1: after
       real(wp), allocatable :: there(:, :)
-      real(wp), allocatable :: own_value(:, :), upper(:, :)
-      integer, allocatable :: own(:), node(:)
+      real(wp), allocatable :: upper(:, :)
+      integer, allocatable :: node(:)
       integer :: k
 
-      own = pack(surface%part%mesh_node, surface%part%owned)
-      own_value = own_values(foil, number, own, coarse)
       node = (along%low + next - 1)*surface%mesh%rows + across%low
       there = fetch_entries(surface%mesh%nodes(), own, own_value, node)
       upper = fetch_entries(surface%mesh%nodes(), own, own_value, node + 1)
