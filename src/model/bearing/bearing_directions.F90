@@ -7,7 +7,7 @@ module gfb_bearing_directions
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
-  public :: edge_lift, edge_room, edge_direction, contact_direction, foil_unit
+  public :: edge_lift, edge_room, edge_force, edge_direction, contact_direction, foil_unit
 
 contains
 
@@ -33,6 +33,13 @@ contains
     smallest = largest_over_ranks([maxval(-gap(bearing%pad(1)%edge%node))])
     room = -smallest(1)
   end function edge_room
+
+  !> Force of the spring that fixes the top foil's free edge at the point's height, towards the shaft [N].
+  function edge_force(bearing) result(force)
+    class(bearing_system_type), intent(in) :: bearing !! at a point with a fixed edge
+    real(wp) :: force
+    force = bearing%point%edge_hold*(bearing%point%edge_height - edge_lift(bearing))
+  end function edge_force
 
   !> The vector whose product with a state is that lift over the clearance.
   subroutine edge_direction(bearing, direction)

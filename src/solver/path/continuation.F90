@@ -25,6 +25,7 @@ module gfb_continuation
     real(wp) :: smallest_step = 1.0e-4_wp !! share of the path [1]
     real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
     logical :: look_for_folds = .true.    !! beyond the end of a path
+    integer :: most_cuts = huge(1)        !! of steps, after one that succeeded
   end type path_settings_type
 
   !> How far a path led.
@@ -85,6 +86,8 @@ contains
         just_cut = .true. ! what failed need not be tried again at once
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
+        report%reason = solved%reason
+        if (report%steps > 0 .and. report%cuts >= settings%most_cuts) exit
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'

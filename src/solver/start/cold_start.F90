@@ -16,6 +16,7 @@ module gfb_cold_start
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_problem, only: start_problem_type
+  use gfb_kept_state, only: kept_state_type
   use gfb_start_list, only: try_starts
   use gfb_branch_search, only: seek_branch
   use gfb_smaller_scene, only: find_smaller
@@ -32,7 +33,7 @@ contains
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   recursive subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, &
-                                     bearing, newton, report, error)
+                                     bearing, newton, report, error, anchor)
     type(scene_type), target, intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
@@ -43,13 +44,14 @@ contains
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    type(kept_state_type), intent(out), optional :: anchor !! of a refusal: a state that shows it on a larger system, too
 
     type(bearing_system_type), target :: coarse
+    type(kept_state_type) :: coarse_anchor
     type(newton_type), target :: coarse_newton
     type(scene_type), target :: small
     type(bearing_plan_type) :: small_plan
     type(start_problem_type) :: problem
-    type(path_report_type) :: refusal
     logical :: has_smaller, helped
 
     call build_bearing(scene, plan, bearing, error)
@@ -59,8 +61,9 @@ contains
     call find_smaller(scene, plan, target, has_smaller, small, small_plan)
     if (has_smaller) then
       call start_bearing(small, small_plan, target, newton_settings, path_settings, log, coarse, &
-                         coarse_newton, report, error)
+                         coarse_newton, report, error, coarse_anchor)
       if (allocated(error)) return
+      if (coarse_anchor%created) call coarse_anchor%put_back(coarse)
       newton%iterations = coarse_newton%iterations
       newton%factorizations = coarse_newton%factorizations
       newton%factorizations_before = coarse_newton%factorizations
@@ -73,19 +76,25 @@ contains
     problem%settings = path_settings
     problem%bearing => bearing
     problem%newton => newton
-    if (helped) problem%smaller => coarse
     problem%refused = has_smaller .and. .not. helped .and. bearing%pad(1)%foil%has_contacts()
-    if (problem%refused) refusal = report
+    if (helped .or. coarse_anchor%created) problem%smaller => coarse
+    if (problem%refused) problem%refusal = report
     call try_starts(problem, report)
-    if (.not. report%converged .and. plan%may_upwind .and. .not. plan%upwind) then
+    if (.not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())) then
       bearing%pad(1)%film%flow%upwind = .true.
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call try_starts(problem, report)
     end if
     if (problem%refused .and. .not. (report%converged .or. report%touched .or. report%folded)) then
-      report%reason = refusal%reason ! of all starts, not of one
+      report%reason = problem%refusal%reason ! of all starts, not of one
     end if
+    call coarse_anchor%destroy()
     call coarse%destroy()
+    if (present(anchor) .and. .not. report%converged) then
+      anchor = problem%anchor
+    else
+      call problem%anchor%destroy()
+    end if
     if (report%converged .and. .not. problem%from_smaller .and. any(scene%operation%lift_given)) then
       call seek_branch(scene%operation%lift_given, scene%operation%leading_edge_lift, bearing, newton)
     end if

@@ -13,24 +13,25 @@ module gfb_contact_start
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before, trial_settings
   use gfb_kept_state, only: kept_state_type
   use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
   implicit none (type)
   private
-  public :: try_soft_contacts
+  public :: try_soft_contacts, approach
 
   !> Releases contacts while the foil is pressed most: before the shaft is released where the load is larger than
   !> the film's force under the fixed shaft.
   type(soft_contacts_type), parameter, public :: usual_contacts = soft_contacts_type(by_load, 0.5_wp, 1.5_wp, 1.0_wp)
 
-  real(wp), parameter, public :: shortest_trial = 0.02_wp !! step of a start while others are left [1]
   real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a path, with contacts of full stiffness [1]
 
   type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25, 8) !! with soft contacts
   integer, parameter :: releasing = 1, stiffening = 2 !! what is done to contacts
   real(wp), parameter :: shortest_decades = 0.05_wp    !! of a step, before it is given up [1]
   real(wp), parameter :: enough = 4.0_wp             !! decades of the release that are all where steps do not grow
+  integer, parameter :: most_soft_cuts = 2           !! of a path with soft contacts that has begun
+  real(wp), parameter :: thin = 0.01_wp              !! gap at which a path with soft contacts ends, over the clearance [1]
   real(wp), parameter :: least_adhesion = -8.0_wp    !! decades of the stiffness against opening at which it is none [1]
 
 contains
@@ -40,25 +41,28 @@ contains
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! how they are released
     type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends                  !! the shaft touches down
+    logical, intent(out) :: ends                  !! the shaft touches down, or the branch folds
     type(path_settings_type) :: settings
 
     settings = problem%settings
-    if (problem%others_left) settings%smallest_step = max(settings%smallest_step, shortest_trial)
+    if (problem%others_left) settings = trial_settings(settings)
     call guess_position(problem%bearing, problem%scene, problem%target, soft%eccentricity)
-    call find_from(problem%bearing, problem%newton, problem%target, settings, soft, report)
-    ends = report%touched
+    call approach(problem%bearing, problem%newton, problem%target, settings, soft, report)
+    if (.not. (report%converged .or. report%shaft_fixed)) then
+      call follow_path(problem%bearing, problem%newton, problem%target, first_hard_step, settings, report)
+    end if
+    ends = report%touched .or. report%folded
   end subroutine try_soft_contacts
 
-  !> The path to the target with soft two-way contacts; at the point it reached they are released and
-  !> stiffened, and the path continues from there.
-  subroutine find_from(bearing, newton, target, settings, contacts, report)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(soft_contacts_type), intent(in) :: contacts
-    type(path_report_type), intent(out) :: report
+  !> The path towards the target with soft two-way contacts; at the point it reached they are released and stiffened to
+  !> the scene's. Where they are, but short of the target, the shaft floats.
+  subroutine approach(bearing, newton, target, settings, contacts, report)
+    type(bearing_system_type), intent(inout) :: bearing !! at a guess of its position
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target   !! asked for
+    type(path_settings_type), intent(in) :: settings !! limits
+    type(soft_contacts_type), intent(in) :: contacts !! how they are released
+    type(path_report_type), intent(out) :: report !! how far it led; shaft fixed: to no state of the scene
     type(path_settings_type) :: soft
     type(newton_settings_type) :: wanted
     real(wp) :: force(film_forces)
@@ -66,6 +70,8 @@ contains
 
     soft = settings
     soft%look_for_folds = .false. ! they would be those of soft contacts
+    soft%touch_down_gap = max(settings%touch_down_gap, thin*bearing%pad(1)%film%clearance) ! from where hard ones go on
+    soft%most_cuts = most_soft_cuts
     wanted = newton%settings
     newton%settings%straight_steps = rough%straight_steps
     newton%settings%residual_tolerance = max(wanted%residual_tolerance, rough%residual_tolerance)
@@ -81,24 +87,25 @@ contains
     end if
     if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     if (report%converged .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
-    if (report%converged .and. .not. early) call lead_contacts(bearing, newton, releasing, contacts, report)
+    if (.not. early .and. (report%converged .or. .not. report%shaft_fixed)) then
+      call lead_contacts(bearing, newton, releasing, contacts, report)
+    end if
     call bearing%pad(1)%foil%set_adhesion(0.0_wp)
     real_contacts = .false.
     if (report%converged .or. .not. report%shaft_fixed) then
       call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
     end if
     newton%settings = wanted
+    call bearing%pad(1)%foil%set_hardness(1.0_wp)
+    report%touched = .false. ! with soft contacts
     if (report%converged) then
       newton%settings%straight_steps = rough%straight_steps
       call solve_at(bearing, newton, target, .false., settings, report)
       newton%settings = wanted
-    else if (real_contacts) then
-      call follow_path(bearing, newton, target, first_hard_step, settings, report)
-    else
-      report%shaft_fixed = .true. ! not a state of this scene
+      real_contacts = report%converged
     end if
-    call bearing%pad(1)%foil%set_hardness(1.0_wp)
-  end subroutine find_from
+    report%shaft_fixed = .not. real_contacts ! not a state of this scene
+  end subroutine approach
 
   !> Releases contacts, or raises their stiffness to the scene's, at the bearing's present point and by
   !> decades. A report of success becomes one of failure where that does not succeed.

@@ -1,39 +1,49 @@
 #include "gfb_petsc.h"
-!> The start of a bearing whose free edge is fixed at one height after the other.
+!> The start of a bearing whose free edge is fixed, first where it rests, then higher and higher.
 !>
 !> The film's suction may draw the free edge of the top foil off its bumps: an unstable motion that
 !> hides what equilibria there are from Newton's method. With the edge fixed at a height the rest has
-!> an answer, and the force that holds it tells more: where it changes its sense from one height to
-!> the next there is an equilibrium between, and where it never does the edge stays nowhere.
+!> an answer, and the force that holds it there tells more: where it changes its sense from one height
+!> to the next the edge stays between them by itself, and where it never does it stays nowhere.
 module gfb_edge_start
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift, edge_room
-  use gfb_newton, only: newton_type
-  use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_start_position, only: solve_at
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type
-  use gfb_contact_start, only: try_soft_contacts, usual_contacts, shortest_trial
+  use gfb_bearing_directions, only: edge_lift, edge_room, edge_force
+  use gfb_newton, only: newton_type, newton_settings_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_start_position, only: guess_position, solve_at
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
+  use gfb_kept_state, only: kept_state_type
+  use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
-  public :: try_resting_edge, try_held_edge, has_free_edge
+  public :: try_free_edge, has_free_edge
 
-  real(wp), parameter :: lowest = -0.05_wp       !! height of the edge, over the clearance [1]
-  real(wp), parameter :: next_height = 0.1_wp    !! above the one before, the same [1]
+  character(len=*), parameter :: suction = 'the film draws the free edge of the top foil to the shaft'
+  real(wp), parameter :: low = -0.2_wp           !! height of the edge, over the clearance [1]
+  real(wp), parameter :: lowest = -0.5_wp        !! where the film still presses it down, the same [1]
+  real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
+  real(wp), parameter :: firm = 10.0_wp          !! times the largest force so far: the bumps push the edge back [1]
+  real(wp), parameter :: next_height = 0.1_wp    !! from the one before, the same [1]
   integer, parameter :: near_heights = 6         !! from which on they lie twice as far apart
   real(wp), parameter :: near_shaft = 0.5_wp     !! room above the edge that ends the search, the same [1]
+  real(wp), parameter :: least_room = 0.02_wp    !! room above it that ends it in any case, the same [1]
+  integer, parameter :: long_rise = 4            !! of forces in succession, that shows enough where the shaft then touches down
   real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
-  integer, parameter :: most_heights = 16
-  integer, parameter :: most_steps = 10          !! of a path with the edge fixed
-  integer, parameter :: most_failures = 2        !! one after the other, then it is given up
-  integer, parameter :: patience = 2             !! times the iterations of a solve with the edge fixed
-  real(wp), parameter :: small_step = 2.0e-3_wp  !! of the height, for the slope of the force; also near enough [1]
-  integer, parameter :: most_trials = 6          !! to find where there is none
-  real(wp), parameter :: least_fall = 0.5_wp     !! of the force from trial to trial, to continue
-  integer, parameter :: hasty_iterations = 15    !! of a trial
+  integer, parameter :: most_heights = 20
+  real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
+  real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
+  integer, parameter :: few_straight = 3         !! Newton steps with the edge fixed, before they are bent
+  real(wp), parameter :: rough_residual = 1.0e-4_wp, rough_step = 1.0e-3_wp !! tolerances of forces that fix the edge [1]
+  integer, parameter :: more_straight = 8        !! of them when it is released
+  real(wp), parameter :: same_height = 0.01_wp   !! difference that does not matter, over the clearance [1]
+  integer, parameter :: hasty_iterations = 25    !! to release it
+  integer, parameter :: most_trials = 16         !! to find where the edge needs no force
+  real(wp), parameter :: least_fall = 0.5_wp     !! of the force from release to release [1]
+  real(wp), parameter :: least_share = 0.02_wp   !! of the way between two heights, from either [1]
   real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
 
 contains
@@ -46,137 +56,364 @@ contains
     has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
   end function has_free_edge
 
-  !> Fixes the edge where it rests while contacts are released, and then releases it: to the equilibrium with a resting
-  !> edge, where there is one, rather than to those whose edge is lifted.
-  recursive subroutine try_resting_edge(problem, soft, report, ends)
+  !> Fixes the edge where it rests while contacts are released, and seeks from there the height where it stays by
+  !> itself: the equilibrium with a resting edge, where there is one, rather than those whose edge is lifted.
+  !>
+  !> Where it stays nowhere `ends` is true, the report says what was measured, and the state is left with the edge fixed
+  !> where that took the least force. It is true as well where the load cannot be reached, and the report then has how
+  !> that ended.
+  recursive subroutine try_free_edge(problem, soft, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
     type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends !! never
+    logical, intent(out) :: ends !! there is no answer
+    type(path_settings_type) :: settings
+    type(operating_point_type) :: easier
+    type(kept_state_type) :: fixed
+    logical :: bends
+    integer :: number
 
     ends = .false.
-    call hold_at(problem, 0.0_wp, report)
-    report%touched = .false. ! with the edge fixed
-    if (report%converged) then
-      call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
+    settings = settings_with_fixed_edge(problem%settings)
+    do number = 1, merge(size(shares), 1, problem%bearing%floats)
+      easier = with_fixed_edge(problem)
+      easier%load = shares(number)*problem%target%load
+      call guess_position(problem%bearing, problem%scene, easier, usual_contacts%eccentricity)
+      call approach(problem%bearing, problem%newton, easier, settings, usual_contacts, report)
+      if (.not. report%shaft_fixed) exit
+    end do
+    if (report%shaft_fixed) return
+    report%converged = report%converged .and. number == 1
+    if (.not. report%converged) then
+      call fixed%keep(problem%bearing)
+      call go_on_released(problem, report, ends)
+      if (.not. (report%converged .or. ends)) call go_on_fixed(problem, settings, fixed, report, ends)
+      call fixed%destroy()
     end if
-  end subroutine try_resting_edge
+    if (report%converged .and. problem%bearing%point%edge_hold > 0.0_wp) then
+      call release_edge(problem, report, ends)
+      bends = edge_bends(problem%bearing)
+      if (ends .and. bends) call try_with_bent_edge(problem, report, ends)
+    end if
+  end subroutine try_free_edge
 
-  !> Fixes the edge higher and higher, and releases it where it may stay.
-  !>
-  !> Where it stays nowhere `ends` is true, and the report says what was measured; the state is then of
-  !> no use.
-  recursive subroutine try_held_edge(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
-    type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends !! the edge is drawn up at all heights below the shaft: there is no answer
-    real(wp) :: height, highest, least, room
-    integer :: number, failures
-    logical :: reached !! the shaft is near
+  !> An edge that is drawn up where it is kept straight may yet rest with its middle lower than its ends: without any hold
+  !> there is one more trial before it is refused.
+  recursive subroutine try_with_bent_edge(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report !! of a straight edge; replaced where there is an answer
+    logical, intent(inout) :: ends
+    type(path_report_type) :: bent
+    logical :: bent_ends
 
-    call problem%newton%log%line('the free edge of the top foil is fixed, higher and higher')
-    least = huge(least)
-    ends = .true.
-    reached = .false.
-    failures = 0
-    highest = 0.0_wp
-    room = huge(room)
-    do number = 1, most_heights
-      height = max(lowest, (number - 2 + max(0, number - near_heights))*next_height)*problem%bearing%pad(1)%film%clearance
-      call hold_at(problem, height, report)
-      if (report%converged) then
-        failures = 0
-        highest = height
-        room = edge_room(problem%bearing)
-        call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um by '//text(edge_force(problem%bearing), 4)//' N')
-        call release_edge(problem%target, problem%settings, problem%bearing, problem%newton, least, report)
-        if (report%converged) return
-        reached = room < near_shaft*problem%bearing%pad(1)%film%clearance
-        if (reached) exit
-      else
-        call problem%newton%log%line('  at '//text(height*micrometres, 4)//' um: '//report%reason)
-        failures = failures + 1
-        ends = .false.
-        if (failures >= most_failures) exit
-      end if
-    end do
+    call problem%newton%log%detail('the free edge may bend')
+    call try_soft_contacts(problem, usual_contacts, bent, bent_ends)
+    if (bent%converged) then
+      report = bent
+      ends = .false.
+    else
+      call problem%anchor%put_back(problem%bearing)
+    end if
+  end subroutine try_with_bent_edge
+
+  !> Whether nodes of the edge move apart: those of shells do, those of a beam do not.
+  function edge_bends(bearing) result(bends)
+    type(bearing_system_type), intent(in) :: bearing
+    logical :: bends
+    bends = any_rank(bearing%pad(1)%edge%pairs() > 0)
+  end function edge_bends
+
+  !> Short of the target: releases the edge there, and follows the branch.
+  subroutine go_on_released(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! the shaft touches down
+    type(operating_point_type) :: free
+
+    ends = .false.
+    free = problem%bearing%point
+    free%edge_hold = 0.0_wp
+    free%edge_height = 0.0_wp
+    call release(problem, free, problem%newton%settings, &
+                 [low*clearance_of(problem%bearing), problem%bearing%point%edge_height], report)
+    if (.not. report%converged) return
+    call problem%anchor%keep(problem%bearing)
+    call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
+    ends = report%touched
+  end subroutine go_on_released
+
+  !> The branch with the edge released does not lead to the target: goes on with the edge fixed, which cannot fold by it.
+  subroutine go_on_fixed(problem, settings, fixed, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(kept_state_type), intent(in) :: fixed !! state with the edge fixed, short of the target
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! neither leads there
+    type(path_report_type) :: released
+    type(kept_state_type) :: last
+
+    released = report
+    call last%keep(problem%bearing)
+    call fixed%put_back(problem%bearing)
+    call follow_path(problem%bearing, problem%newton, with_fixed_edge(problem), first_step, settings, report)
+    ends = .not. report%converged .and. (report%touched .or. released%folded)
+    if (ends .and. released%folded) then
+      report = released
+      call last%put_back(problem%bearing)
+    else if (ends) then
+      report%reason = report%reason//', with the free edge of the top foil fixed at its height at rest'
+    end if
+    call last%destroy()
+  end subroutine go_on_fixed
+
+  !> At the target: releases the edge where it stays by itself.
+  subroutine release_edge(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+
+    ends = .false.
     report%converged = .false.
-    report%touched = .false.
-    ends = ends .and. reached .and. least > 0.0_wp
-    if (ends) report%reason = 'the film draws the free edge of the top foil to the shaft: fixed at '// &
-      text(number)//' heights up to '//text(highest*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
-      ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
-  end subroutine try_held_edge
-
-  !> An answer with the edge fixed at a height.
-  recursive subroutine hold_at(problem, height, report)
-    type(start_problem_type), intent(in) :: problem
-    real(wp), intent(in) :: height !! of the edge above its height at rest [m]
-    type(path_report_type), intent(out) :: report
-    type(start_problem_type) :: fixed
-    integer :: allowed
-    logical :: ends
-
-    fixed = problem
-    fixed%others_left = .false.
-    fixed%settings%look_for_folds = .false.
-    fixed%settings%smallest_step = shortest_trial
-    fixed%settings%maximum_steps = min(problem%settings%maximum_steps, most_steps)
-    fixed%target%edge_hold = hold_share*problem%bearing%force_scale()/problem%bearing%pad(1)%film%clearance
-    fixed%target%edge_height = height
-    associate (settings => problem%newton%settings)
-      allowed = settings%maximum_iterations
-      settings%maximum_iterations = patience*allowed
-      call try_soft_contacts(fixed, usual_contacts, report, ends)
-      settings%maximum_iterations = allowed
-    end associate
-  end subroutine hold_at
-
-  !> Goes to the height near by where no force is needed, and releases the edge there.
-  subroutine release_edge(target, settings, bearing, newton, least, report)
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    real(wp), intent(inout) :: least !! force that presses the edge down, of all heights so far [N]
-    type(path_report_type), intent(out) :: report
-    type(operating_point_type) :: fixed
-    real(wp) :: force, force_before, step, rise
-    integer :: trial, allowed
-
-    allowed = newton%settings%maximum_iterations
-    newton%settings%maximum_iterations = min(hasty_iterations, allowed)
-    fixed = bearing%point
-    force = edge_force(bearing)
-    least = min(least, -force)
-    step = small_step*bearing%pad(1)%film%clearance
-    rise = 0.0_wp
-    do trial = 1, most_trials
-      force_before = force
-      fixed%edge_height = fixed%edge_height + step
-      rise = rise + step
-      call solve_at(bearing, newton, fixed, .false., settings, report)
-      if (.not. report%converged) exit
-      force = edge_force(bearing)
-      least = min(least, -force)
-      call newton%log%detail('free edge fixed at '//text(fixed%edge_height*micrometres, 5)//' um by '//text(force, 4)//' N')
-      report%converged = .false.
-      if (trial > 1 .and. abs(force) > least_fall*abs(force_before)) exit
-      step = step*force/(force_before - force)
-      if (.not. abs(rise + step) <= next_height*bearing%pad(1)%film%clearance) exit ! there is none near by
-      if (abs(step) <= small_step*bearing%pad(1)%film%clearance) then
-        call solve_at(bearing, newton, target, .false., settings, report)
-        if (report%converged) exit
-      end if
-    end do
-    newton%settings%maximum_iterations = allowed
+    if (edge_force(problem%bearing) >= 0.0_wp) then
+      call release(problem, problem%target, problem%newton%settings, &
+                   [low*clearance_of(problem%bearing), problem%bearing%point%edge_height], report)
+    end if
+    if (.not. report%converged) call seek_height(problem, report, ends)
   end subroutine release_edge
 
-  !> Force of the spring that fixes the edge, towards the shaft [N].
-  function edge_force(bearing) result(force)
+  !> The target with the edge fixed at its height at rest.
+  function with_fixed_edge(problem) result(target)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: target
+
+    target = problem%target
+    target%edge_hold = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
+    target%edge_height = 0.0_wp
+  end function with_fixed_edge
+
+  !> Limits of a path along which the edge is fixed.
+  pure function settings_with_fixed_edge(settings) result(fixed)
+    type(path_settings_type), intent(in) :: settings
+    type(path_settings_type) :: fixed
+
+    fixed = trial_settings(settings)
+    fixed%look_for_folds = .false.
+  end function settings_with_fixed_edge
+
+  !> From where the edge is fixed at its height at rest, seeks the height where it needs no force, and releases it there:
+  !> below, where it lies on its bumps, before above.
+  subroutine seek_height(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+    type(path_settings_type) :: settings
+    type(newton_settings_type) :: wanted
+    type(kept_state_type) :: at_rest
+    logical :: drawn_up, lower
+
+    settings = settings_with_fixed_edge(problem%settings)
+    settings%touch_down_gap = 0.0_wp
+    wanted = problem%newton%settings
+    call be_rough(problem%newton%settings)
+    ends = .false.
+    drawn_up = edge_force(problem%bearing) < 0.0_wp
+    call at_rest%keep(problem%bearing)
+    call seek_below(problem, settings, wanted, lower, report)
+    if (drawn_up .and. .not. (lower .or. report%converged)) then
+      call at_rest%put_back(problem%bearing)
+      call seek_above(problem, settings, wanted, report, ends)
+    end if
+    call at_rest%destroy()
+    problem%newton%settings = wanted
+  end subroutine seek_height
+
+  !> Lowers the edge to where the bumps push it back: there it needs no force, if it needed one that lifts it before.
+  subroutine seek_below(problem, settings, wanted, lower, report)
+    type(start_problem_type), intent(in) :: problem
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    logical, intent(out) :: lower !! at the lowest height it is still to be lifted
+    type(path_report_type), intent(inout) :: report
+    type(operating_point_type) :: next
+    real(wp) :: force, force_before, height_before, largest
+
+    lower = .false.
+    associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
+      force = edge_force(bearing)
+      largest = abs(force)
+      call note_height(problem%newton, bearing, force)
+      do
+        height_before = bearing%point%edge_height
+        force_before = force
+        next = bearing%point
+        next%edge_height = height_before - merge(2.0_wp, 1.0_wp, height_before < low*clearance)*lower_step*clearance
+        call follow_path(bearing, problem%newton, next, 1.0_wp, settings, report)
+        force = edge_force(bearing)
+        call note_height(problem%newton, bearing, force)
+        if (force_before > 0.0_wp .and. .not. force > 0.0_wp) then
+          call release_between(problem, settings, wanted, height_before, force_before, force, report)
+          return
+        end if
+        if (.not. report%converged .or. force < -firm*largest .or. &
+            bearing%point%edge_height < merge(lowest, low, force > 0.0_wp)*clearance) exit
+        largest = max(largest, force)
+      end do
+      lower = force > 0.0_wp
+    end associate
+    report%converged = .false.
+    report%reason = 'the edge of the top foil stays at no height below that at rest'
+  end subroutine seek_below
+
+  !> Raises the edge to where it needs no force; where there is none below the shaft, that is the end.
+  subroutine seek_above(problem, settings, wanted, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+    type(kept_state_type) :: nearest !! where the edge needs the least force
+    type(operating_point_type) :: next
+    real(wp) :: force, force_before, height_before, highest, least, room, step
+    integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
+
+    ends = .false.
+    associate (bearing => problem%bearing, newton => problem%newton, clearance => clearance_of(problem%bearing))
+      force = edge_force(bearing)
+      least = abs(force)
+      call nearest%keep(bearing)
+      room = edge_room(bearing)
+      rising = 0
+      do number = 1, most_heights
+        step = merge(1.0_wp, 2.0_wp, number <= near_heights)*next_height*clearance
+        height_before = bearing%point%edge_height
+        force_before = force
+        next = bearing%point
+        next%edge_height = height_before + min(step, 0.5_wp*room)
+        call follow_path(bearing, newton, next, 1.0_wp, settings, report)
+        force = edge_force(bearing)
+        room = edge_room(bearing)
+        call note_height(newton, bearing, force)
+        if (force > 0.0_wp) then
+          call release_between(problem, settings, wanted, height_before, force_before, force, report)
+          call nearest%destroy()
+          return
+        end if
+        rising = merge(rising + 1, 0, force < force_before)
+        if (abs(force) < least) then
+          least = abs(force)
+          call nearest%keep(bearing)
+        end if
+        if (.not. report%converged) exit
+        ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
+        if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
+      end do
+      highest = bearing%point%edge_height
+      ends = report%converged .and. room < near_shaft*clearance .or. report%touched .and. rising >= long_rise
+      if (ends) then
+        call nearest%put_back(bearing)
+        call problem%anchor%keep(bearing)
+        report%shaft_fixed = .false.
+        report%touched = .false.
+        report%reason = suction//': fixed at '//text(number + 1)//' heights up to '//text(highest*micrometres, 3)//' um, '// &
+          text(room*micrometres, 2)//' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
+      else
+        report%reason = 'fixed at '//text(number + 1)//' heights the free edge of the top foil needs '// &
+          text(least, 2)//' N or more; '//report%reason
+      end if
+      report%converged = .false.
+      call nearest%destroy()
+    end associate
+  end subroutine seek_above
+
+  !> Between two heights with forces of opposite senses: goes where there is none by false position, with the weights of
+  !> the Illinois rule where contacts make the force bend, and releases the edge there.
+  subroutine release_between(problem, settings, wanted, height_before, force_before, force_here, report)
+    type(start_problem_type), intent(in) :: problem
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    real(wp), intent(in) :: height_before !! of the edge, on the other side [m]
+    real(wp), intent(in) :: force_before, force_here !! that fix it there and here [N]
+    type(path_report_type), intent(inout) :: report
+    type(operating_point_type) :: next
+    real(wp) :: height(2), force(2), force_next, tried, share
+    integer :: trial, side, side_before
+
+    height = [height_before, problem%bearing%point%edge_height]
+    force = [force_before, force_here]
+    tried = minval(abs(force))
+    side_before = 0
+    do trial = 1, most_trials
+      next = problem%bearing%point
+      share = force(1)/(force(1) - force(2))
+      next%edge_height = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
+      call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
+      if (.not. report%converged) exit
+      force_next = edge_force(problem%bearing)
+      call note_height(problem%newton, problem%bearing, force_next)
+      side = merge(1, 2, (force_next > 0.0_wp) .eqv. (force(1) > 0.0_wp))
+      if (side == side_before) force(3 - side) = 0.5_wp*force(3 - side)
+      side_before = side
+      height(side) = next%edge_height
+      force(side) = force_next
+      report%converged = .false.
+      if (abs(force_next) > least_fall*tried) cycle
+      tried = abs(force_next)
+      call release(problem, problem%target, wanted, height, report)
+      if (report%converged) exit
+    end do
+  end subroutine release_between
+
+  !> Releases the edge; where that does not succeed, or leads to an edge elsewhere, the state stays as it was.
+  subroutine release(problem, free, wanted, between, report)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type), intent(in) :: free !! the point without a force on the edge
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    real(wp), intent(in) :: between(2) !! heights where the edge should stay [m]
+    type(path_report_type), intent(inout) :: report
+    type(newton_settings_type) :: rough
+    type(kept_state_type) :: fixed
+    real(wp) :: lift, slack
+
+    rough = problem%newton%settings
+    problem%newton%settings = wanted
+    problem%newton%settings%straight_steps = more_straight
+    problem%newton%settings%maximum_iterations = min(hasty_iterations, wanted%maximum_iterations)
+    call fixed%keep(problem%bearing)
+    call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
+    if (report%converged) then
+      lift = edge_lift(problem%bearing)
+      slack = same_height*clearance_of(problem%bearing)
+      report%converged = lift > minval(between) - slack .and. lift < maxval(between) + slack
+      if (.not. report%converged) report%reason = 'the released edge moves to '//text(lift*micrometres, 4)//' um'
+    end if
+    if (.not. report%converged) call fixed%put_back(problem%bearing)
+    call fixed%destroy()
+    problem%newton%settings = rough
+  end subroutine release
+
+  !> What is enough where a force is looked at: contacts settle by bent steps.
+  subroutine be_rough(settings)
+    type(newton_settings_type), intent(inout) :: settings
+
+    settings%straight_steps = few_straight
+    settings%residual_tolerance = max(settings%residual_tolerance, rough_residual)
+    settings%step_tolerance = max(settings%step_tolerance, rough_step)
+  end subroutine be_rough
+
+  !> Tells a height and its force.
+  subroutine note_height(newton, bearing, force)
+    type(newton_type), intent(in) :: newton
     type(bearing_system_type), intent(in) :: bearing
-    real(wp) :: force
-    force = bearing%point%edge_hold*(bearing%point%edge_height - edge_lift(bearing))
-  end function edge_force
+    real(wp), intent(in) :: force
+
+    call newton%log%detail('free edge fixed at '//text(bearing%point%edge_height*micrometres, 4)//' um by '// &
+                           text(force, 4)//' N')
+  end subroutine note_height
+
+  !> The bearing's clearance [m].
+  pure function clearance_of(bearing) result(clearance)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp) :: clearance
+    clearance = bearing%pad(1)%film%clearance
+  end function clearance_of
 end module gfb_edge_start

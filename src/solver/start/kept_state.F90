@@ -12,7 +12,7 @@ module gfb_kept_state
     type(operating_point_type) :: point
     logical :: shaft_fixed = .false.            !! the shaft is fixed at the point's position
     Vec, private :: state                !! scaled
-    logical, private :: created = .false.
+    logical :: created = .false.         !! there is one
   contains
     procedure :: keep
     procedure :: put_back

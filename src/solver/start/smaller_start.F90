@@ -1,14 +1,18 @@
 #include "gfb_petsc.h"
 !> Starts from the answer of a smaller system: on a coarser mesh, or on half the width.
 module gfb_smaller_start
+  use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
-  use gfb_continuation, only: path_report_type
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type
+  use gfb_continuation, only: path_report_type, follow_path
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
   use gfb_start_position, only: release_shaft, solve_at
   use gfb_answer_transfer, only: transfer_answer
+  use gfb_bearing_directions, only: edge_force
   implicit none (type)
   private
-  public :: try_smaller_answer, try_smaller_position
+  public :: try_smaller_answer, try_smaller_position, try_smaller_refusal
+
+  real(wp), parameter :: first_step = 0.25_wp !! of a path to the load [1]
 
 contains
 
@@ -41,4 +45,27 @@ contains
     if (report%converged) call release_shaft(problem%bearing, problem%newton, problem%target, problem%settings, report)
     problem%from_smaller = report%converged
   end subroutine try_smaller_position
+  !> The smaller system's refusal is shown on this one from the state that it was shown from there: with the free edge
+  !> fixed where that takes the least force, or else on the way to the load.
+  recursive subroutine try_smaller_refusal(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
+    type(soft_contacts_type), intent(in) :: soft  !! none
+    type(path_report_type), intent(out) :: report !! how it ended
+    logical, intent(out) :: ends                  !! this system refuses the target, too
+
+    call transfer_answer(problem%smaller, problem%bearing)
+    call solve_at(problem%bearing, problem%newton, problem%smaller%point, .false., problem%settings, report)
+    ends = report%converged
+    report%converged = .false.
+    if (.not. ends) return
+    call problem%anchor%keep(problem%bearing)
+    if (problem%bearing%point%edge_hold > 0.0_wp) then
+      ends = edge_force(problem%bearing) < 0.0_wp
+      report%reason = problem%refusal%reason
+    else
+      call follow_path(problem%bearing, problem%newton, problem%target, first_step, &
+                       trial_settings(problem%settings), report)
+      ends = report%touched .or. report%folded
+    end if
+  end subroutine try_smaller_refusal
 end module gfb_smaller_start

@@ -6,12 +6,12 @@ module gfb_start_list
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, against_load, after, before
+  use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, after, before
   use gfb_kept_state, only: kept_state_type
-  use gfb_smaller_start, only: try_smaller_answer, try_smaller_position
+  use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
-  use gfb_edge_start, only: try_resting_edge, try_held_edge, has_free_edge
+  use gfb_edge_start, only: try_free_edge, has_free_edge
   implicit none (type)
   private
   public :: cold_starts, try_starts
@@ -35,22 +35,16 @@ contains
     starts = [ &
       cold_start_type("the smaller system's answer", has_smaller, try_smaller_answer), &
       cold_start_type("the smaller system's position, with the shaft fixed", floats_with_smaller, try_smaller_position), &
+      cold_start_type("the end of the smaller system's search", is_refused, try_smaller_refusal), &
       cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
-      cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_resting_edge), &
+      cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_free_edge), &
       cold_start_type('soft contacts, released early under a load', has_contacts, try_soft_contacts, &
                       usual_contacts, .true.), &
-      cold_start_type('the free edge fixed at heights', floats_with_free_edge, try_held_edge), &
-      cold_start_type('soft contacts, released late under a load', has_contacts, try_soft_contacts, &
-                      soft_contacts_type(against_load, 0.5_wp, 1.5_wp, 1.0_wp), .true.), &
-      cold_start_type('soft contacts, released after the shaft in short steps', has_contacts, try_soft_contacts, &
-                      soft_contacts_type(after, 0.5_wp, 0.8_wp, 1.0_wp), .true.), &
       cold_start_type('soft contacts, released after the shaft in growing steps', has_contacts, try_soft_contacts, &
                       soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp), .true.), &
       cold_start_type('soft contacts, released before the shaft near the foil', floats_on_contacts, try_soft_contacts, &
                       soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp), .true.), &
-      cold_start_type('soft contacts, released before the shaft near the middle', is_nowhere, try_soft_contacts, &
-                      soft_contacts_type(before, 0.25_wp, 1.5_wp, 1.0_wp), .true.), &
-      cold_start_type('the free edge fixed at heights, under a fixed shaft', fixed_with_free_edge, try_held_edge), &
+      cold_start_type('the free edge fixed where it rests, under a fixed shaft', fixed_with_free_edge, try_free_edge), &
       cold_start_type('half the speed first', can_be_slower, try_half_speed, counts=.true.)]
   end function cold_starts
 
@@ -63,21 +57,21 @@ contains
     type(cold_start_type), allocatable :: starts(:)
     type(nearest_type) :: nearest
     integer, allocatable :: list(:)
-    logical :: ends, shown !! shown: there is no answer
+    logical :: ends
     integer :: i
 
     starts = cold_starts()
     list = applying(starts, problem)
     problem%from_smaller = .false.
-    shown = .false.
+    problem%shown = .false.
     do i = 1, size(list)
       associate (start => starts(list(i)))
         problem%others_left = any(starts(list(i + 1:))%soft%release /= never)
         call problem%newton%log%detail('start: '//trim(start%name))
         call start%try(problem, start%soft, report, ends)
         if (start%counts) call keep_nearest(problem, report, nearest)
-        shown = ends .and. .not. start%counts
-        if (shown) nearest%report%reason = report%reason
+        problem%shown = ends .and. .not. (report%converged .or. start%counts)
+        if (problem%shown) nearest%report%reason = report%reason
         if (report%converged .or. ends) exit
         if (i < size(list)) call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('// &
           report%reason//'); the next: "'//trim(starts(list(i + 1))%name)//'"')
@@ -85,7 +79,7 @@ contains
     end do
     if (.not. report%converged .and. nearest%known) then
       report = nearest%report
-      if (.not. (shown .or. problem%slowed .or. report%touched .or. report%folded) .and. problem%bearing%floats) then
+      if (.not. (problem%shown .or. problem%slowed .or. report%touched .or. report%folded) .and. problem%bearing%floats) then
         report%reason = text(count(starts(list)%soft%release /= never))// &
           ' starts failed, and one with half the speed; from the nearest state they reached: '//report%reason
       end if
@@ -94,8 +88,8 @@ contains
     call nearest%kept%destroy()
   end subroutine try_starts
 
-  !> Numbers of the starts that apply to a problem; where the smaller system has none that leads to an answer, the
-  !> first of those that count shows the same on this one.
+  !> Numbers of the starts that apply to a problem; where the smaller system has none that leads to an answer, one
+  !> shows the same on this one.
   function applying(starts, problem) result(list)
     type(cold_start_type), intent(in) :: starts(:)
     type(start_problem_type), intent(in) :: problem
@@ -106,7 +100,7 @@ contains
     do i = 1, size(starts)
       if (.not. starts(i)%applies(problem)) cycle
       list = [list, i]
-      if (problem%refused .and. starts(i)%counts) exit
+      if (problem%slowed .or. (problem%refused .and. .not. associated(starts(i)%applies, is_refused))) exit
     end do
   end function applying
 
@@ -149,8 +143,10 @@ contains
     slower = problem
     slower%slowed = .true.
     slower%smaller => null()
+    slower%anchor = kept_state_type()
     slower%target%speed = slow*problem%target%speed
     call try_starts(slower, report)
+    call slower%anchor%destroy()
     if (report%converged) then
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, problem%settings, report)
     else
@@ -162,8 +158,15 @@ contains
   function has_smaller(problem) result(applies)
     type(start_problem_type), intent(in) :: problem
     logical :: applies
-    applies = associated(problem%smaller)
+    applies = associated(problem%smaller) .and. .not. problem%refused
   end function has_smaller
+
+  !> It was searched and has none.
+  function is_refused(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = associated(problem%smaller) .and. problem%refused .and. problem%bearing%floats
+  end function is_refused
 
   !> It has, and the shaft finds its own position.
   function floats_with_smaller(problem) result(applies)
@@ -193,19 +196,12 @@ contains
     applies = has_contacts(problem) .and. problem%bearing%floats
   end function floats_on_contacts
 
-  !> The shaft finds its own position on contacts, and the scene has no start value of it.
-  function is_nowhere(problem) result(applies)
-    type(start_problem_type), intent(in) :: problem
-    logical :: applies
-    applies = floats_on_contacts(problem) .and. .not. problem%scene%operation%eccentricity_given
-  end function is_nowhere
-
   !> The top foil has an edge that nothing holds, and the shaft finds its own position.
   function floats_with_free_edge(problem) result(applies)
     type(start_problem_type), intent(in) :: problem
     logical :: applies
     applies = .false.
-    if (floats_on_contacts(problem) .and. .not. problem%slowed) applies = has_free_edge(problem%bearing)
+    if (floats_on_contacts(problem)) applies = has_free_edge(problem%bearing)
   end function floats_with_free_edge
 
   !> The top foil has an edge that nothing holds, and the shaft is fixed.

@@ -6,15 +6,20 @@ module gfb_start_problem
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
+  use gfb_kept_state, only: kept_state_type
   use gfb_continuation, only: path_settings_type, path_report_type
   implicit none (type)
   private
+  public :: trial_settings
 
   integer, parameter, public :: never = 0        !! no soft contacts
   integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
   integer, parameter, public :: against_load = 2 !! the reverse
   integer, parameter, public :: after = 3        !! after the shaft
   integer, parameter, public :: before = 4       !! before it
+
+  real(wp), parameter :: shortest_trial = 0.02_wp !! step of a path of such a start [1]
+  integer, parameter :: most_steps = 20           !! of it
 
   !> How a start uses soft two-way contact springs.
   type, public :: soft_contacts_type
@@ -31,10 +36,13 @@ module gfb_start_problem
     type(path_settings_type) :: settings
     type(bearing_system_type), pointer :: bearing => null()
     type(newton_type), pointer :: newton => null()             !! its solver
-    type(bearing_system_type), pointer :: smaller => null()    !! the answer on a coarser mesh or half the width, if there is one
-    logical :: refused = .false.         !! no start led to an answer of the smaller system
+    type(bearing_system_type), pointer :: smaller => null()    !! on a coarser mesh or half the width, if there is one
+    logical :: refused = .false.         !! no start led to an answer of the smaller system, which is left where its search ended
+    type(path_report_type) :: refusal    !! how, where it was refused
     logical :: slowed = .false.          !! the target is at half the speed of another problem
     logical :: others_left = .false.     !! other starts with soft contacts follow
+    logical :: shown = .false.           !! out: there is no answer, whatever start is tried
+    type(kept_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
   end type start_problem_type
 
@@ -64,4 +72,15 @@ module gfb_start_problem
       logical, intent(out) :: ends !! no other start can help: its report stands
     end subroutine try_start
   end interface
+contains
+
+  !> Limits of a path while other starts, or another way to show a refusal, are left.
+  pure function trial_settings(settings) result(trial)
+    type(path_settings_type), intent(in) :: settings !! the scene's
+    type(path_settings_type) :: trial
+
+    trial = settings
+    trial%smallest_step = max(settings%smallest_step, shortest_trial)
+    trial%maximum_steps = min(settings%maximum_steps, most_steps)
+  end function trial_settings
 end module gfb_start_problem
