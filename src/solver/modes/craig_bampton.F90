@@ -150,7 +150,7 @@ contains
     PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(super%interior), pint), int(super%interior - 1, pint), PETSC_COPY_VALUES, interior, ierr))
     PetscCallA(MatCreateSubMatrix(mass, interior, interior, MAT_INITIAL_MATRIX, interior_mass, ierr))
     call super%interior_stiffness(interior_stiffness)
-    call lowest_modes(PETSC_COMM_SELF, interior_stiffness, interior_mass, 0.0_wp, wanted, modes)
+    call lowest_modes(interior_stiffness, interior_mass, 0.0_wp, wanted, modes)
     PetscCallA(MatDestroy(interior_mass, ierr))
     PetscCallA(ISDestroy(interior, ierr))
   end subroutine interior_modes

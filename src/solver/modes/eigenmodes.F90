@@ -1,17 +1,17 @@
 #include "gfb_petsc.h"
-!> Lowest natural modes of a structure, by SLEPc.
+!> Lowest natural modes of a structure.
 !>
 !> $$ K \phi = \omega^2 M \phi, \qquad \phi_i^T M \phi_j = \delta_{ij} $$
 !>
-!> Krylov-Schur on the shifted inverse \( (K + s M)^{-1} M \), which MUMPS factorizes once. A
+!> Lanczos' method on the shifted inverse \( (K + s M)^{-1} M \), which MUMPS factorizes once. A
 !> positive s makes it definite for a structure that moves freely.
 module gfb_eigenmodes
-  use slepceps
+  use petscksp
   use gfb_kinds, only: wp
-  use gfb_petsc_kinds, only: pint
+  use gfb_lanczos, only: find_largest
   implicit none (type)
   private
-  public :: lowest_modes, destroy_modes
+  public :: lowest_modes, factor_shifted, destroy_modes
 
   real(wp), parameter :: tolerance = 1.0e-10_wp !! of the eigenvalues, relative [1]
 
@@ -27,69 +27,31 @@ contains
   !>
   !> Motions without strain that are known are taken as they are, and come first; the iteration looks
   !> for what is at right angles to them.
-  subroutine lowest_modes(communicator, stiffness, mass, shift, wanted, modes, known)
-    integer, intent(in) :: communicator !! MPI's, of the matrices
+  subroutine lowest_modes(stiffness, mass, shift, wanted, modes, known)
     Mat, intent(in) :: stiffness, mass  !! K and M
     real(wp), intent(in) :: shift       !! s, not negative [1/s2]
     integer, intent(in) :: wanted       !! modes asked for
     type(modes_type), intent(out) :: modes !! of unit modal mass, in rising order
     type(modes_type), intent(in), optional :: known !! motions without strain, of unit modal mass
 
-    type(modes_type) :: rigid
-    EPS :: solver
-    ST :: spectral
-    KSP :: linear
-    PC :: factors
-    PetscInt :: found, unknowns, columns
-    PetscScalar :: value, imaginary
-    Vec :: unused
+    real(wp), allocatable :: inverse(:)
+    Vec, allocatable :: shape(:)
+    KSP :: solver
+    PetscInt :: unknowns, columns
     PetscErrorCode :: ierr
-    integer :: i, first
+    integer :: elastic
 
-    rigid%eigenvalue = [real(wp) ::]
-    allocate (rigid%shape(0))
-    if (present(known)) call copy_modes(known, wanted, rigid)
+    modes%eigenvalue = [real(wp) ::]
+    allocate (modes%shape(0))
+    if (present(known)) call copy_modes(known, wanted, modes)
     PetscCallA(MatGetSize(stiffness, unknowns, columns, ierr))
-    unknowns = min(int(wanted, pint), unknowns) - size(rigid%shape, 1, pint)
-    if (unknowns <= 0) then
-      modes = rigid
-      return
-    end if
-    PetscCallA(EPSCreate(communicator, solver, ierr))
-    PetscCallA(EPSSetOptionsPrefix(solver, 'modes_', ierr))
-    PetscCallA(EPSSetOperators(solver, stiffness, mass, ierr))
-    PetscCallA(EPSSetProblemType(solver, EPS_GHEP, ierr))
-    PetscCallA(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE, ierr))
-    PetscCallA(EPSSetTarget(solver, -shift, ierr))
-    PetscCallA(EPSSetDimensions(solver, unknowns, PETSC_DEFAULT_INTEGER, PETSC_DEFAULT_INTEGER, ierr))
-    PetscCallA(EPSSetTolerances(solver, tolerance, PETSC_DEFAULT_INTEGER, ierr))
-    if (size(rigid%shape) > 0) then
-      PetscCallA(EPSSetDeflationSpace(solver, size(rigid%shape, 1, pint), rigid%shape, ierr))
-    end if
-    PetscCallA(EPSGetST(solver, spectral, ierr))
-    PetscCallA(STSetType(spectral, STSINVERT, ierr))
-    PetscCallA(STGetKSP(spectral, linear, ierr))
-    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
-    PetscCallA(KSPGetPC(linear, factors, ierr))
-    PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
-    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
-    PetscCallA(EPSSetFromOptions(solver, ierr))
-    PetscCallA(EPSSolve(solver, ierr))
-    PetscCallA(EPSGetConverged(solver, found, ierr))
-    found = min(found, unknowns)
-    first = size(rigid%shape)
-    allocate (modes%eigenvalue(first + found), modes%shape(first + found))
-    modes%eigenvalue(:first) = rigid%eigenvalue
-    modes%shape(:first) = rigid%shape
-    PetscCallA(MatCreateVecs(stiffness, unused, PETSC_NULL_VEC, ierr))
-    do i = 1, int(found)
-      PetscCallA(MatCreateVecs(stiffness, modes%shape(first + i), PETSC_NULL_VEC, ierr))
-      PetscCallA(EPSGetEigenpair(solver, int(i - 1, pint), value, imaginary, modes%shape(first + i), unused, ierr))
-      modes%eigenvalue(first + i) = real(value, wp)
-    end do
-    PetscCallA(VecDestroy(unused, ierr))
-    PetscCallA(EPSDestroy(solver, ierr))
-    call normalise(mass, modes)
+    elastic = min(wanted, int(unknowns)) - size(modes%shape)
+    if (elastic <= 0) return
+    call factor_shifted(stiffness, mass, shift, 'modes_', solver)
+    call find_largest(solver, mass, modes%shape, elastic, tolerance, inverse, shape)
+    PetscCallA(KSPDestroy(solver, ierr))
+    modes%eigenvalue = [modes%eigenvalue, 1.0_wp/inverse - shift]
+    modes%shape = [modes%shape, shape]
   end subroutine lowest_modes
 
   !> Copies of the first modes.
@@ -108,23 +70,34 @@ contains
     end do
   end subroutine copy_modes
 
-  !> Makes the modal masses one.
-  subroutine normalise(mass, modes)
-    Mat, intent(in) :: mass
-    type(modes_type), intent(inout) :: modes
-    Vec :: momentum
-    PetscScalar :: modal_mass
+  !> Factors of the stiffness with a shift.
+  subroutine factor_shifted(stiffness, mass, shift, prefix, solver)
+    Mat, intent(in) :: stiffness, mass !! K and M
+    real(wp), intent(in) :: shift !! s, not negative [1/s2]
+    character(len=*), intent(in) :: prefix !! of PETSc's options
+    KSP, intent(out) :: solver !! of K + s M
+    integer :: communicator
+    Mat :: shifted
+    PC :: factors
     PetscErrorCode :: ierr
-    integer :: i
 
-    do i = 1, size(modes%shape)
-      PetscCallA(VecDuplicate(modes%shape(i), momentum, ierr))
-      PetscCallA(MatMult(mass, modes%shape(i), momentum, ierr))
-      PetscCallA(VecDot(modes%shape(i), momentum, modal_mass, ierr))
-      PetscCallA(VecScale(modes%shape(i), 1.0_wp/sqrt(modal_mass), ierr))
-      PetscCallA(VecDestroy(momentum, ierr))
-    end do
-  end subroutine normalise
+    PetscCallA(PetscObjectGetComm(stiffness, communicator, ierr))
+    PetscCallA(KSPCreate(communicator, solver, ierr))
+    PetscCallA(KSPSetOptionsPrefix(solver, prefix, ierr))
+    if (shift > 0.0_wp) then
+      PetscCallA(MatDuplicate(stiffness, MAT_COPY_VALUES, shifted, ierr))
+      PetscCallA(MatAXPY(shifted, shift, mass, UNKNOWN_NONZERO_PATTERN, ierr))
+      PetscCallA(KSPSetOperators(solver, shifted, shifted, ierr))
+      PetscCallA(MatDestroy(shifted, ierr)) ! the solver holds it
+    else
+      PetscCallA(KSPSetOperators(solver, stiffness, stiffness, ierr))
+    end if
+    PetscCallA(KSPSetType(solver, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(solver, factors, ierr))
+    PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    PetscCallA(KSPSetFromOptions(solver, ierr))
+  end subroutine factor_shifted
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_modes(modes)

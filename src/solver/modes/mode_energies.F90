@@ -17,7 +17,7 @@ module gfb_mode_energies
   use gfb_errors, only: error_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_strain_energy, only: strain_products
-  use gfb_eigenmodes, only: modes_type
+  use gfb_eigenmodes, only: modes_type, factor_shifted
   use gfb_ritz_method, only: mass_products, solve_symmetric, combine
   implicit none (type)
   private
@@ -60,7 +60,10 @@ contains
     left = lost
     do round = 1, rounds
       if (allocated(error) .or. lost <= exact .or. left <= settled) exit
-      if (round == 1) call factor_shifted(foil%stiffness, mass, minval(modes%eigenvalue, modes%eigenvalue > rigid), solver)
+      if (round == 1) then
+        call factor_shifted(foil%stiffness, mass, minval(modes%eigenvalue, modes%eigenvalue > rigid), 'mode_corrections_', &
+                            solver)
+      end if
       call take_ritz(foil, mass, rigid, round, modes, force, moved, left, error, solver)
     end do
     if (lost > exact) then
@@ -204,29 +207,4 @@ contains
       PetscCallA(VecDot(work, vector, square, ierr))
     end function modal_mass_of
   end subroutine keep_new
-
-  !> Factors of the stiffness with a shift.
-  subroutine factor_shifted(stiffness, mass, shift, solver)
-    Mat, intent(in) :: stiffness, mass
-    real(wp), intent(in) :: shift !! [1/s2]
-    KSP, intent(out) :: solver
-    integer :: communicator
-    Mat :: shifted
-    PC :: factors
-    PetscErrorCode :: ierr
-
-    PetscCallA(MatDuplicate(stiffness, MAT_COPY_VALUES, shifted, ierr))
-    PetscCallA(MatAXPY(shifted, shift, mass, UNKNOWN_NONZERO_PATTERN, ierr))
-    PetscCallA(PetscObjectGetComm(stiffness, communicator, ierr))
-    PetscCallA(KSPCreate(communicator, solver, ierr))
-    PetscCallA(KSPSetOptionsPrefix(solver, 'mode_corrections_', ierr))
-    PetscCallA(KSPSetOperators(solver, shifted, shifted, ierr))
-    PetscCallA(KSPSetType(solver, KSPPREONLY, ierr))
-    PetscCallA(KSPGetPC(solver, factors, ierr))
-    PetscCallA(PCSetType(factors, PCCHOLESKY, ierr))
-    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
-    PetscCallA(KSPSetFromOptions(solver, ierr))
-    PetscCallA(MatDestroy(shifted, ierr)) ! the solver holds it
-  end subroutine factor_shifted
-
 end module gfb_mode_energies

@@ -58,7 +58,7 @@ contains
     PetscCallA(MatAssemblyEnd(stiffness, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyBegin(mass, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(mass, MAT_FINAL_ASSEMBLY, ierr))
-    call lowest_modes(PETSC_COMM_WORLD, stiffness, mass, shift, wanted, modes)
+    call lowest_modes(stiffness, mass, shift, wanted, modes)
     eigenvalue = modes%eigenvalue
     call destroy_modes(modes)
     PetscCallA(MatDestroy(stiffness, ierr))

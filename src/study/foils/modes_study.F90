@@ -69,7 +69,7 @@ contains
       if (allocated(error)) return
       shift = plate_eigenvalue(component)
       call free_motions(component, mass, motions)
-      call lowest_modes(PETSC_COMM_WORLD, component%stiffness, mass, shift, scene%modes%count, modes, motions)
+      call lowest_modes(component%stiffness, mass, shift, scene%modes%count, modes, motions)
       call destroy_modes(motions)
       call sharpen_modes(component, mass, rigid*shift, modes, self%result%lost, self%result%left, error)
       PetscCallA(MatDestroy(mass, ierr))
