@@ -40,28 +40,28 @@ contains
     type(numbering_type) :: numbering
     type(modes_type) :: modes
     integer, allocatable :: list(:)
-    Mat :: stiffness, mass
+    Mat :: shifted, mass
     PetscErrorCode :: ierr
     integer :: i
 
     call number_unknowns(foil, kinds, numbering)
-    call create_matrix(numbering, stiffness)
+    call create_matrix(numbering, shifted)
     call create_matrix(numbering, mass)
     do i = 1, size(foil%mine)
       list = numbers_of(foil, numbering, foil%mine(i))
       associate (kind => kinds(foil%substructure(foil%mine(i))%kind))
-        call add_symmetric_block(stiffness, list, kind%stiffness)
+        call add_symmetric_block(shifted, list, kind%stiffness + shift*kind%mass)
         call add_symmetric_block(mass, list, kind%mass)
       end associate
     end do
-    PetscCallA(MatAssemblyBegin(stiffness, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(stiffness, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyBegin(shifted, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(shifted, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyBegin(mass, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(mass, MAT_FINAL_ASSEMBLY, ierr))
-    call lowest_modes(stiffness, mass, shift, wanted, modes)
-    eigenvalue = modes%eigenvalue
+    call lowest_modes(shifted, mass, 0.0_wp, wanted, modes)
+    eigenvalue = modes%eigenvalue - shift
     call destroy_modes(modes)
-    PetscCallA(MatDestroy(stiffness, ierr))
+    PetscCallA(MatDestroy(shifted, ierr))
     PetscCallA(MatDestroy(mass, ierr))
   end function assembled_eigenvalues
 
@@ -140,45 +140,53 @@ contains
     list(2*width + 1:) = [(numbering%mode_start(piece) + i - 1, i=1, numbering%of_modes(piece))]
   end function numbers_of
 
-  !> An empty matrix with room for what each row couples: a line with both super-elements beside it.
+  !> An empty symmetric matrix with room for what each row couples, from the diagonal on: a line with both
+  !> super-elements beside it.
   subroutine create_matrix(numbering, matrix)
     type(numbering_type), intent(in) :: numbering
     Mat, intent(out) :: matrix
     PetscInt, allocatable :: inside(:), outside(:)
     PetscErrorCode :: ierr
-    integer :: pieces, i
+    integer :: pieces, owned, i
 
     pieces = size(numbering%of_modes)
-    allocate (inside(0), outside(0))
+    owned = sum(numbering%on_line, numbering%part == this_rank() + 1) + &
+            sum(numbering%of_modes, numbering%part(:pieces) == this_rank() + 1)
+    allocate (inside(owned), outside(owned))
+    owned = 0
     do i = 1, pieces + 1
       if (numbering%part(i) /= this_rank() + 1) cycle
-      call add_rows(numbering%on_line(i), max(1, i - 1), min(pieces, i))
+      call add_rows(numbering%line_start(i), numbering%on_line(i), max(1, i - 1), min(pieces, i))
     end do
     do i = 1, pieces
       if (numbering%part(i) /= this_rank() + 1) cycle
-      call add_rows(numbering%of_modes(i), i, i)
+      call add_rows(numbering%mode_start(i), numbering%of_modes(i), i, i)
     end do
     PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
     PetscCallA(MatSetSizes(matrix, size(inside, 1, pint), size(inside, 1, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(matrix, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(matrix, 0_pint, inside, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(matrix, 0_pint, inside, 0_pint, outside, ierr))
+    PetscCallA(MatSetType(matrix, MATSBAIJ, ierr))
+    PetscCallA(MatSeqSBAIJSetPreallocation(matrix, 1_pint, 0_pint, inside, ierr))
+    PetscCallA(MatMPISBAIJSetPreallocation(matrix, 1_pint, 0_pint, inside, 0_pint, outside, ierr))
+    PetscCallA(MatSetOption(matrix, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE, ierr))
 
   contains
 
     !> Adds rows that couple the unknowns of some super-elements.
-    subroutine add_rows(rows, first, last)
-      integer, intent(in) :: rows
+    subroutine add_rows(start, rows, first, last)
+      integer, intent(in) :: start, rows !! unknowns before them, and how many
       integer, intent(in) :: first, last !! super-elements
-      integer :: own, all_ranks, k
+      logical :: own(2*(last - first) + 3)
+      integer :: begin(size(own)), length(size(own)), right(size(own)), row
 
-      associate (on_line => numbering%on_line(first:last + 1), of_modes => numbering%of_modes(first:last))
-        all_ranks = sum(on_line) + sum(of_modes)
-        own = sum(on_line, mask=numbering%part(first:last + 1) == this_rank() + 1) + &
-              sum(of_modes, mask=numbering%part(first:last) == this_rank() + 1)
-      end associate
-      inside = [inside, (int(own, pint), k=1, rows)]
-      outside = [outside, (int(all_ranks - own, pint), k=1, rows)]
+      begin = [numbering%line_start(first:last + 1), numbering%mode_start(first:last)]
+      length = [numbering%on_line(first:last + 1), numbering%of_modes(first:last)]
+      own = [numbering%part(first:last + 1), numbering%part(first:last)] == this_rank() + 1
+      do row = start, start + rows - 1
+        right = max(0, begin + length - max(begin, row))
+        owned = owned + 1
+        inside(owned) = sum(int(right, pint), own)
+        outside(owned) = sum(int(right, pint), .not. own)
+      end do
     end subroutine add_rows
   end subroutine create_matrix
 end module gfb_reduced_strip

@@ -66,7 +66,7 @@ contains
     integer, intent(in) :: stations, rows !! of nodes
     real(wp) :: bytes
     real(wp), parameter :: a_mass = 540.0_wp       !! of an unknown [B]
-    real(wp), parameter :: two_matrices = 150.0_wp !! of an unknown times those of a line [B]
+    real(wp), parameter :: two_matrices = 60.0_wp !! of an unknown times those of a line [B]
 
     bytes = unknowns*a_mass + retained*real(node_unknowns*rows, wp)*two_matrices + &
             strip_memory(unknowns, stations, rows, .false., .false., linear_solver_direct)
