@@ -286,6 +286,8 @@ module gfb_result_table
     result_type('petsc_options', '', word, origin, 'options of PETSc that were given', &
       'options of PETSc from `PETSC_OPTIONS`, an options file or `--petsc`, where they can '// &
       'change the answer or its cost; absent without them'), &
+    result_type('reduction', '', word, origin, 'reduction that was chosen', &
+      'what reduction = ''auto'' chose, and why; absent where reduction was given'), &
     result_type('host', '', word, origin, 'machine of the first rank', varies=.true.), &
     result_type('date', '', word, origin, 'when it was written', varies=.true.), &
     result_type('ranks', '1', total, origin + ensemble, 'processes of the job'), &

@@ -14,6 +14,7 @@ module gfb_run_case
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
   use gfb_run_study, only: run_study
+  use gfb_reduction_choice, only: choose_reduction
   use gfb_studies, only: create_study
   use gfb_check_scene, only: check_scene
   implicit none (type, external)
@@ -42,6 +43,7 @@ contains
     only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
+    call choose_reduction(scene)
     if (only_look) then
       call check_scene(scene, line%shares, log, error)
     else
@@ -68,6 +70,10 @@ contains
       call context%log%line('options given to PETSc: '//context%petsc_options)
     end if
     if (scene%warnings /= '') call context%log%line(scene%warnings)
+    context%reduction = ''
+    if (allocated(scene%model%reduction_reason)) then
+      context%reduction = 'bumps '//scene%model%reduction_reason
+    end if
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     call create_study(scene, branches, study, error)
     if (allocated(error)) return

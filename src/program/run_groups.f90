@@ -9,6 +9,7 @@ module gfb_run_groups
   use gfb_command_line, only: command_line_type
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_check_scene, only: check_scene
+  use gfb_reduction_choice, only: choose_reduction
   use gfb_divided_sweep, only: run_divided_sweep
   use gfb_scene_table, only: run_scene_table, scene_runner
   implicit none (type, external)
@@ -58,6 +59,9 @@ contains
       if (scenes(i)%warnings /= '') call log%line(scenes(i)%warnings)
     end do
     if (size(scenes) == 1) then
+      if (allocated(scenes(1)%model%reduction_reason)) then
+        context%reduction = 'bumps '//scenes(1)%model%reduction_reason
+      end if
       call run_divided_sweep(scenes(1), context, job, status)
     else
       call run_scene_table(scenes, line%table, run_scene, context, job, status)
@@ -78,6 +82,7 @@ contains
     do i = 1, size(scenes)
       call read_scene(line%case_files(i)%path, scenes(i), one, line%strict)
       if (allocated(one)) call add(one%message, error, one%status)
+      if (.not. allocated(one)) call choose_reduction(scenes(i))
     end do
   end subroutine read_all
 

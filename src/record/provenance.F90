@@ -25,9 +25,10 @@ contains
   end function program_words
 
   !> What the result file says of its origin.
-  function provenance(command, petsc_options) result(list)
+  function provenance(command, petsc_options, reduction) result(list)
     character(len=*), intent(in) :: command !! the whole command line
     character(len=*), intent(in), optional :: petsc_options !! that were given; empty: none
+    character(len=*), intent(in), optional :: reduction !! that was chosen by 'auto'; empty: none
     type(quantity_type), allocatable :: list(:)
 
     call add_result(list, 'program_version', GFB_VERSION)
@@ -39,6 +40,9 @@ contains
     call add_result(list, 'command', command)
     if (present(petsc_options)) then
       if (petsc_options /= '') call add_result(list, 'petsc_options', petsc_options)
+    end if
+    if (present(reduction)) then
+      if (reduction /= '') call add_result(list, 'reduction', reduction)
     end if
     call add_result(list, 'host', host_name())
     call add_result(list, 'date', date_text())

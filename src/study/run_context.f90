@@ -36,6 +36,7 @@ module gfb_run_context
     character(len=:), allocatable :: folder  !! where the results go
     character(len=:), allocatable :: command !! the whole command line
     character(len=:), allocatable :: petsc_options !! that were given; not allocated: not asked
+    character(len=:), allocatable :: reduction !! that the program chose, and why; empty: none
     logical :: resumes = .false.             !! from the scene's restart file, where there is one
     real(wp) :: start_time = 0.0_wp          !! of the run [s]
     type(run_log_type) :: log
@@ -67,7 +68,7 @@ contains
     class(run_context_type), intent(in) :: self !! the context
     type(quantity_type), allocatable :: list(:)
 
-    list = provenance(self%command, self%petsc_options)
+    list = provenance(self%command, self%petsc_options, self%reduction)
   end function origin
 
   !> A point of a sweep has its answer: for who listens.

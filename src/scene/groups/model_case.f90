@@ -28,6 +28,7 @@ module gfb_model_case
 
   integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
+  integer, parameter, public :: reduction_auto = 3  !! whichever costs less
 
   integer, parameter, public :: half_width_auto = 1
   integer, parameter, public :: half_width_yes = 2
@@ -46,7 +47,7 @@ module gfb_model_case
   integer, parameter, public :: foundation_pressure_local = 1
   integer, parameter, public :: foundation_pressure_axial_mean = 2
 
-  character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none']
+  character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none', 'auto']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
   character(len=*), parameter :: coupling_words(*) = [character(len=11) :: &
@@ -57,6 +58,7 @@ module gfb_model_case
   type :: model_case_type
     integer :: foil = 0                          !! `foil_rigid`, ...
     integer :: reduction = reduction_guyan
+    character(len=:), allocatable :: reduction_reason !! of the program's choice, by 'auto'
     integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
     integer :: film_scheme = film_scheme_auto
     integer :: film_order = film_order_bilinear
@@ -109,7 +111,8 @@ contains
     type(model_case_type), intent(inout) :: model
     character(len=*), parameter :: name = 'reduction'
     character(len=*), parameter :: meaning = &
-      'condense the bumps of shells onto the lines that can be loaded'
+      'condense the bumps of shells onto the lines that can be loaded; `auto`: where that '// &
+      'costs less'
 
     if (model%foil == foil_shell .or. model%foil == 0) then
       call keys%choice_key(name, model%reduction, reduction_words, meaning)

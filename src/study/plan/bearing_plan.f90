@@ -100,6 +100,9 @@ contains
     reduced = scene%model%reduction == reduction_guyan
     call count_bumps(scene, rows, reduced, stations, unknowns)
     plan%memory = bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
+    if (allocated(scene%model%reduction_reason)) then
+      call log%line('bumps: '//scene%model%reduction_reason)
+    end if
     call log%line('foils: about '//text(nint(unknowns) + node_unknowns*nodes)// &
                   ' unknowns before supports')
   end subroutine show_foil_sizes

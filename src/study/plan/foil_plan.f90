@@ -16,7 +16,7 @@ module gfb_foil_plan
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
-  public :: plan_foil, count_bumps
+  public :: plan_foil, count_bumps, has_friction
 
 contains
 
@@ -50,7 +50,9 @@ contains
       call log%line('width: '//trim(merge('half ', 'whole', plan%half))//', as half_width asks')
     end if
     plan%reduced = strip .and. scene%model%reduction == reduction_guyan
-    if (plan%reduced) then
+    if (strip .and. allocated(scene%model%reduction_reason)) then
+      call log%line('bumps: '//scene%model%reduction_reason)
+    else if (plan%reduced) then
       call log%line('bumps: condensed onto corners, crests and the free edge, equal ones once')
     else if (strip) then
       call log%line('bumps: all unknowns, as reduction asks')
@@ -71,7 +73,7 @@ contains
 
   !> Whether anything rubs.
   pure function has_friction(scene) result(friction)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! of a strip
     logical :: friction
 
     associate (contact => scene%contact)

@@ -9,7 +9,7 @@ module gfb_memory_estimate
                              linear_solver_iterative
   implicit none (type, external)
   private
-  public :: strip_memory, bearing_memory, modes_memory, film_memory, rank_memory
+  public :: strip_memory, bearing_memory, modes_memory, film_memory, rank_memory, factor_entries
 
   real(wp), parameter, public :: stated_factor = 1.5_wp !! estimate and peak differ by no more
 
@@ -21,7 +21,7 @@ contains
   !> Entries of a symmetric matrix' factors for each unknown of shells on a grid of nodes:
   !> dissection cuts along the shorter side.
   pure function factor_entries(stations, rows) result(entries)
-    integer, intent(in) :: stations, rows
+    integer, intent(in) :: stations, rows !! of nodes
     real(wp) :: entries
     real(wp), parameter :: a_doubling = 32.0_wp, narrow = -43.0_wp, least = 30.0_wp
 
