@@ -4,6 +4,14 @@
 #include <stdint.h>
 #include <petscsys.h>
 
+/* To be called before MPI starts. A process that no launcher has started, by Open MPI up to 4, needs no helper daemon
+   where it shares nothing with others: its session folder is its own, and gone when it ends. Does nothing where a
+   launcher, or the user, has set Open MPI up. */
+void gfb_start_alone(void);
+
+/* To be called when MPI has started: takes back what was set in the environment. */
+void gfb_started(void);
+
 /* Makes what a library cannot do, such as factors that do not fit, end the program with a sentence and status 3. */
 PetscErrorCode gfb_end_with_sentences(void);
 

@@ -229,6 +229,23 @@ def check_full_disk(checks, folder):
         (folder/f"case.{ending}").read_bytes() == content for ending, content in before.items()))
 
 
+def check_side_by_side(checks, folder):
+    """Runs side by side, alone and with a launcher, share nothing and leave nothing behind."""
+    (folder/"case.nml").write_text(GOOD, encoding="utf-8")
+    running, alone = [], 6
+    for number in range(alone + 1):
+        command = [GFB, "--output", str(folder/str(number)), str(folder/"case.nml")]
+        if number == alone:
+            command = [MPIEXEC, "-n", "2", *command]
+        running.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE))
+    ended = [process.communicate(timeout=SECONDS)[1].decode() for process in running]
+    checks.that("side by side: status 0", not any(process.returncode for process in running))
+    checks.that(f"side by side: nothing on the error stream {''.join(ended)[:200]}", not any(ended))
+    answers = [[line for line in (folder/str(number)/"case.summary").read_text(encoding="utf-8").splitlines()
+                if not line.startswith(("wall_time", "peak_memory"))] for number in range(alone)]
+    checks.that("side by side: one answer", all(answer == answers[0] for answer in answers))
+
+
 def check_ranks(checks, folder):
     """Under mpiexec one rank speaks for all, and the status is the program's."""
     (folder/"good.nml").write_text(GOOD, encoding="utf-8")
@@ -252,7 +269,7 @@ def check_ranks(checks, folder):
 def main():
     checks = Checks()
     for check in (check_options, check_folders, check_quiet, check_warnings, check_petsc_options, check_rerun, check_kill,
-                  check_full_disk, check_ranks):
+                  check_full_disk, check_side_by_side, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())
     checks.close()

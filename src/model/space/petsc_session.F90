@@ -14,6 +14,14 @@ module gfb_petsc_session
             sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries
 
   interface
+    !> Before MPI starts: a process that no launcher has started does without Open MPI's helper daemon.
+    subroutine gfb_start_alone() bind(c)
+    end subroutine gfb_start_alone
+
+    !> Afterwards: takes back what that set in the environment.
+    subroutine gfb_started() bind(c)
+    end subroutine gfb_started
+
     !> Makes what a library cannot do end the program with a sentence and status 3.
     function gfb_end_with_sentences() result(status) bind(c)
       import :: c_int
@@ -28,7 +36,9 @@ contains
     PetscBool :: given
     PetscErrorCode :: ierr
 
+    call gfb_start_alone()
     call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
+    call gfb_started()
     if (ierr /= 0) error stop 'PETSc could not be started'
     if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
     ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
