@@ -27,7 +27,9 @@ contains
       do i = 1, fillings(result_rows(row))
         found = filled(result_rows(row), i)
         if (.not. fits(trim(found%name), name)) cycle
-        if (found%unit == own_unit) found%unit = unit_of_asked(i)
+        if (found%unit == own_unit .and. index(result_rows(row)%name, any_quantity) > 0) then
+          found%unit = unit_of_asked(i)
+        end if
         return
       end do
     end do

@@ -38,7 +38,7 @@ module gfb_result_table
     logical :: nodal = .false.    !! the largest or smallest of values at nodes
   end type result_type
 
-  character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`
+  character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`, or of a key
 
   ! Phrases that take the place of the braces of a meaning.
   character(len=*), parameter, public :: &
@@ -71,6 +71,13 @@ module gfb_result_table
       'the `parameter` of `&sweep`, where it is none of the names above'), &
     result_type('speed_rpm', 'rpm', number, sweep, 'what the sweep changes', joins=.true.), &
     result_type('tilt_<a>', 'rad', number, sweep, 'what the sweep changes', joins=.true.), &
+    result_type('key_value', own_unit, number, sweep, &
+      'value of {the keys that the sweep changes}', &
+      'where the `parameter` of `&sweep` is keys: their value, in their unit'), &
+    result_type('started_anew', '1', truth, sweep, &
+      'found from nothing: no path led there from the point before', &
+      'where the `parameter` of `&sweep` is keys: 1 at a point to which no path led from the '// &
+      'one before, and that was found from nothing'), &
     result_type('fold', '1', truth, sweep, 'what the sweep changes turns back there', &
       'with `turn_folds`: 1 in the rows where the parameter turns back'), &
     result_type('branch', '1', total, branch, 'number of the equilibrium', &

@@ -2,12 +2,12 @@
 module gfb_bearing_record
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
-  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_quantity, only: quantity_type, add_quantity, number_quantity
   use gfb_results, only: add_result
-  use gfb_result_names, only: result_unit
+  use gfb_result_names, only: result_unit, result_meaning
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, parameter_words
+  use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
@@ -48,6 +48,10 @@ contains
     ! The answer has the eccentricities anyway.
     if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then
       call add_result(row%quantity, sweep_name(scene%sweep), value)
+    else if (present(value) .and. scene%sweep%parameter == sweep_keys) then
+      call add_quantity(row%quantity, number_quantity( &
+                        'key_value', value, scene%sweep%unit, &
+                        result_meaning('key_value', scene%sweep%keys)))
     end if
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
@@ -76,14 +80,24 @@ contains
   pure function sweep_name(sweep) result(name)
     type(sweep_case_type), intent(in) :: sweep !! with its parameter
     character(len=:), allocatable :: name
-    name = trim(parameter_words(sweep%parameter))
+
+    if (sweep%parameter == sweep_keys) then
+      name = sweep%keys
+    else
+      name = trim(parameter_words(sweep%parameter))
+    end if
   end function sweep_name
 
   !> Its unit.
   pure function sweep_unit(sweep) result(unit)
     type(sweep_case_type), intent(in) :: sweep !! with its parameter
     character(len=:), allocatable :: unit
-    unit = result_unit(sweep_name(sweep))
+
+    if (sweep%parameter == sweep_keys) then
+      unit = sweep%unit
+    else
+      unit = result_unit(sweep_name(sweep))
+    end if
   end function sweep_unit
 
   !> Packs or unpacks a record but for the contacts.

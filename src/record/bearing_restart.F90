@@ -22,7 +22,7 @@ module gfb_bearing_restart
                                 read_contacts, put_contact_record, read_contact_record
   implicit none (type)
   private
-  public :: keep_bearing, recall_bearing, recall_way, remember_bearing
+  public :: keep_bearing, find_restart_point, recall_bearing, recall_way, remember_bearing
 
 contains
 
@@ -158,6 +158,23 @@ contains
     call put_contact_record(bearing%pad(1)%foil%nodal_contacts(), bearing%pad(1)%foil%contacts%rows, record%contacts, &
                             size(record%history), '/record/contacts', file)
   end subroutine put_record
+
+  !> The point after which the file was written.
+  !>
+  !> Fails when the file is damaged.
+  subroutine find_restart_point(restart, point, error)
+    type(restart_type), intent(in) :: restart !! the file to resume from
+    integer, intent(out) :: point !! of the sweep; 0: where the shaft is held
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(stored_file_type) :: file
+
+    point = 0
+    call open_restart(restart, file, error)
+    if (allocated(error)) return
+    point = file%count('/step/number')
+    call check_restart_file(file, error)
+    call close_stored_file(file)
+  end subroutine find_restart_point
 
   !> Puts a scene's equations where the file says.
   !>

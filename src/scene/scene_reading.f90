@@ -1,31 +1,18 @@
-!> Reads a case file into a scene, group by group.
+!> Reads a case file into a scene, once more for each value of a sweep over its keys.
 module gfb_scene_reading
+  use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: read_accuracy_case
-  use gfb_bearing_case, only: read_bearing_case
-  use gfb_bump_foil_case, only: read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
+  use gfb_changed_text, only: changed_text
   use gfb_case_text, only: read_case_text
-  use gfb_contact_case, only: read_contact_case
-  use gfb_gas_case, only: read_gas_case
-  use gfb_mesh_case, only: read_mesh_case
-  use gfb_model_case, only: read_model_case, meshes_foils
-  use gfb_operation_case, only: read_operation_case
-  use gfb_output_case, only: read_output_case
-  use gfb_modes_case, only: read_modes_case, part_half_arc, part_arc, part_flat, &
-                            part_strip, part_top_foil
-  use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
-                            analysis_strip, analysis_modes
   use gfb_scene, only: scene_type
   use gfb_scene_checks, only: check_groups
-  use gfb_shaft_contact_case, only: read_shaft_contact_case
-  use gfb_solver_case, only: read_solver_case
-  use gfb_strip_load_case, only: read_strip_load_case
-  use gfb_sweep_case, only: read_sweep_case
-  use gfb_top_foil_case, only: read_top_foil_case
+  use gfb_sweep_case, only: swept_key_type, swept_keys
+  use gfb_swept_key_rules, only: check_swept_keys
+  use gfb_scene_groups, only: read_groups
   implicit none (type, external)
   private
-  public :: read_scene, read_scene_text, key_table
+  public :: read_scene, read_scene_text, scene_at_value, key_table
 
   character(len=*), parameter :: ending = '.nml'
 
@@ -54,6 +41,22 @@ contains
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     logical, intent(in), optional :: strict !! warnings are mistakes
     type(case_keys_type) :: keys
+    logical :: sweeps_keys
+
+    call read_and_check(words, file, keys, scene, strict)
+    call check_swept_keys(keys, scene, sweeps_keys)
+    if (sweeps_keys) call check_swept_values(keys, scene, strict)
+    scene%echo = keys%notes%echo
+    scene%warnings = keys%warning_lines()
+    call keys%report(error)
+  end subroutine read_scene_text
+
+  !> Reads the text of a case file, and checks all but what a sweep of keys makes of it.
+  subroutine read_and_check(words, file, keys, scene, strict)
+    character(len=*), intent(in) :: words, file
+    type(case_keys_type), intent(out) :: keys
+    type(scene_type), intent(out) :: scene
+    logical, intent(in), optional :: strict
 
     scene%file = trim(file)
     scene%name = base_name(scene%file)
@@ -62,10 +65,64 @@ contains
     call read_groups(keys, scene)
     call keys%finish()
     call check_groups(keys, scene)
-    scene%echo = keys%notes%echo
-    scene%warnings = keys%warning_lines()
+  end subroutine read_and_check
+
+  !> Every value of a sweep of keys keeps the rules that it would have to keep in the file: the file
+  !> is read with it.
+  subroutine check_swept_values(keys, scene, strict)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    logical, intent(in), optional :: strict
+    type(case_keys_type) :: known, changed
+    type(scene_type) :: there
+    integer :: point
+
+    known = keys
+    do point = 1, size(scene%sweep%values)
+      call read_and_check(text_at_value(scene, scene%sweep%values(point)), scene%file, changed, &
+                          there, strict)
+      call keys%add_new(changed, known, 'sweep', 'values', point)
+    end do
+  end subroutine check_swept_values
+
+  !> The bearing of a scene with another value of the keys that its sweep changes, on its mesh.
+  !>
+  !> Fails where the value breaks a rule, which one between two values of the sweep may.
+  subroutine scene_at_value(scene, value, there, error)
+    type(scene_type), intent(in) :: scene !! whose sweep changes keys
+    real(wp), intent(in) :: value !! [the sweep's unit]
+    type(scene_type), intent(out) :: there !! the scene with the value in it
+    type(error_type), allocatable, intent(out) :: error !! which rule is broken
+    type(case_keys_type) :: keys
+    type(scene_type) :: changed
+
+    call read_and_check(text_at_value(scene, value), scene%file, keys, changed)
     call keys%report(error)
-  end subroutine read_scene_text
+    there = scene
+    there%bearing = changed%bearing
+    there%gas = changed%gas
+    there%operation = changed%operation
+    there%top_foil = changed%top_foil
+    there%bump_foil = changed%bump_foil
+    there%contact = changed%contact
+    there%shaft_contact = changed%shaft_contact
+    there%model = changed%model
+  end subroutine scene_at_value
+
+  !> The text of a case file with a value of the keys that its sweep changes, as its only value.
+  pure function text_at_value(scene, value) result(changed)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: value !! [the sweep's unit]
+    character(len=:), allocatable :: changed
+    type(swept_key_type), allocatable :: list(:)
+    integer :: i
+
+    changed = changed_text(scene%verbatim, 'sweep', 'values', value) ! long lists take long to read
+    list = swept_keys(scene%sweep)
+    do i = 1, size(list)
+      changed = changed_text(changed, list(i)%group, list(i)%name, value)
+    end do
+  end function text_at_value
 
   !> All groups and keys there are, as a Markdown table.
   function key_table() result(table)
@@ -77,57 +134,6 @@ contains
     call read_groups(keys, scene)
     table = keys%notes%table
   end function key_table
-
-  !> Reads the groups in the order in which they need each other.
-  subroutine read_groups(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(inout) :: scene
-    logical :: modes !! they are asked for, and of what is known
-    logical :: plate !! of the top foil
-    logical :: bumps !! the bump foil is meshed
-    logical :: both  !! of a bearing: both foils are meshed
-    logical :: arc   !! an arc of it alone
-
-    call read_scene_case(keys, scene%general)
-    call read_modes_case(keys, scene%modes, scene%general%analysis)
-    call read_model_case(keys, scene%model, scene%general%analysis)
-    associate (analysis => scene%general%analysis, part => scene%modes%part)
-      modes = analysis == analysis_modes .and. part /= 0
-      plate = modes .and. part == part_top_foil
-      both = is_bearing(analysis) .and. meshes_foils(scene%model%foil)
-      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. both
-      arc = modes .and. (part == part_half_arc .or. part == part_arc)
-      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
-                             is_bearing(analysis), bearing_misplaced(analysis, part))
-      call read_gas_case(keys, scene%gas, analysis)
-      call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
-      call read_operation_case(keys, scene%operation, analysis, scene%shaft_contact%present)
-      call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
-                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
-      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
-      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
-                             scene%bearing%clearance, analysis, scene%model%foil)
-    end associate
-    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-    call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
-    call read_output_case(keys, scene%output)
-    call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
-  end subroutine read_groups
-
-  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
-  pure function bearing_misplaced(analysis, part) result(words)
-    integer, intent(in) :: analysis, part !! 0 where they are not known
-    character(len=:), allocatable :: words
-
-    words = misplaced_group(analysis, is_bearing(analysis))
-    if (analysis /= analysis_modes) return
-    words = ''
-    if (part /= 0 .and. part /= part_top_foil) then
-      words = "needs part = 'top_foil' in &modes: no other part has a pad"
-    end if
-  end function bearing_misplaced
 
   !> A file's name without its folder and its ending.
   pure function base_name(file) result(name)

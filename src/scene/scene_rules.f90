@@ -17,7 +17,8 @@ module gfb_scene_rules
                             analysis_modes, is_bearing
   use gfb_solver_case, only: solver_case_type, linear_solver_direct, linear_solver_iterative
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
-  use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_load, sweep_speed, sweep_tilt_x, &
+  use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
+                            sweep_tilt_x, &
                             sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: join, text
   implicit none (type, external)
@@ -277,7 +278,8 @@ contains
 
     if (model%foil /= foil_rigid) return
     if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
-    if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x) then
+    if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x .or. &
+        sweep%parameter == sweep_keys) then
       approach = approach_to_pad(bearing, operation)
       if (approach >= bearing%clearance) call complain(guilty_key(operation))
       return

@@ -1,4 +1,5 @@
-!> `&sweep`: one parameter of the operating point takes several values.
+!> `&sweep`: a parameter of the operating point takes several values, or real keys of the case file
+!> do.
 module gfb_sweep_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
@@ -7,7 +8,7 @@ module gfb_sweep_case
   use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
   private
-  public :: sweep_case_type, read_sweep_case, operation_at
+  public :: sweep_case_type, read_sweep_case, operation_at, swept_keys
 
   integer, parameter, public :: sweep_load = 1
   integer, parameter, public :: sweep_speed = 2
@@ -15,18 +16,26 @@ module gfb_sweep_case
   integer, parameter, public :: sweep_tilt_y = 4
   integer, parameter, public :: sweep_eccentricity_x = 5
   integer, parameter, public :: sweep_eccentricity_y = 6
+  integer, parameter, public :: sweep_keys = 7 !! of the case file; each value is another bearing
 
   character(len=*), parameter, public :: parameter_words(*) = &
     [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', 'tilt_y', 'eccentricity_x', &
                           'eccentricity_y']
-  character(len=*), parameter :: units(0:6) = [character(len=16) :: &
-                                               'N, rpm, rad or m', 'N', 'rpm', 'rad', 'rad', &
-                                               'm', 'm']
+  character(len=*), parameter :: units(0:7) = [character(len=18) :: &
+                                               'that of parameter', 'N', 'rpm', 'rad', 'rad', &
+                                               'm', 'm', 'that of parameter']
+
+  !> A key of the case file.
+  type, public :: swept_key_type
+    character(len=:), allocatable :: group, name !! in lower case
+  end type swept_key_type
 
   !> The sweep.
   type :: sweep_case_type
     logical :: present = .false.           !! the case asks for a sweep
     integer :: parameter = 0               !! `sweep_load`, ...; 0 without a sweep
+    character(len=:), allocatable :: keys  !! `group%key, ...` of `sweep_keys`
+    character(len=:), allocatable :: unit  !! of these keys
     real(wp), allocatable :: values(:)     !! of the parameter; a load is its magnitude
     logical :: hold_position = .false.     !! the shaft stays where &operation's equilibrium is
     logical :: turn_folds = .false.        !! goes on where the branch of answers turns back
@@ -45,9 +54,9 @@ contains
 
     call keys%start_group('sweep', optional=.true., present_in_file=sweep%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
-    call keys%choice_key('parameter', sweep%parameter, parameter_words, &
-                         'quantity that is varied; load: its magnitude, in the direction of '// &
-                         '`load`', .true.)
+    call keys%choice_or_keys_key('parameter', sweep%parameter, parameter_words, sweep%keys, &
+                                 'quantity that is varied; load: its magnitude, in the '// &
+                                 'direction of `load`')
     rule = any_value
     if (sweep%parameter == sweep_load) rule = not_negative
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
@@ -67,6 +76,26 @@ contains
                           'from point to point; otherwise every point is loaded from rest')
     call keys%finish_group()
   end subroutine read_sweep_case
+
+  !> The keys that take the sweep's values; names are empty where the sweep has them wrong.
+  pure function swept_keys(sweep) result(list)
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for, with `sweep_keys`
+    type(swept_key_type), allocatable :: list(:)
+    type(swept_key_type) :: one
+    character(len=:), allocatable :: left
+    integer :: comma, sign
+
+    allocate (list(0))
+    left = sweep%keys//','
+    do while (left /= '')
+      comma = index(left, ',')
+      sign = index(left(:comma - 1), '%')
+      one%group = trim(adjustl(left(:max(sign, 1) - 1)))
+      one%name = trim(adjustl(left(sign + 1:comma - 1)))
+      list = [list, one]
+      left = left(comma + 1:)
+    end do
+  end function swept_keys
 
   !> The operating point with one of the sweep's values in it.
   pure function operation_at(operation, sweep, point) result(there)
@@ -91,7 +120,7 @@ contains
       case (sweep_eccentricity_y)
         there%eccentricity(2) = value
       case default
-        return ! a misspelt parameter, complained about
+        return ! a misspelt parameter, complained about, or keys: the scene has their value
       end select
     end associate
   end function operation_at

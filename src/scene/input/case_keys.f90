@@ -6,9 +6,10 @@
 module gfb_case_keys
   use gfb_kinds, only: wp
   use gfb_case_reader, only: case_reader_type, longest_list
-  use gfb_key_notes, only: no_default, quoted, value_list, choices, chosen_word, chosen_words
+  use gfb_key_notes, only: no_default, real_words, quoted, value_list, choices, &
+                           chosen_word, chosen_words
   use gfb_namelist_values, only: read_integer, read_logical, value_string
-  use gfb_text, only: exact_text, text
+  use gfb_text, only: exact_text, lower_case, text
   use gfb_value_rules, only: rule_type, broken_rule
   implicit none (type, external)
   private
@@ -28,6 +29,7 @@ module gfb_case_keys
     procedure :: logical_key
     procedure :: string_key
     procedure :: choice_key
+    procedure :: choice_or_keys_key
     procedure :: words_key
     procedure :: useless_key
   end type case_keys_type
@@ -46,7 +48,7 @@ contains
     logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
 
-    call self%describe(name, 'real', unit, meaning)
+    call self%describe(name, real_words, unit, meaning)
     call self%begin_key(exact_text(value), single, elements, required, default, given)
     if (size(elements) == 1) call self%take_real(elements(1), 0, value, rule)
     call self%end_key(exact_text(value), abs(value) > 0.0_wp)
@@ -197,6 +199,41 @@ contains
     if (size(elements) == 1) call self%take_choice(elements(1), 0, words, value)
     call self%end_key(chosen_word(words, value), value > 0)
   end subroutine choice_key
+
+  !> One of several words, or the names of keys of the case file.
+  subroutine choice_or_keys_key(self, name, value, words, keys, meaning)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the key
+    integer, intent(out) :: value !! number of the word; one more than there are: keys; 0: none
+    character(len=*), intent(in) :: words(:)    !! blank-padded
+    character(len=:), allocatable, intent(out) :: keys !! as typed, in lower case
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    character(len=*), parameter :: others = 'keys such as ''bearing%clearance'''
+    character(len=:), allocatable :: chosen
+    integer, allocatable :: elements(:)
+
+    call self%describe(name, '`'//choices(words)//'`, or real keys `''group%key, ...''` '// &
+                       'that take one value', '', meaning)
+    value = 0
+    keys = ''
+    call self%begin_key('', single, elements, .true.)
+    if (size(elements) == 1) then
+      associate (item => elements(1))
+        if (self%file%values(item)%kind == value_string) then
+          keys = lower_case(trim(self%file%value_text(item)))
+        end if
+        if (index(keys, '%') > 0) then
+          value = size(words) + 1
+        else
+          keys = ''
+          call self%take_choice(item, 0, words, value, others)
+        end if
+      end associate
+    end if
+    chosen = quoted(keys)
+    if (keys == '') chosen = chosen_word(words, value)
+    call self%end_key(chosen, value > 0)
+  end subroutine choice_or_keys_key
 
   !> Several of several words.
   subroutine words_key(self, name, chosen, words, meaning)

@@ -24,7 +24,7 @@ module gfb_case_reader
     type(complaints_type) :: warnings      !! what need not be a mistake
     type(key_notes_type) :: notes          !! the echo and the table of keys
     type(key_type) :: key                  !! the one that is being read
-    type(key_book_type), private :: book   !! the groups and keys there are
+    type(key_book_type) :: book            !! the groups and keys there are
     integer, private :: complaints_before = 0 !! the key that is being read
     integer, private :: group_line = 0     !! of the open group, 0 where the file has none
     logical, private :: strict = .false.   !! warnings are mistakes
@@ -37,6 +37,7 @@ module gfb_case_reader
     procedure :: complain
     procedure :: warn
     procedure :: warning_lines
+    procedure :: add_new
     procedure :: meant
     procedure :: last_key_is_right
     procedure :: describe
@@ -151,6 +152,22 @@ contains
     end if
   end subroutine warn
 
+  !> Adds the mistakes and warnings that another reading of the file has and one has not, as those
+  !> of a key's element.
+  subroutine add_new(self, other, known, group, key, element)
+    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: other !! with what is new
+    class(case_reader_type), intent(in) :: known !! with what is not
+    character(len=*), intent(in) :: group, key !! names in the case file
+    integer, intent(in) :: element !! of the key's list
+    character(len=:), allocatable :: place
+    integer :: line
+
+    call find_place(self, group, key, line, place, element)
+    call self%complaints%add_new(other%complaints, known%complaints, line, place//': ')
+    call self%warnings%add_new(other%warnings, known%warnings, line, place//': ')
+  end subroutine add_new
+
   !> Where a key stands in the file, with its values; without it, where its group begins.
   subroutine find_place(self, group, key, line, place, element)
     class(case_reader_type), intent(in) :: self
@@ -230,8 +247,8 @@ contains
     call find_elements(self%file, self%notes%group, self%key%name, most, elements, self%key%given, &
                        self%complaints)
     call self%notes%add_row(self%key, value_words)
-    call self%book%add_key(self%notes%group, self%key%name, self%key%given, &
-                           self%key%required .and. self%group_line > 0, self%key%meaning)
+    call self%book%add_key(self%notes%group, self%key, self%key%given, &
+                           self%key%required .and. self%group_line > 0)
     if (present(given)) given = self%key%given
   end subroutine begin_key
 
@@ -263,17 +280,19 @@ contains
   end subroutine take_real
 
   !> Reads one word of a list of choices.
-  subroutine take_choice(self, item, element, words, value)
+  subroutine take_choice(self, item, element, words, value, others)
     class(case_reader_type), intent(inout) :: self !! the case file being read
     integer, intent(in) :: item             !! the value's number in the file
     integer, intent(in) :: element          !! of a list, 0 for a single value
     character(len=*), intent(in) :: words(:) !! that may be chosen
     integer, intent(inout) :: value         !! unchanged where the word is none of the list
+    character(len=*), intent(in), optional :: others !! what may stand there too, in words
     character(len=:), allocatable :: word, near, problem
     integer :: i
 
     word = lower_case(trim(self%file%value_text(item)))
     problem = 'must be one of '//choices(words)
+    if (present(others)) problem = problem//', or '//others
     near = nearest_word(word, words)
     if (near /= '') problem = 'did you mean '''//near//'''? It '//problem
     do i = 1, size(words)

@@ -22,6 +22,7 @@ module gfb_complaints
     type(complaint_type), allocatable, private :: kept(:)
   contains
     procedure :: add => add_complaint
+    procedure :: add_new => add_new_complaints
     procedure :: report => report_complaints
   end type complaints_type
 
@@ -45,6 +46,26 @@ contains
     self%kept(self%count)%line = line
     self%kept(self%count)%words = words
   end subroutine add_complaint
+
+  !> Adds those mistakes of another reading of the file that one reading of it has not.
+  pure subroutine add_new_complaints(self, other, known, line, label)
+    class(complaints_type), intent(inout) :: self !! the mistakes so far
+    type(complaints_type), intent(in) :: other !! the mistakes of the other reading
+    type(complaints_type), intent(in) :: known !! those that are not new
+    integer, intent(in) :: line !! of the file, to which they are due
+    character(len=*), intent(in) :: label !! what each begins with
+    integer :: i, k
+    logical :: is_new
+
+    do i = 1, min(other%count, most_kept)
+      is_new = .true.
+      do k = 1, min(known%count, most_kept)
+        if (known%kept(k)%line /= other%kept(i)%line) cycle
+        if (known%kept(k)%words == other%kept(i)%words) is_new = .false.
+      end do
+      if (is_new) call self%add(line, label//other%kept(i)%words)
+    end do
+  end subroutine add_new_complaints
 
   !> The mistakes in the order of their lines, one a line.
   pure function report_complaints(self, label) result(words)

@@ -1,6 +1,7 @@
 !> The groups and keys there are, against the names that stand in a file.
 module gfb_key_book
   use gfb_complaints, only: complaints_type, shown
+  use gfb_key_notes, only: key_type, real_words
   use gfb_namelist_file, only: namelist_file_type, namelist_group_type
   use gfb_text, only: join, lower_case, nearest_word, text
   implicit none (type, external)
@@ -15,6 +16,8 @@ module gfb_key_book
     logical :: missing = .false.     !! required and absent
     logical :: given = .false.       !! it stands in the file
     logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
+    logical :: is_real = .false.     !! of a key: its value is one real number
+    character(len=:), allocatable :: unit    !! of a key
     character(len=:), allocatable :: meaning
   end type name_type
 
@@ -31,6 +34,7 @@ module gfb_key_book
     procedure :: check_names
     procedure :: is_meant
     procedure :: group_line
+    procedure :: look_up_real
   end type key_book_type
 
 contains
@@ -54,19 +58,21 @@ contains
   end subroutine add_group
 
   !> Adds a key.
-  pure subroutine add_key(self, group, key, given, required, meaning)
+  pure subroutine add_key(self, group, key, given, required)
     class(key_book_type), intent(inout) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group, key !! names in the case file
+    character(len=*), intent(in) :: group !! of the file
+    type(key_type), intent(in) :: key !! what is known of it
     logical, intent(in) :: given     !! it stands in the file
     logical, intent(in) :: required !! a case without it is wrong
-    character(len=*), intent(in) :: meaning !! of the key, a sentence
     type(name_type) :: name
 
     name%given = given
     name%missing = required .and. .not. given
-    name%meaning = meaning
+    name%is_real = key%type_words == real_words
+    name%unit = key%unit
+    name%meaning = key%meaning
     self%key_groups = [character(len=name_length) :: self%key_groups, group]
-    self%key_names = [character(len=name_length) :: self%key_names, key]
+    self%key_names = [character(len=name_length) :: self%key_names, key%name]
     self%keys = [self%keys, name]
   end subroutine add_key
 
@@ -81,6 +87,37 @@ contains
     i = findloc(self%group_names == group, .true., dim=1)
     if (i > 0) line = self%groups(i)%line
   end function group_line
+
+  !> Looks up a key whose value is to be one real number.
+  pure subroutine look_up_real(self, group, key, unit, problem)
+    class(key_book_type), intent(in) :: self !! the known groups and keys
+    character(len=*), intent(in) :: group, key !! names as they were typed, in lower case
+    character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
+    character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
+    character(len=2*name_length) :: known(size(self%keys))
+    character(len=:), allocatable :: near
+    logical :: is_key(size(self%keys))
+    integer :: i
+
+    unit = ''
+    problem = ''
+    is_key = self%key_names == key
+    i = findloc(is_key .and. self%key_groups == group, .true., dim=1)
+    if (i == 0) then
+      do i = 1, size(known)
+        known(i) = trim(self%key_groups(i))//'%'//trim(self%key_names(i))
+      end do
+      near = nearest_word(group//'%'//key, pack(known, self%keys%is_real))
+      is_key = is_key .and. self%keys%is_real
+      if (any(is_key)) near = join(pack(known, is_key), ''' or ''')
+      problem = 'there is no key '//shown(group//'%'//key)
+      if (near /= '') problem = problem//', did you mean '''//near//'''?'
+    else if (.not. self%keys(i)%is_real) then
+      problem = group//'%'//key//' is not one real number'
+    else
+      unit = self%keys(i)%unit
+    end if
+  end subroutine look_up_real
 
   !> Whether a key stands in the file, be it misspelt.
   pure function is_meant(self, group, key) result(meant)

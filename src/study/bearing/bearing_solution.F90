@@ -6,7 +6,8 @@ module gfb_bearing_solution
   use gfb_scene, only: scene_type
   use gfb_model_case, only: coupling_partitioned, foil_rigid
   use gfb_operation_case, only: operation_case_type
-  use gfb_sweep_case, only: operation_at
+  use gfb_scene_reading, only: scene_at_value
+  use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
@@ -15,7 +16,8 @@ module gfb_bearing_solution
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, start_partitioned
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
-  use gfb_bearing_restart, only: recall_bearing
+  use gfb_bearing_restart, only: recall_bearing, find_restart_point
+  use gfb_key_path, only: follow_keys, drop_bearing
   use gfb_reasons, only: reason_type
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: take_walk
@@ -47,7 +49,7 @@ contains
     end if
     if (allocated(error)) return
     call enter_stage('sweep')
-    if (.not. reason%is_given()) call finish(sweep, next, reason, error)
+    if (.not. reason%is_given()) call finish(plan, sweep, next, reason, error)
     call leave_stage()
     call destroy_partitioned(sweep%sides)
   end subroutine solve_bearing
@@ -76,10 +78,13 @@ contains
     integer, intent(out) :: next !! point of the sweep
     type(reason_type), intent(out) :: reason
     type(error_type), allocatable, intent(out) :: error
+    type(scene_type) :: scene
     type(operation_case_type) :: operation
     type(path_report_type) :: report
 
-    associate (scene => sweep%scene, log => sweep%context%log)
+    call scene_of(sweep, 1, scene, error)
+    if (allocated(error)) return
+    associate (log => sweep%context%log)
       operation = scene%operation
       next = 1
       if (scene%sweep%present .and. .not. scene%sweep%hold_position) then
@@ -100,15 +105,37 @@ contains
     if (report%converged) call sweep%keep_point(next - 1)
   end subroutine start
 
+  !> The scene with the value of a point in it, where the sweep changes keys; else as it is.
+  !>
+  !> Fails where the value breaks a rule.
+  subroutine scene_of(sweep, point, scene, error)
+    type(sweep_type), intent(inout) :: sweep !! notes the value
+    integer, intent(in) :: point !! of the sweep
+    type(scene_type), intent(out) :: scene
+    type(error_type), allocatable, intent(out) :: error
+
+    if (sweep%scene%sweep%parameter == sweep_keys) then
+      sweep%value = sweep%scene%sweep%values(point)
+      call scene_at_value(sweep%scene, sweep%value, scene, error)
+    else
+      scene = sweep%scene
+    end if
+  end subroutine scene_of
+
   !> The answer that a restart file holds.
   subroutine resume(plan, sweep, next, error)
     type(bearing_plan_type), intent(in) :: plan
     type(sweep_type), target, intent(inout) :: sweep
     integer, intent(out) :: next !! point of the sweep
     type(error_type), allocatable, intent(out) :: error
+    type(scene_type) :: scene
 
-    associate (scene => sweep%scene, log => sweep%context%log)
-      next = 0
+    next = 0
+    call find_restart_point(sweep%context%restart, next, error)
+    if (allocated(error)) return
+    call scene_of(sweep, next, scene, error)
+    if (allocated(error)) return
+    associate (log => sweep%context%log)
       call build_bearing(scene, plan, sweep%bearing, error)
       if (allocated(error)) return
       call create_newton(sweep%newton, sweep%bearing, 'bearing_', sweep%tolerances, log)
@@ -122,7 +149,8 @@ contains
   end subroutine resume
 
   !> The rest of the sweep, point by point, or along its branch.
-  subroutine finish(sweep, next, reason, error)
+  subroutine finish(plan, sweep, next, reason, error)
+    type(bearing_plan_type), intent(in) :: plan
     type(sweep_type), target, intent(inout) :: sweep
     integer, intent(in) :: next !! point
     type(reason_type), intent(out) :: reason
@@ -132,8 +160,66 @@ contains
     if (sweep%scene%sweep%turn_folds) then
       call take_walk(sweep, next, 1, reason)
       if (.not. reason%is_given()) call sweep_round_folds(sweep, reason, error)
+    else if (sweep%scene%sweep%parameter == sweep_keys) then
+      call walk_along_keys(plan, sweep, next, reason, error)
     else
       call take_walk(sweep, next, size(sweep%scene%sweep%values), reason)
     end if
   end subroutine finish
+
+  !> The points of a sweep over keys, each from its neighbour's answer; from nothing where no path leads there.
+  !>
+  !> Fails where the mesh cannot be cut.
+  subroutine walk_along_keys(plan, sweep, first, reason, error)
+    type(bearing_plan_type), intent(in) :: plan
+    type(sweep_type), target, intent(inout) :: sweep
+    integer, intent(in) :: first !! point
+    type(reason_type), intent(out) :: reason
+    type(error_type), allocatable, intent(out) :: error
+    type(path_report_type) :: report
+    integer :: point
+
+    do point = first, size(sweep%scene%sweep%values)
+      call follow_keys(sweep%scene, plan, sweep%value, sweep%scene%sweep%values(point), sweep%path, sweep%bearing, &
+                       sweep%newton, report)
+      sweep%anew = .not. (report%converged .or. report%touched)
+      if (sweep%anew) call start_anew(plan, sweep, point, report, error)
+      if (allocated(error)) return
+      if (.not. report%converged) then
+        call sweep%stop_short(report, reason)
+        return
+      end if
+      sweep%value = sweep%scene%sweep%values(point)
+      call sweep%record_point(point)
+      call sweep%keep_point(point)
+    end do
+  end subroutine walk_along_keys
+
+  !> A point of a sweep over keys from nothing, where the path from its neighbour has ended.
+  !>
+  !> Fails where the mesh cannot be cut.
+  subroutine start_anew(plan, sweep, point, report, error)
+    type(bearing_plan_type), intent(in) :: plan
+    type(sweep_type), target, intent(inout) :: sweep
+    integer, intent(in) :: point
+    type(path_report_type), intent(inout) :: report !! in: of the path; out: of the start
+    type(error_type), allocatable, intent(out) :: error
+    type(scene_type) :: scene
+    integer :: iterations, factorizations
+
+    associate (newton => sweep%newton)
+      call sweep%tell_end(point, report)
+      call scene_of(sweep, point, scene, error)
+      if (allocated(error)) return
+      iterations = newton%iterations
+      factorizations = newton%factorizations
+      call drop_bearing(sweep%bearing, newton)
+      newton%iterations = 0
+      newton%factorizations = 0
+      call start_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
+                         sweep%context%log, sweep%bearing, newton, report, error)
+      newton%iterations = newton%iterations + iterations
+      newton%factorizations = newton%factorizations + factorizations
+    end associate
+  end subroutine start_anew
 end module gfb_bearing_solution

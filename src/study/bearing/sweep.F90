@@ -8,7 +8,7 @@ module gfb_sweep
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_sweep_case, only: operation_at
+  use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_petsc_session, only: wall_time
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -20,6 +20,7 @@ module gfb_sweep
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
   use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft
+  use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
   use gfb_answer_judgement, only: judge_answer
@@ -35,6 +36,8 @@ module gfb_sweep
     type(bearing_system_type) :: bearing
     type(newton_type) :: newton
     type(bearing_record_type) :: record
+    real(wp) :: value = 0.0_wp       !! of the keys that the sweep changes, at the present answer [their unit]
+    logical :: anew = .false.        !! the present answer was found from nothing, where no path led to it
     logical :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type) :: sides  !! of the bearing, then
   contains
@@ -45,6 +48,7 @@ module gfb_sweep
     procedure :: target_at
     procedure :: stop_short
     procedure :: explain
+    procedure :: tell_end
     procedure, private :: fix_shaft
   end type sweep_type
 
@@ -99,11 +103,28 @@ contains
       else
         call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point))
       end if
+      if (scene%sweep%parameter == sweep_keys) then
+        call add_result(record%history(size(record%history))%quantity, 'started_anew', self%anew)
+      end if
       if (scene%sweep%friction_memory) call bearing%commit()
       call show_progress(self%context, scene, point, record%begun)
       if (point == 1) record%begun = wall_time()
     end associate
   end subroutine record_value
+
+  !> Says where a path along keys has ended before its point, which starts from nothing then.
+  subroutine tell_end(self, point, report)
+    class(sweep_type), intent(in) :: self !! the sweep
+    integer, intent(in) :: point !! number of the sweep's value
+    type(path_report_type), intent(in) :: report !! of the path
+
+    associate (sweep => self%scene%sweep, log => self%context%log)
+      call log%line('the path from the point before ends at '//sweep_name(sweep)//' = '// &
+                    text(self%value + report%fraction*(sweep%values(point) - self%value))//' '//sweep_unit(sweep)// &
+                    ': '//report%reason)
+      call log%line('point '//text(point)//' starts from nothing')
+    end associate
+  end subroutine tell_end
 
   !> Writes the restart file after a point, where one is due; 0: where the shaft is fixed.
   subroutine keep_value(self, point)

@@ -1,0 +1,79 @@
+!> Reads the groups of a case file into a scene.
+module gfb_scene_groups
+  use gfb_accuracy_case, only: read_accuracy_case
+  use gfb_bearing_case, only: read_bearing_case
+  use gfb_bump_foil_case, only: read_bump_foil_case
+  use gfb_case_keys, only: case_keys_type
+  use gfb_contact_case, only: read_contact_case
+  use gfb_gas_case, only: read_gas_case
+  use gfb_mesh_case, only: read_mesh_case
+  use gfb_model_case, only: read_model_case, meshes_foils
+  use gfb_modes_case, only: read_modes_case, part_half_arc, part_arc, part_flat, &
+                            part_strip, part_top_foil
+  use gfb_operation_case, only: read_operation_case
+  use gfb_output_case, only: read_output_case
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
+                            analysis_strip, analysis_modes
+  use gfb_shaft_contact_case, only: read_shaft_contact_case
+  use gfb_solver_case, only: read_solver_case
+  use gfb_strip_load_case, only: read_strip_load_case
+  use gfb_sweep_case, only: read_sweep_case
+  use gfb_top_foil_case, only: read_top_foil_case
+  implicit none (type, external)
+  private
+  public :: read_groups
+
+contains
+
+  !> Reads the groups in the order in which they need each other.
+  subroutine read_groups(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(inout) :: scene !! gets what they say
+    logical :: modes !! they are asked for, and of what is known
+    logical :: plate !! of the top foil
+    logical :: bumps !! the bump foil is meshed
+    logical :: both  !! of a bearing: both foils are meshed
+    logical :: arc   !! an arc of it alone
+
+    call read_scene_case(keys, scene%general)
+    call read_modes_case(keys, scene%modes, scene%general%analysis)
+    call read_model_case(keys, scene%model, scene%general%analysis)
+    associate (analysis => scene%general%analysis, part => scene%modes%part)
+      modes = analysis == analysis_modes .and. part /= 0
+      plate = modes .and. part == part_top_foil
+      both = is_bearing(analysis) .and. meshes_foils(scene%model%foil)
+      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. both
+      arc = modes .and. (part == part_half_arc .or. part == part_arc)
+      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
+                             is_bearing(analysis), bearing_misplaced(analysis, part))
+      call read_gas_case(keys, scene%gas, analysis)
+      call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
+      call read_operation_case(keys, scene%operation, analysis, scene%shaft_contact%present)
+      call read_sweep_case(keys, scene%sweep, analysis)
+      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
+                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
+      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
+      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
+                             scene%bearing%clearance, analysis, scene%model%foil)
+    end associate
+    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
+    call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
+    call read_output_case(keys, scene%output)
+    call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
+  end subroutine read_groups
+
+  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
+  pure function bearing_misplaced(analysis, part) result(words)
+    integer, intent(in) :: analysis, part !! 0 where they are not known
+    character(len=:), allocatable :: words
+
+    words = misplaced_group(analysis, is_bearing(analysis))
+    if (analysis /= analysis_modes) return
+    words = ''
+    if (part /= 0 .and. part /= part_top_foil) then
+      words = "needs part = 'top_foil' in &modes: no other part has a pad"
+    end if
+  end function bearing_misplaced
+end module gfb_scene_groups

@@ -1,0 +1,289 @@
+#include "gfb_petsc.h"
+!> A bearing along keys of its case file: it is built anew for every value, and starts from the answer of the
+!> value before, node by node: the meshes are the same, and displacements are kept in metres.
+module gfb_key_path
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_text, only: text
+  use gfb_petsc_session, only: any_rank
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: scene_at_value
+  use gfb_scene_point, only: operating_point
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: build_bearing
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton, &
+                        forget_factors, destroy_newton
+  use gfb_answer_transfer, only: transfer_answer
+  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_run_log, only: run_log_type
+  implicit none (type)
+  private
+  public :: follow_keys, drop_bearing
+
+  integer, parameter :: hasty_iterations = 20      !! of a step that can be cut: one that converges does so soon
+  integer, parameter :: straight_steps = 8         !! of a leap, before they are bent at contacts that change
+  real(wp), parameter :: shortest_step = 1.0_wp/64.0_wp !! of the way from value to value: no step is shorter [1]
+  integer, parameter :: easy_iterations = 8        !! a step that took no more of them is doubled
+  !> Of the shaft or the free edge in a step, over the clearance; beyond, it may be another branch [1].
+  real(wp), parameter :: longest_move = 0.1_wp
+
+  !> An answer without its equations.
+  type :: carried_type
+    real(wp), allocatable :: unknown(:) !! local ones of the bearing, in SI
+    integer, allocatable :: node(:)     !! of the whole film mesh on this rank
+    logical :: upwind = .false.
+    real(wp) :: place(4) = 0.0_wp       !! of the shaft, lifts of the free edge [m]
+    real(wp) :: value = 0.0_wp          !! of the keys [the sweep's unit]
+    real(wp) :: at = 0.0_wp             !! path parameter [1]
+  end type carried_type
+
+contains
+
+  !> Leads the bearing from a value of the keys that its scene's sweep changes, where its state is the answer, to another.
+  !>
+  !> Each step starts from the answer before, from the second one on from the line through two. A step that does not
+  !> converge, or moves the shaft or the free edge far, which may be to another branch, is halved. Where Newton's method
+  !> goes to and fro between contacts however short the step, longer steps are tried, bent at contacts that change; what
+  !> they find has to be near, too. On return the bearing is at the last answer.
+  subroutine follow_keys(scene, plan, from, to, settings, bearing, newton, report)
+    type(scene_type), intent(in) :: scene !! whose sweep changes keys
+    type(bearing_plan_type), intent(in) :: plan !! of its meshes
+    real(wp), intent(in) :: from, to !! values [the sweep's unit]
+    type(path_settings_type), intent(in) :: settings !! limits of the path
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft; is built anew
+    type(newton_type), target, intent(inout) :: newton !! of the bearing; is created anew
+    type(path_report_type), intent(out) :: report !! how far it led
+    type(carried_type) :: here, before
+    character(len=:), allocatable :: problem
+    real(wp) :: step, smallest, trial
+    integer :: iterations
+    logical :: leaps
+
+    call carry(bearing, from, 0.0_wp, here)
+    before = here
+    before%at = -1.0_wp
+    leaps = .false.
+    step = 1.0_wp
+    smallest = max(shortest_step, settings%smallest_step)
+    do while (report%fraction < 1.0_wp)
+      if (report%steps + report%cuts >= settings%maximum_steps) then
+        report%reason = 'more than '//text(settings%maximum_steps)//' steps'
+        exit
+      end if
+      trial = min(1.0_wp, report%fraction + step)
+      call try_value(scene, plan, value_at(from, to, trial), trial, here, before, leaps, bearing, newton, iterations, problem)
+      if (problem == '') then
+        if (has_moved(here, bearing)) problem = 'the shaft or the free edge jumps'
+      end if
+      if (problem /= '') then
+        report%cuts = report%cuts + 1
+        call newton%log%detail('cut: '//problem)
+        step = 0.5_wp*step
+        if (step >= smallest) cycle
+        if (.not. leaps) then
+          leaps = .true.
+          step = 1.0_wp - report%fraction
+          cycle
+        end if
+        report%reason = 'no step leads on ('//problem//')'
+        exit
+      end if
+      leaps = .false.
+      before = here
+      call carry(bearing, value_at(from, to, trial), trial, here)
+      report%fraction = trial
+      report%steps = report%steps + 1
+      if (iterations <= easy_iterations) step = 2.0_wp*step
+      if (bearing%smallest_gap() < settings%touch_down_gap) then
+        report%touched = .true.
+        report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
+        exit
+      end if
+    end do
+    report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
+    if (report%converged) report%reason = 'converged'
+    if (report%fraction < 1.0_wp .and. .not. report%touched) then
+      call rebuild(scene, plan, value_at(from, to, report%fraction), here, bearing, newton, problem)
+      if (problem /= '') error stop 'a bearing that had been built cannot be built again'
+    end if
+    report%reached = bearing%point
+  end subroutine follow_keys
+
+  !> Frees the bearing and its solver.
+  subroutine drop_bearing(bearing, newton)
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    type(newton_type), intent(inout) :: newton !! its solver; keeps its counts
+
+    call forget_factors(newton)
+    call destroy_newton(newton)
+    call bearing%destroy()
+  end subroutine drop_bearing
+
+  !> The value at a path parameter; the last one to the last digit.
+  pure function value_at(from, to, at) result(value)
+    real(wp), intent(in) :: from, to !! [the sweep's unit]
+    real(wp), intent(in) :: at       !! path parameter [1]
+    real(wp) :: value
+
+    value = from + at*(to - from)
+    if (at >= 1.0_wp) value = to
+    if (at <= 0.0_wp) value = from
+  end function value_at
+
+  !> Builds the bearing at a value and solves it from the answers before.
+  subroutine try_value(scene, plan, value, at, here, before, leaps, bearing, newton, iterations, problem)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    real(wp), intent(in) :: value              !! [the sweep's unit]
+    real(wp), intent(in) :: at                 !! path parameter [1]
+    type(carried_type), intent(in) :: here, before !! the last two answers
+    logical, intent(in) :: leaps               !! Newton's steps may be bent
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    integer, intent(out) :: iterations         !! of Newton
+    character(len=:), allocatable, intent(out) :: problem !! why there is no answer; empty where there is one
+    type(newton_report_type) :: solved
+    type(newton_settings_type) :: kept
+
+    iterations = 0
+    call rebuild(scene, plan, value, here, bearing, newton, problem)
+    if (problem /= '') return
+    if (before%at >= 0.0_wp .and. .not. leaps) then
+      call predict(here, before, (at - here%at)/(here%at - before%at), bearing)
+    end if
+    kept = newton%settings
+    if (leaps) then
+      newton%settings%straight_steps = straight_steps
+    else
+      newton%settings%maximum_iterations = min(kept%maximum_iterations, hasty_iterations)
+    end if
+    call solve_newton(newton, solved)
+    newton%settings = kept
+    iterations = solved%iterations
+    if (.not. solved%converged) problem = solved%reason
+  end subroutine try_value
+
+  !> The bearing at a value, with a carried answer as its state; nothing is done where the value breaks a rule.
+  subroutine rebuild(scene, plan, value, carried, bearing, newton, problem)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    real(wp), intent(in) :: value !! [the sweep's unit]
+    type(carried_type), intent(in) :: carried
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(scene_type) :: there
+    type(newton_settings_type) :: settings
+    type(run_log_type) :: log
+    type(error_type), allocatable :: error
+    logical :: fits
+
+    problem = ''
+    call scene_at_value(scene, value, there, error)
+    if (allocated(error)) then
+      problem = error%message
+      return
+    end if
+    settings = newton%settings
+    log = newton%log
+    call drop_bearing(bearing, newton)
+    call build_bearing(there, plan, bearing, error)
+    if (allocated(error)) error stop 'a mesh that was divided cannot be divided again'
+    call create_newton(newton, bearing, 'bearing_', settings, log)
+    bearing%point = operating_point(there%operation)
+    bearing%pad(1)%film%flow%upwind = carried%upwind
+    call compare_nodes(carried, bearing, fits)
+    if (fits) then
+      call bearing%set_unknowns(carried%unknown)
+    else
+      call interpolate(scene, plan, carried, bearing)
+    end if
+  end subroutine rebuild
+
+  !> Whether an answer's nodes are those of the bearing.
+  subroutine compare_nodes(carried, bearing, fits)
+    type(carried_type), intent(in) :: carried
+    type(bearing_system_type), intent(in) :: bearing
+    logical, intent(out) :: fits
+
+    fits = bearing%local_size() == size(carried%unknown) .and. size(bearing%pad(1)%mesh%mesh_node) == size(carried%node)
+    if (fits) fits = all(bearing%pad(1)%mesh%mesh_node == carried%node)
+    fits = .not. any_rank(.not. fits)
+  end subroutine compare_nodes
+
+  !> Interpolates an answer on other nodes: where a pitch changes, the top foil may get more stations between its bumps.
+  subroutine interpolate(scene, plan, carried, bearing)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(carried_type), intent(in) :: carried
+    type(bearing_system_type), intent(inout) :: bearing !! gets a start value
+    type(bearing_system_type) :: other
+    type(scene_type) :: there
+    type(error_type), allocatable :: error
+
+    call scene_at_value(scene, carried%value, there, error)
+    if (.not. allocated(error)) call build_bearing(there, plan, other, error)
+    if (allocated(error)) error stop 'a bearing that had been built cannot be built again'
+    other%point = operating_point(there%operation)
+    call other%set_unknowns(carried%unknown)
+    call transfer_answer(other, bearing)
+    call other%destroy()
+  end subroutine interpolate
+
+  !> Takes the bearing's present answer along.
+  subroutine carry(bearing, value, at, carried)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: value !! of the keys [the sweep's unit]
+    real(wp), intent(in) :: at !! path parameter [1]
+    type(carried_type), intent(out) :: carried
+
+    allocate (carried%unknown(bearing%local_size()))
+    call bearing%get_unknowns(carried%unknown)
+    carried%node = bearing%pad(1)%mesh%mesh_node
+    carried%upwind = bearing%pad(1)%film%flow%upwind
+    carried%place = place_of(bearing)
+    carried%value = value
+    carried%at = at
+  end subroutine carry
+
+  !> Moves the state on the line through two answers, where it can be evaluated there.
+  subroutine predict(here, before, stretch, bearing)
+    type(carried_type), intent(in) :: here, before
+    real(wp), intent(in) :: stretch !! beyond the last, over their distance [1]
+    type(bearing_system_type), intent(inout) :: bearing !! at the last one
+    Vec :: residual
+    PetscErrorCode :: ierr
+    logical :: valid, here_fits, before_fits
+
+    call compare_nodes(here, bearing, here_fits)
+    call compare_nodes(before, bearing, before_fits)
+    if (.not. (here_fits .and. before_fits)) return
+    call bearing%set_unknowns(here%unknown + stretch*(here%unknown - before%unknown))
+    PetscCallA(VecDuplicate(bearing%state, residual, ierr))
+    call bearing%evaluate(bearing%state, residual, valid)
+    if (any_rank(.not. valid)) call bearing%set_unknowns(here%unknown)
+    PetscCallA(VecDestroy(residual, ierr))
+  end subroutine predict
+
+  !> Where the shaft and the free edge of the top foil are [m].
+  function place_of(bearing) result(place)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp) :: place(4)
+    type(bearing_answer_type) :: answer
+
+    answer = bearing_answer(bearing)
+    place = [bearing%eccentricity(), answer%leading_edge_lift]
+  end function place_of
+
+  !> Whether the shaft or the free edge is far from where it was.
+  function has_moved(here, bearing) result(moved)
+    type(carried_type), intent(in) :: here
+    type(bearing_system_type), intent(in) :: bearing
+    logical :: moved
+
+    moved = any(abs(place_of(bearing) - here%place) > longest_move*bearing%pad(1)%film%clearance)
+  end function has_moved
+end module gfb_key_path
