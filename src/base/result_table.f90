@@ -78,6 +78,10 @@ module gfb_result_table
       'found from nothing: no path led there from the point before', &
       'where the `parameter` of `&sweep` is keys: 1 at a point to which no path led from the '// &
       'one before, and that was found from nothing'), &
+    result_type('branch_changed', '1', truth, sweep, &
+      'the answer is on another branch than the one before', &
+      'foils with a free leading edge: 1 at a point on another branch of equilibria than the '// &
+      'one before ([branches.md](branches.md#a-sweep-that-changes-its-branch))'), &
     result_type('fold', '1', truth, sweep, 'what the sweep changes turns back there', &
       'with `turn_folds`: 1 in the rows where the parameter turns back'), &
     result_type('branch', '1', total, branch, 'number of the equilibrium', &

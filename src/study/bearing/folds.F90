@@ -168,6 +168,7 @@ contains
       call add_row(scene, bearing, newton, .true., record, scene%sweep%values(number), .false.)
       call sweep%context%log%line('on the branch: '//value_text(scene, branch%lambda(number)))
     end associate
+    call sweep%watch()
   end subroutine record_value
 
   !> Records the answer at which the parameter turns back.
@@ -189,6 +190,7 @@ contains
       branch%kept = 0
       call sweep%context%log%line('fold: the branch turns back at '//value_text(scene, fold))
     end associate
+    call sweep%watch()
     call branch%arc%return_to()
   end subroutine record_fold
 

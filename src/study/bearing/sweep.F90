@@ -19,6 +19,7 @@ module gfb_sweep
   use gfb_tilt_response, only: begin_tilt, measure_tilt
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
+  use gfb_branch_watch, only: watch_branch
   use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft
   use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
@@ -48,6 +49,7 @@ module gfb_sweep
     procedure :: target_at
     procedure :: stop_short
     procedure :: explain
+    procedure :: watch
     procedure :: tell_end
     procedure, private :: fix_shaft
   end type sweep_type
@@ -110,6 +112,7 @@ contains
       call show_progress(self%context, scene, point, record%begun)
       if (point == 1) record%begun = wall_time()
     end associate
+    call self%watch()
   end subroutine record_value
 
   !> Says where a path along keys has ended before its point, which starts from nothing then.
@@ -125,6 +128,18 @@ contains
       call log%line('point '//text(point)//' starts from nothing')
     end associate
   end subroutine tell_end
+
+  !> Says whether the answer recorded last is on another branch than the one before.
+  subroutine watch(self)
+    class(sweep_type), intent(inout) :: self !! the sweep
+    character(len=:), allocatable :: why
+    logical :: in_short_steps
+
+    in_short_steps = self%scene%sweep%parameter == sweep_keys .and. .not. self%anew
+    call watch_branch(self%scene, in_short_steps, self%record%history, why)
+    if (why == '') return
+    call self%context%log%warning('another branch of equilibria than at the point before: '//why)
+  end subroutine watch
 
   !> Writes the restart file after a point, where one is due; 0: where the shaft is fixed.
   subroutine keep_value(self, point)

@@ -79,6 +79,7 @@ contains
         row = stretches(i)%row(k)
         call add_to(row, 'newton_iterations', before(1))
         call add_to(row, 'factorizations', before(2))
+        if (k == 1 .and. parts(scene, stretches, i)) call add_to(row, 'branch_changed', 1)
         if (size(history) > 0) call match_secants(tilt_axis(scene%sweep), history(1), row)
         history = [history, row]
       end do
@@ -86,7 +87,18 @@ contains
     end do
   end subroutine merge_histories
 
-  !> Adds to a row's count.
+  !> Whether a stretch begins with another answer than that to which the one before leads.
+  function parts(scene, stretches, number)
+    type(scene_type), intent(in) :: scene
+    type(stretch_type), intent(in) :: stretches(:)
+    integer, intent(in) :: number !! of the stretch
+    logical :: parts
+
+    parts = number > 1
+    if (parts) parts = seam_words(scene, stretches(max(1, number - 1)), stretches(number)) /= ''
+  end function parts
+
+  !> Adds to a row's count, or says that something is true.
   pure subroutine add_to(row, name, number)
     type(history_row_type), intent(inout) :: row
     character(len=*), intent(in) :: name

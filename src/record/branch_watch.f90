@@ -1,0 +1,153 @@
+!> Whether the answers of a sweep stay on one branch of equilibria, where a bearing may have
+!> several: where the leading edge of its top foil is free.
+!>
+!> Another branch is told by one of three signs:
+!>
+!> - the determinant of the equations' matrix has changed its sign, and no fold was turned: between
+!>   two answers on one branch it changes only at folds;
+!> - the free edge has moved by more than 0.2 C beyond the line through the two answers before, and
+!>   by more than that line foretells; after one answer only, by more than 0.4 C;
+!> - the smallest film has done so; after one answer only it tells nothing.
+!>
+!> The line is one over the logarithm of the parameter where its values have one sign: over that
+!> the film of one branch is nearly straight. Where a path of short steps has led to the answer,
+!> only the first sign counts.
+module gfb_branch_watch
+  use gfb_kinds, only: wp
+  use gfb_results, only: add_result
+  use gfb_scene, only: scene_type
+  use gfb_model_case, only: meshes_foils
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sweep_case, only: parameter_words, sweep_keys
+  use gfb_top_foil_case, only: top_foil_trailing
+  use gfb_case_file, only: history_row_type
+  implicit none (type, external)
+  private
+  public :: watch_branch
+
+  real(wp), parameter :: foretold = 0.2_wp !! off the line through two answers, over C [1]
+  real(wp), parameter :: alone = 0.4_wp    !! off the only answer before, over C [1]
+  character(len=*), parameter :: lifts(2) = [character(len=22) :: &
+    'leading_edge_lift', 'leading_edge_lift_edge']
+
+contains
+
+  !> Judges the last row of a sweep's history by the rows before, and puts `branch_changed` into it;
+  !> nothing is done where no edge is free.
+  subroutine watch_branch(scene, in_short_steps, history, why)
+    type(scene_type), intent(in) :: scene !! of the sweep
+    logical, intent(in) :: in_short_steps !! a path of short steps has led to the last answer
+    type(history_row_type), intent(inout) :: history(:) !! the last row gets its result
+    character(len=:), allocatable, intent(out) :: why !! it is another branch; empty: it is not
+
+    why = ''
+    if (scene%general%analysis /= analysis_equilibrium) return
+    if (.not. meshes_foils(scene%model%foil)) return
+    if (scene%top_foil%fixed_edge /= top_foil_trailing) return
+    if (determinant_changed(history)) why = 'the determinant of the matrix changed its sign'
+    if (why == '' .and. .not. (in_short_steps .or. scene%sweep%turn_folds)) then
+      why = move_words(scene, history)
+    end if
+    call add_result(history(size(history))%quantity, 'branch_changed', why /= '')
+  end subroutine watch_branch
+
+  !> Whether the determinant has another sign than in the last row that knows it, and no fold lies
+  !> between, or the same sign and a fold does.
+  pure function determinant_changed(history) result(changed)
+    type(history_row_type), intent(in) :: history(:)
+    logical :: changed
+    real(wp) :: now, before
+    integer :: row, folds
+
+    changed = .false.
+    now = number_of(history(size(history)), 'determinant_sign')
+    if (.not. abs(now) > 0.0_wp) return
+    folds = 0
+    do row = size(history) - 1, 1, -1
+      if (number_of(history(row), 'fold') > 0.0_wp) folds = folds + 1
+      before = number_of(history(row), 'determinant_sign')
+      if (.not. abs(before) > 0.0_wp) cycle
+      changed = now*before < 0.0_wp .neqv. modulo(folds, 2) == 1
+      return
+    end do
+  end function determinant_changed
+
+  !> What has moved to where the rows before do not lead; empty where nothing has.
+  function move_words(scene, history) result(words)
+    type(scene_type), intent(in) :: scene
+    type(history_row_type), intent(in) :: history(:)
+    character(len=:), allocatable :: words
+    real(wp) :: at(3)
+    integer :: i, last, known
+
+    words = ''
+    last = size(history)
+    if (last < 2) return
+    known = 1 ! answers before on one branch
+    if (last > 2) then
+      if (.not. number_of(history(last - 1), 'branch_changed') > 0.0_wp) known = 2
+    end if
+    if (known == 2) at = places(scene, history(last - 2:))
+    if (known == 2) then
+      if (.not. abs(at(2) - at(1)) > 0.0_wp) known = 1
+    end if
+    do i = 1, size(lifts)
+      if (leaves(trim(lifts(i)))) words = 'the free edge jumped'
+    end do
+    if (known == 2 .and. words == '') then
+      if (leaves('minimum_gap')) words = 'the smallest film jumped'
+    end if
+
+  contains
+
+    !> Whether a number is off the line through the rows before, or far from the only one.
+    function leaves(name)
+      character(len=*), intent(in) :: name
+      logical :: leaves
+      real(wp) :: now, before, change
+
+      now = number_of(history(last), name)
+      before = number_of(history(last - 1), name)
+      if (known == 1) then
+        leaves = abs(now - before) > alone*scene%bearing%clearance
+      else
+        change = (before - number_of(history(last - 2), name))*(at(3) - at(2))/(at(2) - at(1))
+        leaves = abs(now - before - change) > max(foretold*scene%bearing%clearance, abs(change))
+      end if
+    end function leaves
+  end function move_words
+
+  !> Where rows lie along the sweep: its parameter, or the logarithm where all values have one sign.
+  pure function places(scene, rows) result(at)
+    type(scene_type), intent(in) :: scene
+    type(history_row_type), intent(in) :: rows(:)
+    real(wp) :: at(size(rows))
+    character(len=:), allocatable :: name
+    integer :: i
+
+    if (scene%sweep%parameter == sweep_keys) then
+      name = 'key_value'
+    else
+      name = trim(parameter_words(scene%sweep%parameter))
+    end if
+    do i = 1, size(rows)
+      at(i) = number_of(rows(i), name)
+    end do
+    associate (values => scene%sweep%values)
+      if (all(values > 0.0_wp) .or. all(values < 0.0_wp)) at = log(abs(at))
+    end associate
+  end function places
+
+  !> A row's number of a name; zero where it has none.
+  pure function number_of(row, name) result(number)
+    type(history_row_type), intent(in) :: row
+    character(len=*), intent(in) :: name
+    real(wp) :: number
+    integer :: i
+
+    number = 0.0_wp
+    do i = 1, size(row%quantity)
+      if (row%quantity(i)%name == name) number = row%quantity(i)%number
+    end do
+  end function number_of
+end module gfb_branch_watch
