@@ -187,6 +187,13 @@ module gfb_result_table
       'sign of the determinant of all equations; it changes at folds', &
       'where the shaft is balanced: sign of the determinant of all equations; along a branch '// &
       'it changes at a fold, 0 in the row of one'), &
+    result_type('critical_mass', 'kg', number, bearing, &
+      'mass on this bearing above which a rigid shaft whirls, at this load and speed', &
+      'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
+      'rigid shaft whirls, at this load and speed; absent where none does'), &
+    result_type('whirl_ratio', '1', number, bearing, &
+      'frequency of that whirl over the speed of the shaft', &
+      'the same: frequency of that whirl over the speed of the shaft'), &
     result_type('<quantity>_error', own_unit, number, accuracy, &
       'estimated from nested meshes, absolute', &
       'estimated error of that quantity, absolute; order of convergence that the meshes show, '// &

@@ -74,6 +74,7 @@ contains
 
     name = 'fixed_position'
     if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
+    if (scene%dynamics%present) name = 'linear_dynamics'
   end function analysis_name
 
   !> The word for what a sweep changes.

@@ -4,6 +4,7 @@ module gfb_scene
   use gfb_bearing_case, only: bearing_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_contact_case, only: contact_case_type
+  use gfb_dynamics_case, only: dynamics_case_type
   use gfb_gas_case, only: gas_case_type
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type
@@ -31,6 +32,7 @@ module gfb_scene
     type(gas_case_type) :: gas
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
+    type(dynamics_case_type) :: dynamics
     type(accuracy_case_type) :: accuracy
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil

@@ -5,6 +5,7 @@ module gfb_scene_groups
   use gfb_bump_foil_case, only: read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_case, only: read_contact_case
+  use gfb_dynamics_case, only: read_dynamics_case, analysis_of_state
   use gfb_gas_case, only: read_gas_case
   use gfb_mesh_case, only: read_mesh_case
   use gfb_model_case, only: read_model_case, meshes_foils
@@ -30,6 +31,7 @@ contains
   subroutine read_groups(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(inout) :: scene !! gets what they say
+    integer :: state !! analysis that finds it, where vibrations about a state are asked for
     logical :: modes !! they are asked for, and of what is known
     logical :: plate !! of the top foil
     logical :: bumps !! the bump foil is meshed
@@ -39,6 +41,8 @@ contains
     call read_scene_case(keys, scene%general)
     call read_modes_case(keys, scene%modes, scene%general%analysis)
     call read_model_case(keys, scene%model, scene%general%analysis)
+    state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load'), &
+                              keys%holds('operation', 'eccentricity'))
     associate (analysis => scene%general%analysis, part => scene%modes%part)
       modes = analysis == analysis_modes .and. part /= 0
       plate = modes .and. part == part_top_foil
@@ -49,7 +53,8 @@ contains
                              is_bearing(analysis), bearing_misplaced(analysis, part))
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
-      call read_operation_case(keys, scene%operation, analysis, scene%shaft_contact%present)
+      call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
+      call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
@@ -62,6 +67,7 @@ contains
     call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
     call read_output_case(keys, scene%output)
     call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
+    scene%general%analysis = state
   end subroutine read_groups
 
   !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.

@@ -7,8 +7,8 @@
 !>    w_a = N_a + \frac{\alpha \ell}{2} \frac{\partial N_a}{\partial x}, $$
 !>
 !> the second part of \( w_a \) with upwinding (SUPG) only: it weights the rate as it weights the
-!> rest of the strong residual, or both were not consistent. About a steady state the weights are that
-!> state's, because the rate that their own change would weight is zero there.
+!> rest of the strong residual, or both were not consistent. About a steady state the weights are
+!> that state's, because the rate that their own change would weight is zero there.
 module gfb_squeeze_term
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
@@ -37,7 +37,8 @@ contains
       associate (shape => shapes(:, point), length => geometry%stream_length(point))
         peclet = cell_peclet(flow, length, dot_product(shape, pressure), &
                              dot_product(shape, gap) + excess(point))
-        weight(:, point) = shape + 0.5_wp*length*upwind_weight(peclet)*geometry%gradient(1, :, point)
+        weight(:, point) = shape &
+          + 0.5_wp*length*upwind_weight(peclet)*geometry%gradient(1, :, point)
       end associate
     end do
   end function squeeze_weights

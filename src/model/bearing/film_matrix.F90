@@ -10,7 +10,7 @@ module gfb_film_matrix
   use gfb_shaft_motion, only: shaft_unknowns
   implicit none (type)
   private
-  public :: add_film_rows, add_shaft_weights, add_shaft_stiffness, make_film_room
+  public :: add_film_rows, add_shaft_weights, add_shaft_stiffness, make_film_room, element_columns, add_block
 
   integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns
 
@@ -121,10 +121,10 @@ contains
   !> Local numbers, from 0, of a film element's equations, and of what they depend on: pressures,
   !> what moves the foil, the shaft; -1 where there is none of its own.
   pure subroutine element_columns(film, foil, shaft, element, row, column)
-    type(gas_film_type), intent(in) :: film
-    class(foil_model_type), intent(in) :: foil
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    class(foil_model_type), intent(in) :: foil !! under the film
     integer, intent(in) :: shaft !! local unknowns before e_x, `no_shaft` where it is never an unknown
-    integer, intent(in) :: element
+    integer, intent(in) :: element !! of this rank
     PetscInt, intent(out) :: row(:)    !! (nodes)
     PetscInt, intent(out) :: column(:) !! (2 nodes + shaft)
     integer :: b, film_nodes
@@ -144,9 +144,9 @@ contains
 
   !> Adds a block to the matrix by local numbers, from 0; negative ones are skipped.
   subroutine add_block(matrix, row, column, block)
-    Mat, intent(in) :: matrix
-    PetscInt, intent(in) :: row(:), column(:)
-    real(wp), intent(in) :: block(size(column)*size(row)) !! one row after the other
+    Mat, intent(in) :: matrix !! by local numbers
+    PetscInt, intent(in) :: row(:), column(:) !! local numbers
+    real(wp), intent(in) :: block(size(column)*size(row)) !! one row after the other [SI]
     PetscErrorCode :: ierr
 
     PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column), pint), column, block, ADD_VALUES, ierr))

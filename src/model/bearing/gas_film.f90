@@ -33,6 +33,8 @@ module gfb_gas_film
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
+    real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, for pressures
+    !! that are odd in z [m3]
     real(wp), allocatable :: motion(:, :)         !! (4, nodes) the gap's derivatives by the shaft's
     !! coordinates, see `shaft_motion` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
@@ -124,6 +126,7 @@ contains
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
+    film%half_torque_weight = film%force_weight(3:4, :)
     if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
   end subroutine measure_elements
 

@@ -61,6 +61,7 @@ module gfb_foil_model
     procedure :: set_hardness
     procedure :: set_adhesion
     procedure :: set_lending
+    procedure :: add_springs
     procedure :: softest
     procedure :: crest_lengths
     procedure :: next_contact_change
@@ -271,6 +272,12 @@ contains
     logical, intent(in) :: lends !! it has
     self%contacts%lends = lends
   end subroutine set_lending
+
+  !> Adds the stiffness of springs that have unknowns of their own, and no mesh: here none.
+  subroutine add_springs(self, matrix)
+    class(foil_model_type), intent(in) :: self !! the foil
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
+  end subroutine add_springs
 
   !> The hardness to begin with: bumps that float between open and closed find their state at once; 1
   !> where there is nothing to soften.

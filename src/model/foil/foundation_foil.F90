@@ -35,6 +35,7 @@ module gfb_foundation_foil
     procedure :: add_residual => foundation_residual
     procedure :: add_jacobian => foundation_jacobian
     procedure :: add_load_rates => foundation_load_rates
+    procedure :: add_springs => foundation_springs
     procedure :: estimate => foundation_estimate
     procedure :: add_constant => foundation_constant
     procedure :: is_meshed => foundation_is_meshed
@@ -173,16 +174,27 @@ contains
     PetscInt :: row(1), column(1)
     integer :: i
 
-    do i = 1, size(self%owned_station)
-      row = int(self%first + self%owned_station(i) - 1, pint)
-      PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, 1_pint, row, [self%stiffness], ADD_VALUES, ierr))
-    end do
+    call self%add_springs(jacobian)
     do i = 1, size(self%averaged)
       row = int(self%source(self%averaged(i)) - 1, pint)
       column = int(self%averaged(i) - 1, pint)
       PetscCallA(MatSetValuesLocal(jacobian, 1_pint, row, 1_pint, column, [-self%share(i)], ADD_VALUES, ierr))
     end do
   end subroutine foundation_jacobian
+
+  !> Adds the stations' springs; under local pressure there are no unknowns for them.
+  subroutine foundation_springs(self, matrix)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
+    PetscErrorCode :: ierr
+    PetscInt :: row(1)
+    integer :: i
+
+    do i = 1, size(self%owned_station)
+      row = int(self%first + self%owned_station(i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(matrix, 1_pint, row, 1_pint, row, [self%stiffness], ADD_VALUES, ierr))
+    end do
+  end subroutine foundation_springs
 
   !> The mean of a pressure that depends on other unknowns.
   subroutine foundation_load_rates(self, column, slope, jacobian)

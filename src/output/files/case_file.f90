@@ -20,6 +20,7 @@ module gfb_case_file
     logical :: by_step = .false.          !! a row is a load step or sweep point
     !> in the file where one rank alone has any; 0: all ranks have all
     integer :: rows = 0
+    integer :: order = 0                  !! a row is a square matrix of that order, row by row
   end type case_array_type
 
 contains
@@ -100,7 +101,8 @@ contains
         mine = size(one%values, 2)
         total = merge(one%rows, mine, one%rows > 0)
         if (one%rows == 0 .and. .not. file%first_rank) mine = 0
-        call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning)
+        call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning, &
+                            one%order)
       end associate
     end do
   end subroutine write_arrays

@@ -13,6 +13,7 @@ module gfb_result_file
   public :: open_result_file, close_result_file, drop_result_file, keep_result_file
 
   character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
+  integer, parameter :: no_parts(0) = [integer ::]    !! extents of an entry that is a number
 
   !> An open file.
   type, public :: result_file_type
@@ -161,7 +162,7 @@ contains
     buffer(:size(words)) = words
     call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
     call h5tset_size_f(kind, int(max(1, len(words)), size_t), status)
-    call self%write_part(path, kind, kind, c_loc(buffer), 1, &
+    call self%write_part(path, kind, kind, c_loc(buffer), no_parts, &
                          merge(size(words), 0, self%first_rank), 0, size(words), '', meaning)
     call h5tclose_f(kind, status)
   end subroutine put_words
@@ -200,19 +201,26 @@ contains
     call h5sclose_f(space, status)
   end subroutine put_scalar
 
-  !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
-  subroutine put_block(self, path, block, offset, total, unit, meaning)
+  !> Adds a field of which each rank has consecutive entries; one component makes it a plain list,
+  !> and components can be those of square matrices.
+  subroutine put_block(self, path, block, offset, total, unit, meaning, order)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in `unit` [SI]
     integer, intent(in) :: offset       !! entries before this rank's
     integer, intent(in) :: total        !! entries of all ranks
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
+    integer, intent(in), optional :: order !! of the matrices; 0: none
     real(wp), target :: buffer(max(1, size(block)))
+    integer, allocatable :: inner(:)
 
     buffer(:size(block)) = reshape(block, [size(block)])
+    inner = pack([size(block, 1)], [size(block, 1) /= 1])
+    if (present(order)) then
+      if (order > 0) inner = [order, order]
+    end if
     call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), &
-                         size(block, 1), size(block, 2), offset, total, unit, meaning)
+                         inner, size(block, 2), offset, total, unit, meaning)
   end subroutine put_block
 
   !> Adds 64-bit integers of which each rank has consecutive entries.
@@ -228,7 +236,7 @@ contains
 
     buffer(:size(block)) = block
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
-    call self%write_part(path, kind, kind, c_loc(buffer), 1, size(block), offset, &
+    call self%write_part(path, kind, kind, c_loc(buffer), no_parts, size(block), offset, &
                          total, '1', meaning)
   end subroutine put_long_block
 
@@ -243,40 +251,36 @@ contains
     integer(c_int8_t), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = block
-    call self%write_part(path, H5T_STD_U8LE, H5T_STD_U8LE, c_loc(buffer), 1, size(block), offset, &
-                         total, '1', meaning)
+    call self%write_part(path, H5T_STD_U8LE, H5T_STD_U8LE, c_loc(buffer), no_parts, size(block), &
+                         offset, total, '1', meaning)
   end subroutine put_byte_block
 
   !> Creates a dataset and writes each rank's part of it.
-  subroutine write_part(self, path, stored, given, buffer, components, entries, offset, total, &
+  subroutine write_part(self, path, stored, given, buffer, inner, entries, offset, total, &
                         unit, meaning)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t), intent(in) :: stored, given !! types in the file and in memory
     type(c_ptr), intent(in) :: buffer !! this rank's entries
-    integer, intent(in) :: components, entries, offset, total !! of an entry; here, before, in all
+    integer, intent(in) :: inner(:) !! extents of an entry; none: it is a number
+    integer, intent(in) :: entries, offset, total !! here, before, in all
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
 
-    integer(hsize_t) :: extent(2), part(2), start(2)
+    integer(hsize_t), dimension(size(inner) + 1) :: extent, part, start
     integer(hid_t) :: space, memory, dataset
     integer :: status, rank
 
-    rank = merge(1, 2, components == 1)
-    extent = [components, total]
-    part = [components, entries]
-    start = [0, offset]
-    if (rank == 1) then
-      extent(1) = total
-      part(1) = entries
-      start(1) = offset
-    end if
-    call h5screate_simple_f(rank, extent(:rank), space, status)
+    rank = size(extent)
+    extent = [inner, total]
+    part = [inner, entries]
+    start = [0*inner, offset]
+    call h5screate_simple_f(rank, extent, space, status)
     call h5dcreate_f(self%file, path, stored, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, unit, meaning)
-    call h5screate_simple_f(rank, max(part(:rank), 1_hsize_t), memory, status)
+    call h5screate_simple_f(rank, max(part, 1_hsize_t), memory, status)
     if (entries > 0) then
-      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start(:rank), part(:rank), status)
+      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start, part, status)
     else
       call h5sselect_none_f(space, status)
       call h5sselect_none_f(memory, status)

@@ -9,13 +9,16 @@ module gfb_scene_case
   integer, parameter, public :: analysis_fixed_position = 2 !! the eccentricity is given
   integer, parameter, public :: analysis_strip = 3          !! a bump strip under crest loads
   integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or, or a part
+  integer, parameter, public :: analysis_linear_dynamics = 5 !! small vibrations about 1 or 2
 
-  character(len=*), parameter :: analysis_words(*) = [character(len=14) :: 'equilibrium', &
-                                                      'fixed_position', 'strip', 'modes']
+  character(len=*), parameter :: analysis_words(*) = [character(len=15) :: 'equilibrium', &
+                                                      'fixed_position', 'strip', 'modes', &
+                                                      'linear_dynamics']
 
   !> What is asked for.
   type :: scene_case_type
     character(len=:), allocatable :: title        !! free text
+    !> of the case file while it is read; then of the state about which the shaft vibrates
     integer :: analysis = analysis_equilibrium
   end type scene_case_type
 
@@ -31,7 +34,8 @@ contains
     call keys%string_key('title', scene%title, 'free text, copied into the results')
     call keys%choice_key('analysis', scene%analysis, analysis_words, &
                          'position that carries the load, film of a given position, bump '// &
-                         'strip under loads, natural modes')
+                         'strip under loads, natural modes, small vibrations of the shaft '// &
+                         'about one of the first two')
     call keys%finish_group()
   end subroutine read_scene_case
 
@@ -39,7 +43,8 @@ contains
   pure function is_bearing(analysis) result(bearing)
     integer, intent(in) :: analysis !! 0 where it is not known
     logical :: bearing
-    bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position
+    bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position .or. &
+              analysis == analysis_linear_dynamics
   end function is_bearing
 
   !> Whether an analysis is of foils alone.

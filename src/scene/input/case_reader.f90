@@ -4,7 +4,7 @@ module gfb_case_reader
   use gfb_complaints, only: complaints_type
   use gfb_errors, only: error_type, fail, status_input
   use gfb_key_book, only: key_book_type
-  use gfb_key_elements, only: find_elements
+  use gfb_key_elements, only: find_elements, is_entry_of
   use gfb_key_notes, only: key_type, key_notes_type, choices
   use gfb_namelist_file, only: namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
@@ -39,6 +39,7 @@ module gfb_case_reader
     procedure :: warning_lines
     procedure :: add_new
     procedure :: meant
+    procedure :: holds
     procedure :: last_key_is_right
     procedure :: describe
     procedure :: begin_key
@@ -208,6 +209,19 @@ contains
     logical :: meant
     meant = self%book%is_meant(group, key)
   end function meant
+
+  !> Whether a key stands in the file, rightly spelt, be it not read yet.
+  pure function holds(self, group, key)
+    class(case_reader_type), intent(in) :: self !! the case file being read
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical :: holds
+    integer :: entry
+
+    holds = .false.
+    do entry = 1, size(self%file%entries)
+      holds = holds .or. is_entry_of(self%file, entry, group, key)
+    end do
+  end function holds
 
   !> Whether the key read last stands in the file without a mistake.
   pure function last_key_is_right(self) result(right)

@@ -7,7 +7,7 @@ module gfb_key_elements
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: find_elements
+  public :: find_elements, is_entry_of
 
 contains
 
@@ -50,9 +50,9 @@ contains
 
   !> Whether an entry of the file belongs to a key.
   pure function is_entry_of(file, entry, group, key) result(belongs)
-    type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: entry
-    character(len=*), intent(in) :: group, key
+    type(namelist_file_type), intent(in) :: file !! the scanned file
+    integer, intent(in) :: entry !! number of the key in the file
+    character(len=*), intent(in) :: group, key !! names in the case file
     logical :: belongs
 
     belongs = .false.

@@ -21,6 +21,7 @@ module gfb_bearing_study
   use gfb_study, only: study_type
   use gfb_sweep, only: sweep_type
   use gfb_bearing_solution, only: solve_bearing
+  use gfb_dynamics, only: dynamics_type
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
   implicit none (type)
   private
@@ -29,6 +30,7 @@ module gfb_bearing_study
   type, extends(study_type), public :: bearing_study_type
     type(bearing_plan_type) :: plan
     type(sweep_type) :: sweep
+    type(dynamics_type) :: dynamics !! of the answer, where it is asked for
   contains
     procedure :: prepare => prepare_bearing
     procedure :: solve => solve_study
@@ -61,6 +63,10 @@ contains
     call solve_bearing(scene, self%plan, context, self%sweep, self%reason, error)
     if (allocated(error)) return
     self%converged = .not. self%reason%is_given()
+    if (scene%dynamics%present) then
+      call self%dynamics%find(scene, context%log, self%converged, self%sweep%bearing, self%sweep%newton, self%more, error)
+      if (allocated(error)) return
+    end if
     associate (bearing => self%sweep%bearing, newton => self%sweep%newton)
       self%unknowns = bearing%unknowns
       self%iterations = newton%iterations
@@ -94,7 +100,9 @@ contains
       result%contacts = foil_contact_arrays(self%sweep%bearing%pad(1)%foil, record%contacts, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
     end associate
+    call self%dynamics%add_arrays(result%contacts)
     call write_bearing(scene, context, self%sweep, result, summary, error)
+    if (.not. allocated(error)) call self%dynamics%write(scene, context, error)
   end subroutine write_study
 
   !> What the model leaves out, and why.

@@ -1,0 +1,192 @@
+#include "gfb_petsc.h"
+!> What a bearing's equations gain in time: the film's squeeze term, and what follows the gap alone.
+!>
+!> In time the equations are \( f(x, q) + \frac{d}{dt} c(x, q) = 0 \) with the unknowns x and the shaft's
+!> coordinates q; c is the gas that the film's elements hold (`gfb_squeeze_term`), zero in all other
+!> equations. Matrices are scaled as the bearing's own, and have its pattern.
+module gfb_film_rates
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_matrix_rows, only: copy_row
+  use gfb_operating_point, only: operating_point_type
+  use gfb_gas_film, only: gas_film_type
+  use gfb_squeeze_term, only: squeeze_weights, squeeze_jacobian
+  use gfb_film_matrix, only: no_shaft, element_columns, add_block
+  use gfb_bearing_system, only: bearing_system_type
+  implicit none (type)
+  private
+  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+
+  integer, parameter :: squeeze = 1, squeeze_by_gap = 2, flow_by_gap = 3 !! derivatives there are
+
+contains
+
+  !> Derivative of c by the unknowns.
+  subroutine fill_squeeze(bearing, matrix)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    call fill_film(bearing, squeeze, matrix)
+  end subroutine fill_squeeze
+
+  !> The part of that which comes by the foil's deflection.
+  subroutine fill_squeeze_by_gap(bearing, matrix)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    call fill_film(bearing, squeeze_by_gap, matrix)
+  end subroutine fill_squeeze_by_gap
+
+  !> The part of the steady film's derivative which comes by the foil's deflection.
+  subroutine fill_flow_by_gap(bearing, matrix)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    call fill_film(bearing, flow_by_gap, matrix)
+  end subroutine fill_flow_by_gap
+
+  !> Fills a matrix with one of the film's derivatives, element by element.
+  subroutine fill_film(bearing, kind, matrix)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: kind !! `squeeze`, ...
+    Mat, intent(in) :: matrix
+
+    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes())
+    real(wp), dimension(size(bearing%pad(1)%film%shape, 1), size(bearing%pad(1)%film%shape, 1)) :: by_pressure, by_gap
+    ! a row of the matrix in each column, as PETSc reads it
+    real(wp) :: block(2*size(by_gap, 1), size(by_gap, 1))
+    PetscInt :: row(size(by_gap, 1)), column(2*size(by_gap, 1) + 2)
+    type(operating_point_type) :: point
+    integer :: element, b, place, n
+    PetscErrorCode :: ierr
+
+    n = size(row)
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    point = bearing%position(unknown)
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
+      do element = 1, size(film%element_nodes, 2)
+        call element_columns(film, foil, no_shaft, element, row, column)
+        call element_derivatives(film, kind, element, unknown(:size(gap)), gap, point, by_pressure, by_gap)
+        block = 0.0_wp
+        block(:n, :) = transpose(by_pressure)
+        associate (nodes => film%element_nodes(:, element))
+          do b = 1, n
+            place = merge(b, n + b, foil%source(nodes(b)) == nodes(b))
+            block(place, :) = block(place, :) + foil%rate(nodes(b))*by_gap(:, b)
+          end do
+        end associate
+        call add_block(matrix, row, column(:2*n), block)
+      end do
+    end associate
+    call finish(bearing, matrix)
+  end subroutine fill_film
+
+  !> An element's derivatives by pressures and by gaps; zero where only gaps count.
+  pure subroutine element_derivatives(film, kind, element, pressure, gap, point, by_pressure, by_gap)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: kind, element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at this rank's nodes [Pa], [m]
+    type(operating_point_type), intent(in) :: point
+    real(wp), contiguous, intent(out) :: by_pressure(:, :), by_gap(:, :) !! (nodes, nodes)
+    real(wp) :: by_excess(size(by_gap, 1), size(by_gap, 1)), by_shaft(size(by_gap, 1), 2)
+
+    if (kind == flow_by_gap) then
+      call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, by_shaft)
+    else
+      call element_squeeze(film, element, pressure, gap, point, by_pressure, by_gap, by_excess)
+    end if
+    if (kind /= squeeze) by_pressure = 0.0_wp
+  end subroutine element_derivatives
+
+  !> Derivatives of the gas that one element holds.
+  pure subroutine element_squeeze(film, element, pressure, gap, point, by_pressure, by_gap, by_excess)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at this rank's nodes [Pa], [m]
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(out) :: by_pressure(:, :), by_gap(:, :), by_excess(:, :) !! (nodes, nodes)
+    real(wp), dimension(size(by_gap, 1)) :: p, h, excess
+
+    associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
+      p = pressure(nodes)
+      h = gap(nodes)
+      excess = reshape(film%excess(element, point), [size(h)])
+      call squeeze_jacobian(geometry, squeeze_weights(geometry, film%flow_at(point), p, h, excess), &
+                            p, h, excess, by_pressure, by_gap, by_excess)
+    end associate
+  end subroutine element_squeeze
+
+  !> Derivative of c by one of the shaft's coordinates, the unknowns staying.
+  subroutine squeeze_column(bearing, coordinate, column)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    integer, intent(in) :: coordinate !! of `shaft_motion`: e_x, e_y [m], tilt_x, tilt_y [rad]
+    Vec, intent(in) :: column         !! scaled as the residual, by that unit
+
+    real(wp) :: unknown(bearing%local_size()), value(bearing%local_size()), gap(bearing%film_nodes())
+    real(wp), dimension(size(bearing%pad(1)%film%shape, 1), size(bearing%pad(1)%film%shape, 1)) :: by_p, by_h, by_e
+    type(operating_point_type) :: point
+    integer :: element
+    PetscErrorCode :: ierr
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    point = bearing%position(unknown)
+    value = 0.0_wp
+    associate (film => bearing%pad(1)%film)
+      do element = 1, size(film%element_nodes, 2)
+        call element_squeeze(film, element, unknown(:size(gap)), gap, point, by_p, by_h, by_e)
+        associate (nodes => film%element_nodes(:, element))
+          value(nodes) = value(nodes) + matmul(by_h, film%motion(coordinate, nodes)) &
+            + matmul(by_e, film%motion_excess(coordinate, :, element))
+        end associate
+      end do
+      where (film%fixed) value(:size(gap)) = 0.0_wp
+    end associate
+    PetscCallA(VecSet(column, 0.0_wp, ierr))
+    call bearing%exchange%add(value/bearing%equation_scale(bearing%point), column)
+  end subroutine squeeze_column
+
+  !> Stiffness of the foil's own springs, or of foils that are meshed, without contacts.
+  subroutine fill_springs(bearing, matrix)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    integer, parameter :: foil_block = 2 ! the film's is the first
+    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(1)%foil%row_entries]))
+    PetscInt, allocatable :: renumbered(:)
+    PetscScalar :: value(size(number))
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    associate (foil => bearing%pad(1)%foil, blocks => bearing%blocks)
+      call foil%add_springs(matrix)
+      if (foil%is_meshed()) then
+        PetscCallA(MatGetOwnershipRange(foil%elastic, first, last, ierr))
+        do row = first, last - 1
+          call copy_row(foil%elastic, row, entries, number, value)
+          renumbered = [(int(blocks%global_number(foil_block, int(number(i)) + 1), pint), i=1, int(entries))]
+          PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
+        end do
+      end if
+    end associate
+    call finish(bearing, matrix)
+  end subroutine fill_springs
+
+  !> Assembles a matrix and scales it as the bearing's.
+  subroutine finish(bearing, matrix)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: matrix
+    Vec :: left, right
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(VecDuplicate(bearing%state, left, ierr))
+    PetscCallA(VecDuplicate(bearing%state, right, ierr))
+    call bearing%exchange%put(1.0_wp/bearing%equation_scale(bearing%point), left)
+    call bearing%exchange%put(bearing%unknown_scale, right)
+    PetscCallA(MatDiagonalScale(matrix, left, right, ierr))
+    PetscCallA(VecDestroy(left, ierr))
+    PetscCallA(VecDestroy(right, ierr))
+  end subroutine finish
+end module gfb_film_rates

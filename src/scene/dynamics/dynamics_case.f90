@@ -1,0 +1,133 @@
+!> `&dynamics`: frequencies at which stiffness and damping are asked for, and what foils do then.
+module gfb_dynamics_case
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
+                            foil_rigid, meshes_foils
+  use gfb_operation_case, only: operation_case_type, angular_speed
+  use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
+                            analysis_fixed_position, misplaced_group
+  use gfb_value_rules, only: positive, not_negative
+  implicit none (type, external)
+  private
+  public :: dynamics_case_type, read_dynamics_case, check_dynamics, analysis_of_state
+
+  integer, parameter, public :: tangent_stick = 1 !! contacts that rub stick under vibration
+  integer, parameter, public :: tangent_slip = 2  !! they slide on as they did
+  character(len=*), parameter :: tangent_words(*) = [character(len=5) :: 'stick', 'slip']
+
+
+  !> What is asked for.
+  type :: dynamics_case_type
+    logical :: present = .false.              !! the analysis is 'linear_dynamics'
+    real(wp), allocatable :: frequencies(:)   !! [rad/s]
+    integer :: contact_tangent = tangent_stick
+    real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
+    real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
+  end type dynamics_case_type
+
+contains
+
+  !> The analysis that finds the state about which the shaft vibrates: a given load is balanced,
+  !> else the given position is kept. The group `&operation` is not read yet.
+  pure function analysis_of_state(analysis, has_load, has_position) result(state)
+    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    logical, intent(in) :: has_load, has_position !! keys that `&operation` holds
+    integer :: state
+
+    state = analysis
+    if (analysis /= analysis_linear_dynamics) return
+    state = analysis_equilibrium
+    if (has_position .and. .not. has_load) state = analysis_fixed_position
+  end function analysis_of_state
+
+  !> Reads the group. Frequencies over the speed become frequencies.
+  subroutine read_dynamics_case(keys, dynamics, operation, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(dynamics_case_type), intent(out) :: dynamics !! what `&dynamics` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    real(wp), allocatable :: ratios(:)
+
+    dynamics%present = analysis == analysis_linear_dynamics
+    call keys%start_group('dynamics', required=dynamics%present, optional=.not. dynamics%present, &
+                          misplaced=misplaced_group(analysis, dynamics%present))
+    call keys%real_list_key('frequencies', dynamics%frequencies, longest_list, 'rad/s', &
+                            'circular frequencies at which stiffness and damping are asked for', &
+                            positive, .false., 'required without `frequency_ratios`')
+    call keys%real_list_key('frequency_ratios', ratios, longest_list, '1', &
+                            'the same over the speed of the shaft', positive, .false., &
+                            'required without `frequencies`')
+    if (size(ratios) > 0) dynamics%frequencies = ratios*angular_speed(operation%speed_rpm)
+    call keys%choice_key('contact_tangent', dynamics%contact_tangent, tangent_words, &
+                         'what contacts that rub do under a small vibration: stick, as those '// &
+                         'do that it has shaken down, or slide on as when they were loaded')
+    call keys%real_key('loss_factor', dynamics%loss_factor, '1', &
+                       'loss factor of the foil: its stiffness times 1 + i loss_factor', &
+                       not_negative)
+    call keys%real_key('foundation_damping', dynamics%foundation_damping, 'N s/m^3', &
+                       'viscous damping of the elastic foundation, pressure over velocity', &
+                       not_negative)
+    call keys%finish_group()
+  end subroutine read_dynamics_case
+
+  !> One key gives the frequencies; those over the speed need one.
+  subroutine check_frequencies(keys, operation)
+    type(case_keys_type), intent(inout) :: keys
+    type(operation_case_type), intent(in) :: operation
+    character(len=*), parameter :: group = 'dynamics', name = 'frequencies', &
+                                   ratios = 'frequency_ratios'
+
+    if (keys%meant(group, name) .and. keys%meant(group, ratios)) then
+      call keys%complain(group, ratios, 'has no use beside frequencies: give one of them')
+    else if (keys%meant(group, ratios)) then
+      if (keys%meant('operation', 'speed_rpm') .and. .not. operation%speed_rpm > 0.0_wp) then
+        call keys%complain(group, ratios, 'needs a shaft that turns: give frequencies')
+      end if
+    else if (.not. keys%meant(group, name)) then
+      call keys%complain('scene', 'analysis', 'needs frequencies or frequency_ratios in &dynamics')
+    end if
+  end subroutine check_frequencies
+
+  !> What the rest of the scene allows.
+  subroutine check_dynamics(keys, dynamics, operation, model, sweeps, refines)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(dynamics_case_type), intent(in) :: dynamics !! what `&dynamics` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    logical, intent(in) :: sweeps  !! the scene has a sweep
+    logical, intent(in) :: refines !! the scene asks for an accuracy
+    character(len=*), parameter :: no_use = "has no use with analysis = 'linear_dynamics': "
+
+    if (.not. dynamics%present) return
+    call check_frequencies(keys, operation)
+    if (sweeps) call keys%complain('sweep', 'parameter', no_use//'one state vibrates')
+    if (refines) call keys%complain('accuracy', 'quantity', no_use//'give the mesh')
+    call check_model(keys, dynamics, model)
+  end subroutine check_dynamics
+
+  !> What foils and the way of solving allow.
+  subroutine check_model(keys, dynamics, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(dynamics_case_type), intent(in) :: dynamics
+    type(model_case_type), intent(in) :: model
+
+    if (model%foil == 0) return
+    if (model%coupling == coupling_partitioned) then
+      call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = "// &
+                         "'linear_dynamics': film and foil vibrate together")
+    end if
+    if (keys%meant('dynamics', 'contact_tangent') .and. .not. meshes_foils(model%foil)) then
+      call keys%complain('dynamics', 'contact_tangent', "needs foil = 'shell' in &model, or "// &
+                         "'beam': nothing else rubs")
+    end if
+    if (dynamics%loss_factor > 0.0_wp .and. model%foil == foil_rigid) then
+      call keys%complain('dynamics', 'loss_factor', "has no use with foil = 'rigid': nothing "// &
+                         'deflects')
+    end if
+    if (dynamics%foundation_damping > 0.0_wp .and. model%foil /= foil_elastic_foundation) then
+      call keys%complain('dynamics', 'foundation_damping', &
+                         "needs foil = 'elastic_foundation' in &model")
+    end if
+  end subroutine check_model
+end module gfb_dynamics_case

@@ -1,0 +1,399 @@
+#include "gfb_petsc.h"
+!> How the film's force and torque follow a vibration of the shaft, at an answer.
+!>
+!> The bearing's equations in time are \( f(x, q) + \frac{d}{dt} c(x, q) = 0 \), with the shaft's
+!> coordinates \( q = (e_x, e_y, \phi_x, \phi_y) \) given. A motion \( q' e^{i \omega t} \) is answered by
+!>
+!> $$ (f_x + i \omega c_x) x' = -(f_q + i \omega c_q) q', $$
+!>
+!> and the force of the film by the pressures in \( x' \): \( Z_{jk} = K_{jk} + i \omega C_{jk} =
+!> -\int p'_k B_j \, dA \) with \( B_j = \partial h/\partial q_j \). A positive diagonal restores, and
+!> damps. Springs under the film may dissipate: \( k (1 + i \eta \, sgn \, \omega) + i \omega c \).
+!>
+!> Real and imaginary part of an unknown stand side by side in one real matrix, of twice the order, whose
+!> pattern is analysed once. On half the width translations have the symmetry of the steady state, tilts
+!> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay.
+module gfb_dynamic_response
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns
+  use gfb_solid_contact, only: contact_pressure_rate
+  use gfb_stick_tangent, only: stick_contacts
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_shaft_columns, only: shaft_column
+  use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+  use gfb_direct_solver, only: use_factors, make_factors
+  use gfb_complex_pairs, only: create_pairs, fill_pairs
+  implicit none (type)
+  private
+  public :: create_response, find_coefficients, destroy_response
+
+  character(len=*), parameter :: prefix = 'dynamic_' !! of PETSc's options
+  integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
+
+  !> What a foil does under vibration.
+  type, public :: vibration_type
+    logical :: stick = .true.           !! contacts that rub stick; else they slide on as they did
+    real(wp) :: loss_factor = 0.0_wp    !! eta of the foil's stiffness [1]
+    real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs over their stiffness [s]
+    logical :: tilts = .true.           !! tilts are asked for; not with shells on half the width
+  end type vibration_type
+
+  !> The equations of motions with one symmetry about z = 0, or of all.
+  type :: part_type
+    integer, allocatable :: coordinate(:) !! of the shaft that have it
+    real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
+    logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
+    type(tMat) :: matrix                  !! real and imaginary part of each unknown side by side
+    type(tKSP) :: linear
+  end type part_type
+
+  !> The linearised bearing.
+  type, public :: dynamic_response_type
+    integer :: factorizations = 0 !! so far
+    integer :: enlargements = 0   !! of the factors' workspace
+    type(vibration_type), private :: vibration
+    logical, private :: local_springs = .false. !! a node's pressure moves the foil there
+    type(part_type), allocatable, private :: part(:)
+    type(tMat), private :: steady, squeeze !! derivatives by the unknowns
+    type(tMat), private :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
+    type(tMat), private :: real_part, imaginary_part
+    type(tVec), private :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
+    type(tVec), private :: one, other !! work space
+    real(wp), allocatable, private :: solid_rate(:) !! slope of the asperities' pressure over the gap [Pa/m]
+  end type dynamic_response_type
+
+contains
+
+  !> Linearises a bearing about its present state, which must be an answer and is left as it is.
+  subroutine create_response(bearing, vibration, response)
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    type(vibration_type), intent(in) :: vibration !! of the foil
+    type(dynamic_response_type), intent(out) :: response !! to vibrations of the shaft
+    integer :: k
+    PetscErrorCode :: ierr
+
+    response%vibration = vibration
+    response%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
+    call linearise_steady(bearing, vibration%stick, response%steady)
+    call copy_pattern(response%steady, response%squeeze)
+    call fill_squeeze(bearing, response%squeeze)
+    if (dissipates(response)) call linearise_springs(bearing, response)
+    call copy_pattern(response%steady, response%real_part)
+    call copy_pattern(response%steady, response%imaginary_part)
+    PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
+    PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
+    do k = 1, shaft_coordinates
+      PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
+      PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
+      call shaft_column(bearing, k, response%steady_column(k))
+      call squeeze_column(bearing, k, response%squeeze_column(k))
+    end do
+    call measure_asperities(bearing, response%solid_rate)
+    call create_parts(bearing, response)
+  end subroutine create_response
+
+  !> Derivative of the steady equations, the shaft fixed, without what is lent to open contacts.
+  subroutine linearise_steady(bearing, stick, steady)
+    type(bearing_system_type), intent(inout) :: bearing
+    logical, intent(in) :: stick
+    Mat, intent(out) :: steady
+    logical :: moved
+    PetscErrorCode :: ierr
+
+    call bearing%settle(bearing%state, moved)
+    associate (foil => bearing%pad(1)%foil)
+      if (stick .and. foil%has_contacts()) call stick_contacts(foil%contacts)
+      call foil%set_lending(.false.)
+      call bearing%linearise_at(bearing%point, .true., bearing%state)
+      call foil%set_lending(.true.)
+    end associate
+    PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, steady, ierr))
+    call bearing%settle(bearing%state, moved)
+  end subroutine linearise_steady
+
+  !> An empty matrix like another.
+  subroutine copy_pattern(matrix, other)
+    Mat, intent(in) :: matrix
+    Mat, intent(out) :: other
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDuplicate(matrix, MAT_DO_NOT_COPY_VALUES, other, ierr))
+  end subroutine copy_pattern
+
+  !> Whether the foil's stiffness is complex.
+  pure function dissipates(response)
+    type(dynamic_response_type), intent(in) :: response
+    logical :: dissipates
+    dissipates = response%vibration%loss_factor > 0.0_wp .or. response%vibration%damping_time > 0.0_wp
+  end function dissipates
+
+  !> What losses act on: the deflection that pressures give, or the springs' stiffness.
+  subroutine linearise_springs(bearing, response)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+
+    if (response%local_springs) then
+      call copy_pattern(response%steady, response%flow_by_gap)
+      call copy_pattern(response%steady, response%squeeze_by_gap)
+      call fill_flow_by_gap(bearing, response%flow_by_gap)
+      call fill_squeeze_by_gap(bearing, response%squeeze_by_gap)
+    else
+      call copy_pattern(response%steady, response%springs)
+      call fill_springs(bearing, response%springs)
+    end if
+  end subroutine linearise_springs
+
+  !> Slope of the asperities' pressure at this rank's nodes.
+  subroutine measure_asperities(bearing, rate)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), allocatable, intent(out) :: rate(:)
+    real(wp) :: unknown(bearing%local_size())
+
+    allocate (rate(bearing%film_nodes()), source=0.0_wp)
+    if (.not. bearing%pad(1)%contact%present) return
+    call bearing%get_unknowns(unknown)
+    rate = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(unknown))
+  end subroutine measure_asperities
+
+  !> Motions of both symmetries on half the width, or all motions at once.
+  subroutine create_parts(bearing, response)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    real(wp) :: has(bearing%local_size())
+    integer :: i
+
+    allocate (response%part(merge(2, 1, bearing%pad(1)%whole%half .and. response%vibration%tilts)))
+    associate (part => response%part, film => bearing%pad(1)%film)
+      has = 1.0_wp
+      has(bearing%first_shaft + 1:) = 0.0_wp
+      if (.not. bearing%pad(1)%whole%half) then
+        part(1)%coordinate = [translations, tilts]
+        part(1)%weight = film%force_weight
+        part(1)%weight(tilts, :) = -part(1)%weight(tilts, :) ! torques act on the shaft
+        call create_part(bearing, response%steady, has, part(1))
+      else
+        part(1)%coordinate = translations
+        part(1)%weight = film%force_weight(translations, :)
+        call create_part(bearing, response%steady, has, part(1))
+      end if
+      if (size(part) == 2) then
+        part(2)%coordinate = tilts
+        part(2)%weight = -film%half_torque_weight
+        where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
+        has(bearing%pad(1)%foil%first + 1:) = 0.0_wp
+        call create_part(bearing, response%steady, has, part(2))
+      end if
+      do i = 1, size(part)
+        call keep_columns(part(i), response)
+      end do
+    end associate
+  end subroutine create_parts
+
+  !> A matrix of real and imaginary parts with its solver, still empty.
+  subroutine create_part(bearing, steady, has, part)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: steady !! whose pattern it takes
+    real(wp), intent(in) :: has(:) !! 1 where the motion has a local unknown, else 0
+    type(part_type), intent(inout) :: part
+    Vec :: flags
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(bearing%state, flags, ierr))
+    call bearing%exchange%put(has, flags)
+    PetscCallA(GFB_VecGetArrayRead(flags, values, ierr))
+    part%kept = values > 0.5_wp
+    PetscCallA(GFB_VecRestoreArrayRead(flags, values, ierr))
+    PetscCallA(VecDestroy(flags, ierr))
+    call create_pairs(steady, coupled_columns(bearing), part%matrix)
+    PetscCallA(KSPCreate(PETSC_COMM_WORLD, part%linear, ierr))
+    PetscCallA(KSPSetOptionsPrefix(part%linear, prefix, ierr))
+    PetscCallA(KSPSetOperators(part%linear, part%matrix, part%matrix, ierr))
+    call use_factors(part%linear, prefix, .false., .false.)
+    PetscCallA(KSPSetFromOptions(part%linear, ierr))
+  end subroutine create_part
+
+  !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.
+  pure function coupled_columns(bearing) result(columns)
+    type(bearing_system_type), intent(in) :: bearing
+    integer :: columns
+    columns = bearing%unknowns - merge(shaft_unknowns, 0, bearing%floats)
+  end function coupled_columns
+
+  !> Takes out of the right sides of a part's motions what its equations do not have.
+  subroutine keep_columns(part, response)
+    type(part_type), intent(in) :: part
+    type(dynamic_response_type), intent(in) :: response
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: i
+
+    do i = 1, size(part%coordinate)
+      associate (k => part%coordinate(i))
+        PetscCallA(GFB_VecGetArray(response%steady_column(k), values, ierr))
+        where (.not. part%kept) values = 0.0_wp
+        PetscCallA(GFB_VecRestoreArray(response%steady_column(k), values, ierr))
+        PetscCallA(GFB_VecGetArray(response%squeeze_column(k), values, ierr))
+        where (.not. part%kept) values = 0.0_wp
+        PetscCallA(GFB_VecRestoreArray(response%squeeze_column(k), values, ierr))
+      end associate
+    end do
+  end subroutine keep_columns
+
+  !> Z at one frequency, one factorization for motions of each symmetry; `found` is false where a
+  !> matrix cannot be factorized.
+  subroutine find_coefficients(bearing, response, frequency, coefficient, found, only_translations)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    real(wp), intent(in) :: frequency !! omega, of either sign [rad/s]
+    !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry, not a number without tilts [SI]
+    complex(wp), intent(out) :: coefficient(shaft_coordinates, shaft_coordinates)
+    logical, intent(out) :: found !! all of them
+    logical, intent(in), optional :: only_translations !! tilts are not asked for
+    integer :: i, wanted
+
+    coefficient = 0.0_wp
+    if (.not. response%vibration%tilts) coefficient(tilts, tilts) = cmplx(nan(), nan(), wp)
+    found = .false.
+    wanted = shaft_coordinates
+    if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
+    call combine(response, frequency)
+    do i = 1, size(response%part)
+      if (response%part(i)%coordinate(1) > wanted) cycle
+      call fill_pairs(response%real_part, response%imaginary_part, response%part(i)%kept, coupled_columns(bearing), &
+                      response%part(i)%matrix)
+      response%factorizations = response%factorizations + 1
+      call make_factors(response%part(i)%linear, response%part(i)%matrix, found, response%enlargements)
+      if (.not. found) return
+      call solve_part(bearing, response, frequency, wanted, response%part(i), coefficient, found)
+      if (.not. found) return
+    end do
+  end subroutine find_coefficients
+
+  !> Not a number.
+  pure function nan()
+    real(wp) :: nan
+    nan = ieee_value(nan, ieee_quiet_nan)
+  end function nan
+
+  !> Real and imaginary part of the matrix.
+  subroutine combine(response, frequency)
+    type(dynamic_response_type), intent(in) :: response
+    real(wp), intent(in) :: frequency !! [rad/s]
+    complex(wp) :: loss, softening
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatCopy(response%steady, response%real_part, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatCopy(response%squeeze, response%imaginary_part, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatScale(response%imaginary_part, frequency, ierr))
+    if (.not. dissipates(response)) return
+    associate (vibration => response%vibration)
+      loss = cmplx(0.0_wp, sign(vibration%loss_factor, frequency) + frequency*vibration%damping_time, wp)
+    end associate
+    if (response%local_springs) then
+      softening = 1.0_wp/(1.0_wp + loss) - 1.0_wp
+      PetscCallA(MatAXPY(response%real_part, real(softening, wp), response%flow_by_gap, SAME_NONZERO_PATTERN, ierr))
+      PetscCallA(MatAXPY(response%real_part, -frequency*aimag(softening), response%squeeze_by_gap, SAME_NONZERO_PATTERN, ierr))
+      PetscCallA(MatAXPY(response%imaginary_part, aimag(softening), response%flow_by_gap, SAME_NONZERO_PATTERN, ierr))
+      PetscCallA(MatAXPY(response%imaginary_part, frequency*real(softening, wp), response%squeeze_by_gap, SAME_NONZERO_PATTERN, ierr))
+    else
+      PetscCallA(MatAXPY(response%imaginary_part, aimag(loss), response%springs, SAME_NONZERO_PATTERN, ierr))
+    end if
+  end subroutine combine
+
+  !> Forces of a part's motions, with the factors there are.
+  subroutine solve_part(bearing, response, frequency, wanted, part, coefficient, found)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(in) :: response
+    real(wp), intent(in) :: frequency !! [rad/s]
+    integer, intent(in) :: wanted     !! coordinates, from the first
+    type(part_type), intent(in) :: part
+    complex(wp), intent(inout) :: coefficient(:, :)
+    logical, intent(out) :: found
+    Vec :: right, answer
+    KSPConvergedReason :: reason
+    PetscErrorCode :: ierr
+    integer :: i
+
+    found = .true.
+    PetscCallA(MatCreateVecs(part%matrix, answer, right, ierr))
+    PetscCallA(VecSetBlockSize(right, 2_pint, ierr))
+    PetscCallA(VecSetBlockSize(answer, 2_pint, ierr))
+    do i = 1, size(part%coordinate)
+      associate (k => part%coordinate(i), one => response%one, other => response%other)
+        if (k > wanted) cycle
+        PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
+        PetscCallA(VecScale(other, frequency, ierr))
+        PetscCallA(VecStrideScatter(response%steady_column(k), 0_pint, right, INSERT_VALUES, ierr))
+        PetscCallA(VecStrideScatter(other, 1_pint, right, INSERT_VALUES, ierr))
+        PetscCallA(KSPSolve(part%linear, right, answer, ierr))
+        PetscCallA(KSPGetConvergedReason(part%linear, reason, ierr))
+        if (GFB_REASON(reason) <= 0) found = .false.
+        PetscCallA(VecStrideGather(answer, 0_pint, one, INSERT_VALUES, ierr))
+        PetscCallA(VecStrideGather(answer, 1_pint, other, INSERT_VALUES, ierr))
+        ! The answer is minus the change, as the force is.
+        coefficient(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), &
+                                                forces_of(bearing, response, part, k, 0.0_wp, other), wp)
+      end associate
+    end do
+    PetscCallA(VecDestroy(right, ierr))
+    PetscCallA(VecDestroy(answer, ierr))
+  end subroutine solve_part
+
+  !> Weighted pressures of minus a change of the unknowns, with the asperities'.
+  function forces_of(bearing, response, part, coordinate, motion, change) result(force)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(in) :: response
+    type(part_type), intent(in) :: part
+    integer, intent(in) :: coordinate !! that moves
+    real(wp), intent(in) :: motion    !! how far, with this change [m], [rad]
+    Vec, intent(in) :: change         !! minus it, scaled
+    real(wp) :: force(size(part%coordinate))
+    real(wp) :: value(bearing%local_size()), pressure(bearing%film_nodes()), gap
+    integer :: node
+
+    call bearing%get_unknowns(value, change)
+    pressure = value(:size(pressure))
+    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
+      do node = 1, merge(size(pressure), 0, bearing%pad(1)%contact%present)
+        gap = -motion*film%motion(coordinate, node)
+        if (foil%source(node) > 0) gap = gap + foil%rate(node)*value(foil%source(node))
+        pressure(node) = pressure(node) + response%solid_rate(node)*gap
+      end do
+    end associate
+    force = sum_over_ranks(matmul(part%weight, pressure))
+  end function forces_of
+
+  !> Frees what PETSc holds.
+  subroutine destroy_response(response)
+    type(dynamic_response_type), intent(inout) :: response !! created before
+    PetscErrorCode :: ierr
+    integer :: i
+
+    do i = 1, size(response%part)
+      PetscCallA(KSPDestroy(response%part(i)%linear, ierr))
+      PetscCallA(MatDestroy(response%part(i)%matrix, ierr))
+    end do
+    do i = 1, shaft_coordinates
+      PetscCallA(VecDestroy(response%steady_column(i), ierr))
+      PetscCallA(VecDestroy(response%squeeze_column(i), ierr))
+    end do
+    PetscCallA(VecDestroy(response%one, ierr))
+    PetscCallA(VecDestroy(response%other, ierr))
+    PetscCallA(MatDestroy(response%steady, ierr))
+    PetscCallA(MatDestroy(response%squeeze, ierr))
+    PetscCallA(MatDestroy(response%real_part, ierr))
+    PetscCallA(MatDestroy(response%imaginary_part, ierr))
+    if (.not. dissipates(response)) return
+    if (response%local_springs) then
+      PetscCallA(MatDestroy(response%flow_by_gap, ierr))
+      PetscCallA(MatDestroy(response%squeeze_by_gap, ierr))
+    else
+      PetscCallA(MatDestroy(response%springs, ierr))
+    end if
+  end subroutine destroy_response
+end module gfb_dynamic_response

@@ -1,0 +1,146 @@
+!> The mass above which a rigid shaft whirls, at an answer of given load and speed.
+!>
+!> A shaft of mass m on the film obeys \( (Z(\omega) - m \omega^2) s = 0 \) with the 2 x 2
+!> coefficients of translation where it neither grows nor decays. So an eigenvalue
+!> \( \kappa(\omega) \) of Z is real there, and \( m = \kappa/\omega^2 \). Both eigenvalues are
+!> followed over the frequency; where the imaginary part of one changes its sign the frequency is
+!> found by solving there. The smallest mass decides: below it the shaft is stable. Where it
+!> is not positive, as in a concentric ring, every mass whirls (Nyquist's path encircles the origin
+!> without any mass): the critical mass is zero.
+module gfb_whirl
+  use gfb_kinds, only: wp
+  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
+  implicit none (type, external)
+  private
+  public :: find_critical_mass, planar_eigenvalues
+
+  integer, parameter :: points = 20           !! frequencies looked at first
+  real(wp), parameter :: lowest = 0.05_wp     !! of them, over the speed [1]
+  real(wp), parameter :: highest = 1.2_wp     !! [1]
+  real(wp), parameter :: tolerance = 1.0e-12_wp !! of a whirl's frequency over the speed [1]
+  integer, parameter :: most_trials = 40      !! to find one
+
+  !> The whirl that sets in first.
+  type, public :: whirl_type
+    logical :: searched = .false.     !! all frequencies could be looked at
+    logical :: found = .false.        !! some mass whirls
+    real(wp) :: critical_mass = 0.0_wp !! [kg]
+    real(wp) :: ratio = 0.0_wp         !! frequency over speed [1]
+  end type whirl_type
+
+contains
+
+  !> Looks for whirl between 0.05 and 1.2 times the speed.
+  subroutine find_critical_mass(bearing, response, whirl)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    type(whirl_type), intent(out) :: whirl !! what was found
+    complex(wp) :: before(2), here(2)
+    real(wp) :: ratio, last
+    integer :: i, branch
+
+    last = lowest
+    do i = 1, points
+      ratio = lowest*(highest/lowest)**(real(i - 1, wp)/real(points - 1, wp))
+      call eigenvalues_at(bearing, response, ratio, here, whirl%searched)
+      if (.not. whirl%searched) return
+      if (i > 1) then
+        here = sorted(here, before)
+        do branch = 1, 2
+          if (aimag(before(branch))*aimag(here(branch)) > 0.0_wp) cycle
+          call refine(bearing, response, [last, ratio], [before(branch), here(branch)], whirl)
+          if (.not. whirl%searched) return
+        end do
+      end if
+      before = here
+      last = ratio
+    end do
+  end subroutine find_critical_mass
+
+  !> Eigenvalues of the translations' coefficients at a frequency over the speed.
+  subroutine eigenvalues_at(bearing, response, ratio, kappa, found)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    real(wp), intent(in) :: ratio !! [1]
+    complex(wp), intent(out) :: kappa(2) !! [N/m]
+    logical, intent(out) :: found
+    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
+
+    call find_coefficients(bearing, response, ratio*bearing%point%speed, coefficient, found, &
+                           only_translations=.true.)
+    kappa = planar_eigenvalues(coefficient(:2, :2))
+  end subroutine eigenvalues_at
+
+  !> Eigenvalues of a 2 x 2 matrix.
+  pure function planar_eigenvalues(matrix) result(kappa)
+    complex(wp), intent(in) :: matrix(2, 2) !! in any unit [SI]
+    complex(wp) :: kappa(2)
+    complex(wp) :: mean, root
+
+    mean = 0.5_wp*(matrix(1, 1) + matrix(2, 2))
+    root = sqrt((0.5_wp*(matrix(1, 1) - matrix(2, 2)))**2 + matrix(1, 2)*matrix(2, 1))
+    kappa = [mean + root, mean - root]
+  end function planar_eigenvalues
+
+  !> Two eigenvalues in the order of those of the neighbouring frequency.
+  pure function sorted(kappa, neighbour) result(order)
+    complex(wp), intent(in) :: kappa(2), neighbour(2)
+    complex(wp) :: order(2)
+
+    order = kappa
+    if (sum(abs(kappa(2:1:-1) - neighbour)) < sum(abs(kappa - neighbour))) order = kappa(2:1:-1)
+  end function sorted
+
+  !> Finds where a branch's imaginary part vanishes between two frequencies, by false position with
+  !> halved weights (Illinois); a smaller mass than the one found so far is kept.
+  subroutine refine(bearing, response, ratio, branch, whirl)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    real(wp), intent(in) :: ratio(2)     !! of both ends, over the speed [1]
+    complex(wp), intent(in) :: branch(2) !! eigenvalue there [N/m]
+    type(whirl_type), intent(inout) :: whirl
+    real(wp) :: low, high, at_low, at_high, trial, mass
+    complex(wp) :: kappa(2), here
+    integer :: i
+
+    low = ratio(1)
+    high = ratio(2)
+    at_low = aimag(branch(1))
+    at_high = aimag(branch(2))
+    trial = low
+    here = branch(1)
+    do i = 1, most_trials
+      if (abs(at_low - at_high) <= 0.0_wp .or. abs(high - low) <= tolerance) exit
+      trial = (low*at_high - high*at_low)/(at_high - at_low)
+      call eigenvalues_at(bearing, response, trial, kappa, whirl%searched)
+      if (.not. whirl%searched) return
+      here = near(kappa, branch(1) + (branch(2) - branch(1))* &
+                     (trial - ratio(1))/(ratio(2) - ratio(1)))
+      if (abs(aimag(here)) <= tolerance*maxval(abs(branch))) exit
+      if (aimag(here)*at_high < 0.0_wp) then
+        low = high
+        at_low = at_high
+      else
+        at_low = 0.5_wp*at_low
+      end if
+      high = trial
+      at_high = aimag(here)
+    end do
+    mass = max(0.0_wp, real(here, wp)/(trial*bearing%point%speed)**2)
+    if (whirl%found .and. mass >= whirl%critical_mass) return
+    whirl%found = .true.
+    whirl%critical_mass = mass
+    whirl%ratio = trial
+  end subroutine refine
+
+  !> The one of two eigenvalues that is nearest to a guess.
+  pure function near(kappa, guess) result(value)
+    complex(wp), intent(in) :: kappa(2), guess
+    complex(wp) :: value
+
+    value = kappa(1)
+    if (abs(kappa(2) - guess) < abs(kappa(1) - guess)) value = kappa(2)
+  end function near
+end module gfb_whirl
