@@ -57,6 +57,10 @@ contains
       call fail(error, scene%file//': &accuracy: is for one answer, not for all of --branches')
       return
     end if
+    if (scene%dynamics%present) then
+      call fail(error, scene%file//": --branches has no use with analysis = 'linear_dynamics'")
+      return
+    end if
     select case (scene%general%analysis)
     case (analysis_strip, analysis_modes) ! they have one answer, which is found as ever
     case default
