@@ -3,6 +3,7 @@ program gfb
   use gfb_errors, only: error_type
   use gfb_c_library, only: exit_with_status
   use gfb_run_log, only: run_log_type
+  use gfb_signals, only: limit_time, stop_agreed, stop_status
   use gfb_job_groups, only: job_type, start_job, stop_job
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
   use gfb_result_names, only: results_text
@@ -24,6 +25,7 @@ program gfb
   call read_command_line(line, error)
   call start_job(line%groups, job)
   call start_petsc()
+  if (line%time_limit > 0) call limit_time(line%time_limit)
   log%active = this_rank() == 0 .and. job%rank == 0
   status = 0
   if (.not. allocated(error)) then
@@ -43,6 +45,7 @@ program gfb
       if (.not. converged) status = status_unconverged
     end if
   end if
+  if (stop_agreed() .and. status == status_unconverged) status = stop_status()
   if (allocated(error)) then
     call log%complaint(error%message)
     status = error%status

@@ -25,10 +25,19 @@ contains
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
-    if (.not. self%active) return
-    write (self%unit, '(a)') words
-    flush (self%unit)
+    if (self%active) call put(self%unit, words)
   end subroutine run_log_line
+
+  !> Writes a line; a log that cannot be written does not end the run.
+  subroutine put(unit, words)
+    integer, intent(in) :: unit
+    character(len=*), intent(in) :: words
+    integer :: status
+
+    write (unit, '(a)', iostat=status) words
+    if (status == 0) flush (unit, iostat=status)
+    if (status /= 0) return
+  end subroutine put
 
   !> One line of a table of iterations.
   subroutine run_log_detail(self, words)
@@ -66,8 +75,6 @@ contains
       call self%line(words)
       return
     end if
-    flush (output_unit)
-    write (error_unit, '(a)') words
-    flush (error_unit)
+    call put(error_unit, words)
   end subroutine run_log_complaint
 end module gfb_run_log

@@ -28,6 +28,7 @@ module gfb_command_line
     !> ranks whose shares to show instead of solving; 0: those of the job
     integer :: shares = -1
     logical :: restart = .false. !! resume from the restart file
+    integer :: time_limit = 0    !! after which the run stops [s]; 0: none
     logical :: help = .false.
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
@@ -38,9 +39,9 @@ module gfb_command_line
     procedure :: context => run_context
   end type command_line_type
 
-  character(len=11), parameter :: options(14) = [character(len=11) :: &
+  character(len=12), parameter :: options(15) = [character(len=12) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
-    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict']
+    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit']
 
 contains
 
@@ -94,6 +95,9 @@ contains
       case ('--groups')
         i = i + 1
         call take_groups(argument(i), line, error)
+      case ('--time-limit')
+        i = i + 1
+        call take_time_limit(argument(i), line, error)
       case ('--name')
         i = i + 1
         line%table = argument(i)
@@ -148,6 +152,34 @@ contains
     end if
   end subroutine take_groups
 
+  !> Reads a time limit: seconds, minutes:seconds or hours:minutes:seconds.
+  subroutine take_time_limit(word, line, error)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: left
+    integer :: colon, number, status, total
+
+    left = word
+    total = 0
+    do
+      colon = index(left//':', ':')
+      status = 1
+      if (colon > 1 .and. colon < 8 .and. verify(left(:colon - 1), '0123456789') == 0) then
+        read (left(:colon - 1), *, iostat=status) number
+      end if
+      if (status /= 0 .or. total > 100000) exit
+      total = 60*total + number
+      if (colon > len(left)) exit
+      left = left(colon + 1:)
+    end do
+    line%time_limit = total
+    if (status /= 0 .or. total < 1) then
+      call fail(error, 'gfb: --time-limit '//word//': needs seconds, or minutes:seconds, or '// &
+                'hours:minutes:seconds')
+    end if
+  end subroutine take_time_limit
+
   !> A word that is no known option: the case file, or a mistake.
   subroutine take_other(word, line, error)
     character(len=*), intent(in) :: word
@@ -166,6 +198,8 @@ contains
       end if
     else if (index(word, '--groups=') == 1) then
       call take_groups(word(10:), line, error)
+    else if (index(word, '--time-limit=') == 1) then
+      call take_time_limit(word(14:), line, error)
     else if (index(word, '--name=') == 1 .and. len(word) > 7) then
       line%table = word(8:)
     else if (index(word, '-') == 1) then
@@ -226,6 +260,7 @@ contains
       '  --branches      look for all equilibria of a bearing, and tabulate them'//next// &
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
       '  --restart       resume from CASE.restart.h5, which a killed run left behind'//next// &
+      '  --time-limit T  stop after T seconds (or M:S, or H:M:S) as by a signal'//next// &
       '  --quiet         no line per iteration'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
@@ -239,6 +274,7 @@ contains
       'results: CASE.summary, .h5, .used.nml, and surfaces as .<part>.vtkhdf;'//next// &
       'CASE.unconverged.* where no answer was found, CASE.branches.* of --branches'//next// &
       'exit status: 0 done, 1 the input is wrong, 2 did not converge,'//next// &
-      '             3 a file or the machine failed'
+      '             3 a file or the machine failed, 124 stopped by the time limit,'//next// &
+      '             128 + N stopped by signal N (130 by Ctrl-C, 143 by SIGTERM)'
   end function help_text
 end module gfb_command_line

@@ -3,6 +3,7 @@ module gfb_run_groups
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_signals, only: agree_on_signal, agreed_signal
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_job_groups, only: job_type
@@ -66,6 +67,7 @@ contains
     else
       call run_scene_table(scenes, line%table, run_scene, context, job, status)
     end if
+    call agree_on_signal(job%largest(agreed_signal()))
   end subroutine run_groups
 
   !> Reads all case files.

@@ -3,7 +3,7 @@
 module gfb_scene_table
   use petscsys
   use gfb_memory, only: memory_type
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
@@ -14,7 +14,8 @@ module gfb_scene_table
   use gfb_table_file, only: table_member_type, write_table_file, remember_member
   use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
   use gfb_text_file, only: write_text_file
-  use gfb_petsc_session, only: wall_time
+  use gfb_signals, only: stop_words
+  use gfb_petsc_session, only: wall_time, stop_is_asked
   use gfb_job_groups, only: job_type
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
@@ -99,6 +100,9 @@ contains
 
     own = context
     call open_group_log(context%folder//'/'//scene%name//'.log', job, own, error)
+    if (.not. allocated(error)) then
+      if (stop_is_asked()) call fail(error, 'not computed, '//stop_words(), status_unconverged)
+    end if
     if (.not. allocated(error)) then
       own%start_time = wall_time()
       call run_scene(scene, .false., own, study, answer, error)

@@ -40,8 +40,10 @@ contains
     type(result_file_type) :: file
     type(error_type), allocatable :: error
 
-    call forget_factors(newton)
-    if (present(branch)) call forget_factors(branch%arc%newton)
+    if (restart%every > 0) then
+      call forget_factors(newton)
+      if (present(branch)) call forget_factors(branch%arc%newton)
+    end if
     call begin_restart_file(scene, restart, point, file, error)
     if (.not. allocated(error)) then
       call put_state(bearing, newton, file)

@@ -1,9 +1,10 @@
 #include "gfb_petsc.h"
 !> `<case>.restart.h5`: from where a run that was stopped is resumed.
 !>
-!> After a file has been written the solvers forget their factors, so that what follows depends on what
-!> the file holds and on nothing else: a run that is resumed from it ends with the digits of one that was
-!> never stopped. What is of the mesh stands in an order that does not depend on the ranks.
+!> It is written after every so many steps where the scene asks for that. The solvers then forget their
+!> factors, so that what follows depends on what the file holds and on nothing else: a run that is resumed
+!> from it ends with the digits of one that was never stopped. Otherwise it is written once a minute and
+!> where a run is stopped; the solvers keep their factors, and the run its digits. What is of the mesh stands in an order that does not depend on the ranks.
 module gfb_restart
   use petscsys
   use gfb_kinds, only: wp
@@ -11,7 +12,7 @@ module gfb_restart
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_c_library, only: remove_file
-  use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure
+  use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure, wall_time
   use gfb_scene, only: scene_type
   use gfb_scene_text, only: scene_difference
   use gfb_case_file, only: write_quantities
@@ -27,34 +28,65 @@ module gfb_restart
   type, public :: restart_type
     character(len=:), allocatable :: path    !! of the file
     character(len=:), allocatable :: command !! the whole command line
-    integer :: every = 0                     !! steps between files; 0: none is written
+    integer :: every = 0                     !! steps between files; 0: one a minute
+    real(wp), private :: last_time = 0.0_wp  !! when the last one was written, or the run began [s]
     logical :: goes_on = .false.             !! from the file that is there
   contains
     procedure :: is_due
     procedure :: is_due_after
+    procedure :: may_be_written
+    procedure :: tell
   end type restart_type
+
+  real(wp), parameter :: between_files = 60.0_wp !! where no number of steps is given [s]
 
 contains
 
   !> Whether a file is written after a step.
-  pure function is_due(self, step) result(due)
-    class(restart_type), intent(in) :: self !! the restart file
+  function is_due(self, step) result(due)
+    class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: step !! number of the step or point that is done
     logical :: due
 
-    due = self%every > 0
-    if (due) due = modulo(step, self%every) == 0
+    due = self%is_due_after(step - 1, step)
   end function is_due
 
   !> Whether a file is written where some steps came at once.
-  pure function is_due_after(self, before, now) result(due)
-    class(restart_type), intent(in) :: self !! the restart file
+  function is_due_after(self, before, now) result(due)
+    class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: before, now !! steps that were and are done
     logical :: due
 
-    due = self%every > 0
-    if (due) due = now/self%every > before/self%every
+    due = self%may_be_written()
+    if (.not. due) return
+    if (self%every > 0) then
+      due = now/self%every > before/self%every .or. now == 0
+    else
+      due = any_rank(wall_time() > self%last_time + between_files)
+      if (due) self%last_time = wall_time()
+    end if
   end function is_due_after
+
+  !> Whether the run has a restart file; a search for all equilibria or for a mesh has none.
+  pure function may_be_written(self) result(may)
+    class(restart_type), intent(in) :: self !! the restart file
+    logical :: may
+
+    may = allocated(self%path)
+  end function may_be_written
+
+  !> Says of a run that is stopped where it can be resumed.
+  subroutine tell(self, log, words)
+    class(restart_type), intent(in) :: self !! the restart file
+    type(run_log_type), intent(in) :: log !! where lines go
+    character(len=*), intent(in) :: words !! where it was stopped, and why
+    logical :: there
+
+    there = .false.
+    if (this_rank() == 0 .and. self%may_be_written()) inquire (file=self%path, exist=there)
+    if (.not. any_rank(there)) return
+    call log%line(words//'; --restart resumes from '//self%path)
+  end subroutine tell
 
   !> Looks for the file of a scene.
   !>
@@ -72,12 +104,13 @@ contains
     restart%path = folder//'/'//scene%name//'.restart.h5'
     restart%command = command
     restart%every = scene%output%restart_every
+    restart%last_time = wall_time()
     there = .false.
     if (this_rank() == 0) inquire (file=restart%path, exist=there)
     there = any_rank(there)
     if (wanted .and. .not. there) then
       call log%line('restart: there is no '//restart%path//', the run starts from the beginning')
-    else if (there .and. .not. wanted .and. restart%every > 0) then
+    else if (there .and. .not. wanted) then
       call log%warning(restart%path//' of an earlier run is there; --restart would resume from it; it will be replaced')
     end if
     if (.not. (wanted .and. there)) return
@@ -185,8 +218,7 @@ contains
   subroutine drop_restart(restart)
     type(restart_type), intent(in) :: restart !! name of the file
 
-    if (restart%every == 0) return
-    if (this_rank() /= 0) return
+    if (this_rank() /= 0 .or. .not. restart%may_be_written()) return
     call remove_file(restart%path)
     call remove_file(restart%path//'.part') ! where a run was stopped while it wrote
   end subroutine drop_restart

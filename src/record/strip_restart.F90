@@ -24,7 +24,7 @@ module gfb_strip_restart
 
 contains
 
-  !> Writes the file after a step, if one is due.
+  !> Writes the file after a step.
   subroutine keep_strip(scene, restart, log, strip, newton, path, run)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(restart_type), intent(in) :: restart !! name and origin of the file, and when one is due
@@ -38,8 +38,7 @@ contains
     type(result_file_type) :: file
     type(error_type), allocatable :: error
 
-    if (.not. restart%is_due(run%steps)) return
-    call forget_factors(newton)
+    if (restart%every > 0) call forget_factors(newton)
     call begin_restart_file(scene, restart, run%steps, file, error)
     if (.not. allocated(error)) then
       call put_state(strip, newton, path, file)

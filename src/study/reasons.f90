@@ -13,6 +13,7 @@ module gfb_reasons
   integer, parameter, public :: reason_few_modes = 5      !! `at` of them were found
   integer, parameter, public :: reason_inaccurate = 6     !! the number's error is too large
   integer, parameter, public :: reason_failed = 7         !! an error, which `detail` tells
+  integer, parameter, public :: reason_stopped = 8        !! by a signal, which `detail` tells
 
   !> Why there is no answer.
   type, public :: reason_type

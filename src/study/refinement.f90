@@ -8,9 +8,10 @@ module gfb_refinement
   use gfb_nested_meshes, only: nested_mesh, mesh_words, formal_order, keep_scheme
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_quantity, only: quantity_type
-  use gfb_reasons, only: reason_inaccurate
+  use gfb_reasons, only: reason_inaccurate, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
+  use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing
   use gfb_scene_rules, only: is_symmetric
@@ -89,7 +90,7 @@ contains
       call solve_mesh(trial, context, self%finest, self%sequence, error)
       if (allocated(error)) return
       cost = cost + [self%finest%iterations, self%finest%factorizations]
-      if (self%sequence%met()) exit
+      if (stop_agreed() .or. self%sequence%met()) exit
       if (self%beams == '' .and. size(self%sequence%value) == 1) then
         call compare_beams(self%pattern, trial, context, self%sequence, self%beams)
       end if
@@ -101,6 +102,11 @@ contains
     self%factorizations = cost(2)
     self%converged = self%sequence%met()
     if (self%converged) return
+    if (stop_agreed()) then
+      self%reason%code = reason_stopped
+      self%reason%detail = stop_words()
+      return
+    end if
     self%reason%code = reason_inaccurate
     self%reason%detail = missed(self%sequence)
   end subroutine refine

@@ -4,6 +4,7 @@ module gfb_run_study
   use gfb_quantity, only: quantity_type
   use gfb_scene, only: scene_type
   use gfb_cost_events, only: enter_stage, leave_stage
+  use gfb_reasons, only: reason_stopped
   use gfb_restart, only: drop_restart
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
@@ -34,6 +35,7 @@ contains
       call study%write(scene, context, summary, error)
       call leave_stage()
     end if
+    if (study%reason%code == reason_stopped) call context%log%line(study%reason%words())
     if (study%converged .and. .not. allocated(error)) call drop_restart(context%restart)
     call study%discard()
   end subroutine run_study

@@ -1,6 +1,8 @@
 !> A walk from answer to answer: the points of a sweep, or the load steps of a strip.
 module gfb_walk
-  use gfb_reasons, only: reason_type
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_petsc_session, only: stop_is_asked
+  use gfb_reasons, only: reason_type, reason_stopped
   implicit none (type, external)
   private
   public :: take_walk
@@ -11,6 +13,7 @@ module gfb_walk
     procedure(reach_point), deferred :: reach      !! finds its answer from the last point's
     procedure(end_point), deferred :: record_point !! records it
     procedure(end_point), deferred :: keep_point   !! for a restart, where that is due
+    procedure :: keep_stopped => keep_nothing      !! for a restart, where the walk is stopped
   end type walk_type
 
   abstract interface
@@ -34,7 +37,13 @@ module gfb_walk
 
 contains
 
-  !> Walks from a point to another; the first that has no answer ends the walk.
+  !> A walk that cannot be resumed where it is stopped.
+  subroutine keep_nothing(self, point)
+    class(walk_type), target, intent(inout) :: self !! the walk
+    integer, intent(in) :: point !! number of the last one that has an answer
+  end subroutine keep_nothing
+
+  !> Walks from a point to another; the first without an answer ends the walk, and so does a signal.
   subroutine take_walk(walk, first, last, reason)
     class(walk_type), target, intent(inout) :: walk !! left at the last answer
     integer, intent(in) :: first, last       !! points; none where the last lies before the first
@@ -42,7 +51,12 @@ contains
     integer :: point
 
     do point = first, last
-      call walk%reach(point, reason)
+      if (.not. stop_is_asked()) call walk%reach(point, reason)
+      if (stop_agreed()) then
+        reason%code = reason_stopped
+        reason%detail = stop_words()
+        call walk%keep_stopped(point - 1)
+      end if
       if (reason%is_given()) return
       call walk%record_point(point)
       call walk%keep_point(point)

@@ -7,11 +7,12 @@ module gfb_petsc_session
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
   use gfb_text, only: text
+  use gfb_signals, only: catch_signals, received_signal, agree_on_signal, stop_agreed
   use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
   public :: start_petsc, stop_petsc, this_rank, rank_count, ranks_on_node, petsc_version_text, wall_time, &
-            sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries
+            sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries, stop_is_asked
 
   interface
     !> Before MPI starts: a process that no launcher has started does without Open MPI's helper daemon.
@@ -49,6 +50,7 @@ contains
     if (storage_size(0.0_wp) /= storage_size(0.0_preal)) then
       error stop 'this PETSc was not built for double precision'
     end if
+    call catch_signals() ! PETSc's own handlers abort
   end subroutine start_petsc
 
   !> Ends SLEPc, PETSc and MPI.
@@ -134,6 +136,19 @@ contains
     PetscErrorCode :: ierr
     call MPI_Allreduce(truth, any_true, 1, MPI_LOGICAL, MPI_LOR, PETSC_COMM_WORLD, ierr)
   end function any_rank
+
+  !> Whether a signal or the time limit asks the run to stop, on any rank; all ranks ask at the same point.
+  function stop_is_asked() result(asked)
+    logical :: asked
+    PetscErrorCode :: ierr
+    integer :: signal
+
+    if (.not. stop_agreed()) then
+      call MPI_Allreduce(received_signal(), signal, 1, MPI_INTEGER, MPI_MAX, PETSC_COMM_WORLD, ierr)
+      call agree_on_signal(signal)
+    end if
+    asked = stop_agreed()
+  end function stop_is_asked
 
   !> Makes a failure on one rank a failure on all.
   subroutine share_failure(error)

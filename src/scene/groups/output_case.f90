@@ -17,7 +17,7 @@ module gfb_output_case
     logical :: pressure = .true.
     logical :: gap = .true.
     logical :: deflection = .true.
-    integer :: restart_every = 0 !! sweep points or load steps between restart files; 0: none
+    integer :: restart_every = 0 !! points or load steps between restart files; 0: one a minute
   end type output_case_type
 
 contains
@@ -39,7 +39,7 @@ contains
     output%deflection = any(chosen .and. (field_words == 'all' .or. field_words == 'deflection'))
     call keys%integer_key('restart_every', output%restart_every, &
                           'sweep points, or load steps of a strip, after which '// &
-                          '`CASE.restart.h5` is written for `--restart`; 0: never', &
+                          '`CASE.restart.h5` is written for `--restart`; 0: once a minute', &
                           from_to(0.0_wp, most_steps))
     call keys%finish_group()
   end subroutine read_output_case

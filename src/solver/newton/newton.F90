@@ -17,6 +17,8 @@ module gfb_newton
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_petsc_session, only: stop_is_asked
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: factor_matrix
@@ -40,6 +42,7 @@ module gfb_newton
     !> Of one solve, before they are bent at contacts that change. A bent step may end on another branch: only a search
     !> for any answer bends them, a path that follows a branch does not.
     integer :: straight_steps = huge(1)
+    logical :: may_be_stopped = .true. !! by a signal, between two iterations
   end type newton_settings_type
 
   !> The solver and its memory. It is handed to SNES by address: keep it where it is.
@@ -199,6 +202,8 @@ contains
 
     if (newton%rounded) then
       words = 'converged at round-off'
+    else if (stop_agreed() .and. reason <= 0) then
+      words = stop_words()
     else if (reason <= 0 .and. newton%linear%unsolved /= '') then
       words = newton%linear%unsolved
     else
@@ -255,7 +260,7 @@ contains
                    newton%settings%residual_tolerance*sqrt(newton%unknowns), ierr)
   end subroutine search_line
 
-  !> SNES callback. Converged when the last full step was small, or when small steps shrink no more.
+  !> SNES callback. Ends what has converged, and between two iterations what is to stop.
   subroutine test_convergence(snes, iteration, size_x, size_y, norm, reason, newton, ierr)
     SNES, intent(in) :: snes
     PetscInt, intent(in) :: iteration
@@ -264,10 +269,23 @@ contains
     type(newton_type), intent(inout) :: newton
     PetscErrorCode, intent(out) :: ierr
 
+    ierr = 0
+    call judge_iteration(newton, iteration, norm, reason)
+    if (GFB_REASON(reason) /= GFB_REASON(SNES_CONVERGED_ITERATING)) return
+    if (.not. newton%settings%may_be_stopped) return
+    if (stop_is_asked()) reason = SNES_DIVERGED_FUNCTION_COUNT
+  end subroutine test_convergence
+
+  !> Converged when the last full step was small, or when small steps shrink no more.
+  subroutine judge_iteration(newton, iteration, norm, reason)
+    type(newton_type), intent(inout) :: newton
+    PetscInt, intent(in) :: iteration
+    PetscReal, intent(in) :: norm !! of the scaled residual [1]
+    SNESConvergedReason, intent(out) :: reason
+
     real(wp) :: residual, rounding
     logical :: small
 
-    ierr = 0
     reason = SNES_CONVERGED_ITERATING
     residual = norm/sqrt(newton%unknowns)
     call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh)
@@ -291,7 +309,7 @@ contains
       call newton%log%detail('converged at round-off: no more of the residual is left than the '//text(rounding, 2)// &
                              ' that rounding may leave of its sums')
     end if
-  end subroutine test_convergence
+  end subroutine judge_iteration
 
   !> Adds to the reason of a solve that ran out of iterations that nothing but rounding is left.
   subroutine blame_round_off(newton, norm, reason)

@@ -4,6 +4,7 @@ module gfb_continuation
   use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_signals, only: stop_agreed
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
@@ -87,7 +88,7 @@ contains
         call newton%log%detail('cut: '//solved%reason)
         PetscCallA(VecCopy(here, bearing%state, ierr))
         report%reason = solved%reason
-        if (report%steps > 0 .and. report%cuts >= settings%most_cuts) exit
+        if (stop_agreed() .or. (report%steps > 0 .and. report%cuts >= settings%most_cuts)) exit
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'

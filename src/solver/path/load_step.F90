@@ -9,6 +9,7 @@ module gfb_load_step
   use petscvec
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
+  use gfb_signals, only: stop_agreed
   use gfb_petsc_session, only: any_rank
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_strip_system, only: strip_system_type
@@ -67,7 +68,7 @@ contains
       call solve_newton(newton, report)
       if (.not. report%converged) call follow_softening(strip, newton, path, reached, reached + step, report)
       if (.not. report%converged) then
-        if (halvings == most_halvings) exit
+        if (stop_agreed() .or. halvings == most_halvings) exit
         halvings = halvings + 1
         path%cuts = path%cuts + 1
         step = 0.5_wp*step

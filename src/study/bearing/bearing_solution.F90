@@ -52,6 +52,7 @@ contains
     if (.not. reason%is_given()) call finish(plan, sweep, next, reason, error)
     call leave_stage()
     call destroy_partitioned(sweep%sides)
+    call sweep%last%destroy()
   end subroutine solve_bearing
 
   !> What the solvers are told, and an empty record.
@@ -143,6 +144,7 @@ contains
       if (.not. allocated(error) .and. sweep%partitioned) then
         call create_partitioned(sweep%bearing, sweep%tolerances, log, sweep%sides)
       end if
+      if (.not. allocated(error)) call sweep%last%keep(sweep%bearing, sweep%newton)
       next = next + 1
       if (scene%sweep%turn_folds) next = min(next, 2) ! answers along the branch are no points
     end associate

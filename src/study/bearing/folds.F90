@@ -6,6 +6,8 @@ module gfb_folds
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
+  use gfb_signals, only: stop_words
+  use gfb_petsc_session, only: stop_is_asked
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: point_between
   use gfb_newton, only: newton_report_type, solve_newton
@@ -38,7 +40,7 @@ contains
     type(fold_way_type), target :: branch
     type(path_report_type) :: report
     integer :: kept
-    logical :: ended
+    logical :: ended, stops, due
 
     call begin_branch(sweep, branch, error)
     if (allocated(error)) return
@@ -47,9 +49,17 @@ contains
       kept = size(sweep%record%history)
       call take_step(sweep, branch, report, ended)
       associate (points => size(sweep%record%history), context => sweep%context)
-        if (.not. ended .and. context%restart%is_due_after(kept, points)) then
+        stops = stop_is_asked()
+        due = context%restart%is_due_after(kept, points)
+        if (stops .and. context%restart%may_be_written()) due = .true.
+        if (due .and. .not. ended) then
           call keep_bearing(sweep%scene, context%restart, context%log, points, sweep%bearing, sweep%newton, &
                             sweep%record, branch)
+        end if
+        if (stops) then
+          report%reason = stop_words()
+          ended = .true.
+          call context%restart%tell(context%log, report%reason//' after answer '//text(points)//' of the branch')
         end if
       end associate
     end do
@@ -79,6 +89,8 @@ contains
         if (allocated(error)) return
       end if
       if (.not. begun) call begin_arc(bearing, sweep%newton, branch%last, 1.0_wp, branch%arc)
+      sweep%newton%settings%may_be_stopped = .false. ! a step along the branch is short and resumes as a whole
+      branch%arc%newton%settings%may_be_stopped = .false.
     end associate
   end subroutine begin_branch
 

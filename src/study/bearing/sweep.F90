@@ -5,6 +5,7 @@ module gfb_sweep
   use petscsys
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local
   use gfb_scene_case, only: analysis_equilibrium
@@ -20,11 +21,12 @@ module gfb_sweep
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
   use gfb_branch_watch, only: watch_branch
-  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft
+  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_stopped
   use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
   use gfb_answer_judgement, only: judge_answer
+  use gfb_last_answer, only: last_answer_type
   implicit none (type)
   private
 
@@ -41,11 +43,13 @@ module gfb_sweep
     logical :: anew = .false.        !! the present answer was found from nothing, where no path led to it
     logical :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type) :: sides  !! of the bearing, then
+    type(last_answer_type) :: last
   contains
     procedure :: begin => begin_sweep
     procedure :: reach => reach_value
     procedure :: record_point => record_value
     procedure :: keep_point => keep_value
+    procedure :: keep_stopped
     procedure :: target_at
     procedure :: stop_short
     procedure :: explain
@@ -146,11 +150,26 @@ contains
     class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point !! number of the sweep's value
 
+    if (.not. self%scene%sweep%present) return
+    call self%last%keep(self%bearing, self%newton)
     if (.not. self%context%restart%is_due(point)) return
     call keep_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
                       self%record)
-    call forget_partitioned(self%sides)
+    if (self%context%restart%every > 0) call forget_partitioned(self%sides)
   end subroutine keep_value
+
+  !> Writes the restart file of a sweep that is stopped after a point; 0: where the shaft is fixed.
+  subroutine keep_stopped(self, point)
+    class(sweep_type), target, intent(inout) :: self !! the sweep
+    integer, intent(in) :: point !! number of the last value that has an answer
+
+    if (.not. (self%last%known .and. self%context%restart%may_be_written())) return
+    call self%last%put_back(self%bearing, self%newton)
+    call keep_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
+                      self%record)
+    call self%context%restart%tell(self%context%log, stop_words()//' after point '//text(point)//' of '// &
+                                   text(size(self%scene%sweep%values)))
+  end subroutine keep_stopped
 
   !> Where a sweep point puts the shaft; a fixed shaft stays where it is.
   function target_at(self, point) result(target)
@@ -195,6 +214,11 @@ contains
     if (self%scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
     if (fixed) reason%code = reason_fixed_shaft
     reason%detail = report%reason
+    if (stop_agreed()) then
+      reason%code = reason_stopped
+      reason%detail = stop_words()
+      return
+    end if
     associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)
       call log%line(reason%words())
       if (has_stiff_edges(self%scene)) then

@@ -5,6 +5,7 @@ module gfb_load_steps
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
+  use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
@@ -42,6 +43,7 @@ module gfb_load_steps
     procedure :: reach => reach_step
     procedure :: record_point => record_step
     procedure :: keep_point => keep_step
+    procedure :: keep_stopped
     procedure, private :: explain
   end type load_steps_type
 
@@ -102,7 +104,7 @@ contains
     associate (load => self%scene%strip_load)
       call take_load_step(self%strip, self%newton, load_factor(point, load%steps_up, load%steps_down), self%path, report)
     end associate
-    if (.not. report%converged) call self%explain(point, report%reason, reason)
+    if (.not. (stop_agreed() .or. report%converged)) call self%explain(point, report%reason, reason)
   end subroutine reach_step
 
   !> Records a step's answer, from which the next one starts.
@@ -132,8 +134,20 @@ contains
     class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
 
+    if (.not. self%context%restart%is_due(point)) return
     call keep_strip(self%scene, self%context%restart, self%context%log, self%strip, self%newton, self%path, self%run)
   end subroutine keep_step
+
+  !> Writes the restart file of load steps that are stopped after one of them.
+  subroutine keep_stopped(self, point)
+    class(load_steps_type), target, intent(inout) :: self !! the load steps
+    integer, intent(in) :: point !! number of the last one that has an answer
+
+    if (point < 1 .or. .not. self%context%restart%may_be_written()) return
+    call keep_strip(self%scene, self%context%restart, self%context%log, self%strip, self%newton, self%path, self%run)
+    call self%context%restart%tell(self%context%log, stop_words()//' after step '//text(point)//' of '// &
+                                   text(self%scene%strip_load%steps_up + self%scene%strip_load%steps_down))
+  end subroutine keep_stopped
 
   !> Says why a step has no answer.
   subroutine explain(self, step, detail, reason)

@@ -1,0 +1,59 @@
+#include "gfb_petsc.h"
+!> A sweep's last answer, kept while the next one is looked for: what a run that is stopped in between
+!> resumes from.
+module gfb_last_answer
+  use petscvec
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_contact_set, only: contact_point_type
+  use gfb_kept_state, only: kept_state_type
+  use gfb_newton, only: newton_type
+  implicit none (type)
+  private
+
+  !> State, operating point, contacts, counts.
+  type, public :: last_answer_type
+    logical :: known = .false.
+    integer, private :: counts(3) = 0 !! of the solver
+    type(kept_state_type), private :: state
+    type(contact_point_type), allocatable, private :: contact(:) !! of this rank
+  contains
+    procedure :: keep
+    procedure :: put_back
+    procedure :: destroy
+  end type last_answer_type
+
+contains
+
+  !> Keeps the bearing's present answer instead of the one before.
+  subroutine keep(self, bearing, newton)
+    class(last_answer_type), intent(inout) :: self !! the kept answer
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    type(newton_type), intent(in) :: newton !! its solver
+
+    self%known = .true.
+    call self%state%keep(bearing)
+    self%contact = bearing%pad(1)%foil%contacts%point
+    self%counts = [newton%iterations, newton%factorizations, newton%factorizations_before]
+  end subroutine keep
+
+  !> Brings the bearing back to the answer.
+  subroutine put_back(self, bearing, newton)
+    class(last_answer_type), intent(in) :: self !! the kept answer
+    type(bearing_system_type), intent(inout) :: bearing !! that had it
+    type(newton_type), intent(inout) :: newton !! its solver; gets the counts it had
+
+    call self%state%put_back(bearing)
+    bearing%pad(1)%foil%contacts%point = self%contact
+    newton%iterations = self%counts(1)
+    newton%factorizations = self%counts(2)
+    newton%factorizations_before = self%counts(3)
+  end subroutine put_back
+
+  !> Frees what PETSc holds.
+  subroutine destroy(self)
+    class(last_answer_type), intent(inout) :: self !! not used any more
+
+    call self%state%destroy()
+    self%known = .false.
+  end subroutine destroy
+end module gfb_last_answer

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Signals and the time limit: a run ends where it can, keeps what it has reached, says so, and is resumed."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+from gfb_run import GFB, MPIEXEC, Bearing, Checks, case_text, read_summary  # noqa: E402
+
+SECONDS = 120
+BEARING = Bearing()
+POINTS = 4000
+SWEEP = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
+    "sweep": {"parameter": "load", "values": tuple(10.0 + i % 30 for i in range(POINTS))}})
+SHORT = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
+    "sweep": {"parameter": "load", "values": tuple(10.0 + i % 30 for i in range(24))}})
+ONE = case_text(BEARING, mesh=(512, 160), number=2.0, load=(-20.0, 0.0))
+STATUS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129, signal.SIGXCPU: 152, signal.SIGUSR1: 138}
+ENVIRONMENT = {**os.environ, "OMPI_MCA_odls_base_sigkill_timeout": "30"}
+
+
+def begin(folder, case, *options, ranks=1):
+    """A run whose lines can be read as they come."""
+    command = [GFB, "--quiet", *options, case]
+    if ranks > 1:
+        command = [MPIEXEC, "-n", str(ranks), *command]
+    return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, encoding="utf-8", env=ENVIRONMENT)
+
+
+def wait_for(process, words):
+    """Reads the log up to a line."""
+    for line in process.stdout:
+        if line.startswith(words):
+            return True
+    return False
+
+
+def stopped(folder, number, ranks=1):
+    """Status, log and complaints of a sweep that is sent a signal after some points."""
+    with begin(folder, "sweep.nml", ranks=ranks) as process:
+        wait_for(process, "point 5 of")
+        process.send_signal(number)
+        log, complaint = process.communicate(timeout=SECONDS)
+    return process.returncode, log, complaint
+
+
+def rows(path):
+    """Points of a history, by h5dump's own reader."""
+    import h5py
+    with h5py.File(path, "r") as file:
+        return len(file["history/force_x"])
+
+
+def check_sweep(checks, folder):
+    """Every signal ends a sweep with a restart file, the points it has, a sentence and its status."""
+    (folder/"sweep.nml").write_text(SWEEP, encoding="utf-8")
+    for number, status in STATUS.items():
+        name = signal.Signals(number).name
+        found, log, complaint = stopped(folder, number)
+        checks.that(f"{name}: status {found}", found == status)
+        checks.that(f"{name}: says so", f"stopped by {name} after point" in log and "--restart resumes from" in log)
+        checks.that(f"{name}: nothing else {complaint.strip()}", not complaint)
+        checks.that(f"{name}: a restart file", (folder/"sweep.restart.h5").exists())
+        kept = rows(folder/"sweep.unconverged.h5")
+        checks.that(f"{name}: the {kept} points reached", kept >= 5 and f"after point {kept} of {POINTS}" in log)
+        checks.that(f"{name}: no answer is claimed", not (folder/"sweep.h5").exists())
+        for path in folder.glob("sweep.*.*"):
+            path.unlink()
+    found, log, _ = stopped(folder, signal.SIGUSR1, ranks=2)
+    checks.that(f"2 ranks, SIGUSR1: status {found}", found == STATUS[signal.SIGUSR1])
+    checks.that("2 ranks, SIGUSR1: said once", log.count("stopped by SIGUSR1 after point") == 1)
+    checks.that("2 ranks, SIGUSR1: a restart file", (folder/"sweep.restart.h5").exists())
+
+
+def check_resumed(checks, folder):
+    """A sweep that is stopped again and again has the answers of one that is not."""
+    (folder/"whole").mkdir()
+    (folder/"short.nml").write_text(SHORT, encoding="utf-8")
+    whole = subprocess.run([GFB, "--quiet", "--output", "whole", "short.nml"], cwd=folder, capture_output=True,
+                           check=False, timeout=SECONDS)
+    resumed = 0
+    for number in (4, 9):
+        with begin(folder, "short.nml", "--restart") as process:
+            wait_for(process, f"point {number} of")
+            process.send_signal(signal.SIGTERM)
+            log, _ = process.communicate(timeout=SECONDS)
+        resumed += process.returncode == 143 and "stopped by SIGTERM" in log
+    with begin(folder, "short.nml", "--restart") as process:
+        log, _ = process.communicate(timeout=SECONDS)
+    checks.that("stopped twice, resumed twice", resumed == 2 and process.returncode == 0 and "restart: resumed" in log)
+    one, other = (read_summary(folder/place/"short.summary")[0] for place in ("whole", "."))
+    worst = max(abs(one[name] - other[name])/abs(one[name]) for name in ("eccentricity_x", "eccentricity_y", "minimum_gap",
+                                                                        "friction_torque"))
+    checks.that("the whole run", whole.returncode == 0)
+    checks.below("the same answer", worst, 1.0e-8)
+    checks.that("no restart file is left", not (folder/"short.restart.h5").exists())
+    checks.that("all points", rows(folder/"short.h5") == 24)
+
+
+def check_first_answer(checks, folder):
+    """A run without a sweep ends between two iterations; a second signal ends it at once."""
+    (folder/"one.nml").write_text(ONE, encoding="utf-8")
+    with subprocess.Popen([GFB, "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, encoding="utf-8") as process:
+        wait_for(process, "    iteration")
+        process.send_signal(signal.SIGTERM)
+        begun = time.monotonic()
+        log, complaint = process.communicate(timeout=SECONDS)
+    seconds = time.monotonic() - begun
+    checks.that(f"one answer: status {process.returncode} {seconds:.1f} s later", process.returncode == 143)
+    checks.that(f"one answer: says so {complaint}", "stopped by SIGTERM" in log and not complaint)
+    with begin(folder, "sweep.nml") as process:
+        wait_for(process, "point 2 of")
+        os.kill(process.pid, signal.SIGSTOP)
+        for number in (signal.SIGINT, signal.SIGCONT):
+            os.kill(process.pid, number)
+        process.communicate(timeout=SECONDS)
+    checks.that("stopped and continued: the first signal counts", process.returncode == 130)
+    with subprocess.Popen([GFB, "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE) as process:
+        time.sleep(0.5)
+        os.kill(process.pid, signal.SIGTERM)
+        time.sleep(0.7)
+        if process.poll() is None:
+            os.kill(process.pid, signal.SIGTERM)
+        process.wait(SECONDS)
+    checks.that("a second signal: the end", process.returncode in (143, -signal.SIGTERM))
+
+
+def check_quiet_end(checks, folder):
+    """Nobody reads on: no word of MPI's."""
+    done = subprocess.run(f"{GFB} sweep.nml | head -n 3", shell=True, cwd=folder, capture_output=True, encoding="utf-8",
+                          check=False, timeout=SECONDS)
+    checks.that(f"gfb | head: quiet {done.stderr[:200]}", done.returncode == 0 and not done.stderr)
+
+
+def check_time_limit(checks, folder):
+    """A limit does what a signal does, with a status of its own."""
+    for limit in ("2", "0:02"):
+        with begin(folder, "sweep.nml", f"--time-limit={limit}") as process:
+            log, _ = process.communicate(timeout=SECONDS)
+        checks.that(f"--time-limit={limit}: status {process.returncode}", process.returncode == 124)
+        checks.that(f"--time-limit={limit}: says so", "stopped by the time limit after point" in log)
+    for wrong in ("x", "0", "1:", "-3", ""):
+        done = subprocess.run([GFB, "--time-limit", wrong, "sweep.nml"], cwd=folder, capture_output=True,
+                              encoding="utf-8", check=False, timeout=SECONDS)
+        checks.that(f"--time-limit '{wrong}' is refused", done.returncode == 1 and "--time-limit" in done.stderr)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for check in (check_sweep, check_resumed, check_first_answer, check_quiet_end, check_time_limit):
+            check(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
