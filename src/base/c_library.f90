@@ -4,7 +4,7 @@ module gfb_c_library
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: make_folder, rename_file, remove_file, exit_with_status, peak_memory, host_name
+  public :: make_folder, remove_file, exit_with_status, peak_memory, host_name
 
   integer(c_int), parameter :: folder_mode = int(o'777', c_int) !! the user's umask takes its part
   integer, parameter :: usage_words = 18 !! length of struct rusage on 64-bit Unix [8 bytes]
@@ -18,13 +18,6 @@ module gfb_c_library
       integer(c_int), value :: mode
       integer(c_int) :: status
     end function c_mkdir
-
-    function c_rename(old, new) result(status) bind(c, name='rename')
-      import :: c_char, c_int
-      implicit none (type, external)
-      character(kind=c_char), intent(in) :: old(*), new(*)
-      integer(c_int) :: status
-    end function c_rename
 
     function c_remove(path) result(status) bind(c, name='remove')
       import :: c_char, c_int
@@ -69,14 +62,6 @@ contains
     end do
     ignored = c_mkdir(trim(path)//c_null_char, folder_mode)
   end subroutine make_folder
-
-  !> Renames a file over another one in one step; false where that failed.
-  function rename_file(old, new) result(done)
-    character(len=*), intent(in) :: old, new !! name it has, name it gets
-    logical :: done
-
-    done = c_rename(trim(old)//c_null_char, trim(new)//c_null_char) == 0
-  end function rename_file
 
   !> Removes a file if it exists.
   subroutine remove_file(path)

@@ -76,14 +76,16 @@ contains
     end if
     if (scene%solver%linear_solver == linear_solver_out_of_core) call keep_factors_on_disk()
     call create_study(scene, branches, study, error)
+    if (.not. allocated(error)) call context%take_case(scene%name, error)
     if (allocated(error)) return
     if (scene%accuracy%present) then
       if (context%resumes) call context%log%line('restart: not with &accuracy, the run starts anew')
     else if (.not. branches) then
       call context%find_restart(scene, error)
-      if (allocated(error)) return
     end if
-    call run_study(study, scene, context, summary, error)
+    if (.not. allocated(error)) call run_study(study, scene, context, summary, error)
+    call context%give_back()
+    if (allocated(error)) return
     ! Again, where the answer stands.
     if (scene%warnings /= '') call context%log%line(scene%warnings)
   end subroutine run_scene

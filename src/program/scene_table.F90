@@ -12,8 +12,9 @@ module gfb_scene_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
   use gfb_table_file, only: table_member_type, write_table_file, remember_member
-  use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
-  use gfb_text_file, only: write_text_file
+  use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
+  use gfb_result_file, only: result_file_type
+  use gfb_text_file, only: write_unfinished_text
   use gfb_signals, only: stop_words
   use gfb_petsc_session, only: wall_time, stop_is_asked
   use gfb_job_groups, only: job_type
@@ -159,6 +160,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
     type(quantity_type), allocatable :: summary(:)
     type(result_file_type) :: file
+    type(unfinished_file_type) :: files(2)
     character(len=:), allocatable :: stem
     integer :: i
 
@@ -171,14 +173,14 @@ contains
       call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do
     stem = context%folder//'/'//name
-    call write_table_file(stem//'.h5', MPI_COMM_SELF, MPI_INFO_NULL, context%origin(), summary, members, &
+    call write_table_file(stem//'.h5', MPI_COMM_SELF, context%origin(), summary, members, &
                           file, error)
-    if (.not. allocated(error)) call keep_result_file(file, error)
-    if (allocated(error)) then
-      call drop_result_file(file)
-      return
-    end if
-    call write_text_file(stem//'.summary', summary_text(summary), error)
+    files(1) = file%written
+    if (.not. allocated(error)) call write_unfinished_text(stem//'.summary', summary_text(summary), files(2), error)
+    if (.not. allocated(error)) call publish(files, error)
+    do i = 1, size(files)
+      call drop_unfinished(files(i))
+    end do
     if (allocated(error)) return
     call context%log%line('')
     call context%log%line('table of all cases: '//stem//'.summary, .h5')

@@ -161,7 +161,7 @@ contains
     type(result_file_type), intent(out) :: file !! is opened
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    call open_result_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank() == 0, file, error)
+    call open_result_file(restart%path, PETSC_COMM_WORLD, this_rank() == 0, file, error)
     call share_failure(error)
     if (allocated(error)) return
     call file%group('/scene')
@@ -199,7 +199,7 @@ contains
     type(stored_file_type), intent(out) :: file !! is opened
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    call open_stored_file(restart%path, PETSC_COMM_WORLD, MPI_INFO_NULL, file, error)
+    call open_stored_file(restart%path, PETSC_COMM_WORLD, this_rank() == 0, file, error)
     call share_failure(error)
   end subroutine open_restart
 
@@ -220,6 +220,5 @@ contains
 
     if (this_rank() /= 0 .or. .not. restart%may_be_written()) return
     call remove_file(restart%path)
-    call remove_file(restart%path//'.part') ! where a run was stopped while it wrote
   end subroutine drop_restart
 end module gfb_restart

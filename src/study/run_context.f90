@@ -3,13 +3,14 @@
 module gfb_run_context
   use gfb_kinds, only: wp
   use gfb_c_library, only: make_folder
-  use gfb_errors, only: error_type, fail
+  use gfb_errors, only: error_type
   use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: this_rank, any_rank
+  use gfb_petsc_session, only: this_rank, share_failure
   use gfb_provenance, only: provenance
   use gfb_quantity, only: quantity_type
   use gfb_scene, only: scene_type
-  use gfb_text_file, only: folder_is_writable
+  use gfb_text_file, only: try_folder
+  use gfb_file_set, only: case_lock_type, lock_case, unlock_case
   use gfb_restart, only: restart_type, find_restart_file => find_restart
   implicit none (type, external)
   private
@@ -42,13 +43,35 @@ module gfb_run_context
     type(run_log_type) :: log
     type(restart_type) :: restart            !! of the scene, once it has been looked for
     class(run_listener_type), pointer :: listener => null()
+    type(case_lock_type), private :: lock    !! of the scene's files, on the first rank
   contains
+    procedure :: take_case
+    procedure :: give_back
     procedure :: find_restart
     procedure :: origin
     procedure :: point_done
   end type run_context_type
 
 contains
+
+  !> Takes the files of a case for this run.
+  !>
+  !> Fails where another run writes them, and where their names would be too long.
+  subroutine take_case(self, name, error)
+    class(run_context_type), intent(inout) :: self !! the context
+    character(len=*), intent(in) :: name !! of the case
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    if (this_rank() == 0) call lock_case(self%folder, name, self%lock, error)
+    call share_failure(error)
+  end subroutine take_case
+
+  !> Gives the files of a case back.
+  subroutine give_back(self)
+    class(run_context_type), intent(inout) :: self !! the context
+
+    call unlock_case(self%lock)
+  end subroutine give_back
 
   !> Looks for a scene's restart file.
   !>
@@ -85,13 +108,11 @@ contains
   subroutine prepare_folder(folder, error)
     character(len=*), intent(in) :: folder !! its path
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    logical :: refused
 
-    refused = .false.
     if (this_rank() == 0) then
       call make_folder(folder)
-      refused = .not. folder_is_writable(folder)
+      call try_folder(folder, error)
     end if
-    if (any_rank(refused)) call fail(error, folder//': results cannot be written to this folder')
+    call share_failure(error)
   end subroutine prepare_folder
 end module gfb_run_context

@@ -135,7 +135,7 @@ def main():
             check_case_file(checks, case, answer, folder/f"{case}.nml")
             check_film_by_vtk(checks, case, bearing, answer)
         check_choice(checks, folder)
-        checks.that("nothing unfinished left", not list(folder.glob("*.part")))
+        checks.that("nothing unfinished left", not list(folder.glob(".gfb*")))
     checks.close()
 
 

@@ -212,18 +212,18 @@ def run_small(folder):
     """Whether the good case runs over what killed runs left, and leaves no temporary file."""
     (folder/"case.nml").write_text(GOOD, encoding="utf-8")
     run_file(folder/"case.nml", folder)
-    return not list(folder.glob("*.part"))
+    return not list(folder.glob(".gfb*"))
 
 
-def check_full_disk(checks, folder):
+def check_hindrance(checks, folder):
     """Where a file cannot be put in its place: status 3, a sentence, the older results as they were."""
     (folder/"case.nml").write_text(GOOD, encoding="utf-8")
     run_file(folder/"case.nml", folder)
-    before = {ending: (folder/f"case.{ending}").read_bytes() for ending in ("summary", "film.vtkhdf", "used.nml")}
-    (folder/"case.h5").unlink()
-    (folder/"case.h5.part").mkdir()
+    before = {ending: (folder/f"case.{ending}").read_bytes() for ending in ("h5", "film.vtkhdf", "used.nml")}
+    (folder/"case.summary").unlink()
+    (folder/"case.summary"/"full").mkdir(parents=True)
     status, _, wrong = call("case.nml", folder=folder)
-    checks.that("a folder in the way: status 3 and its name", status == 3 and "case.h5" in wrong)
+    checks.that("a folder in the way: status 3 and its name", status == 3 and "case.summary" in wrong)
     checks.that("a folder in the way: no crash", "Backtrace" not in wrong and "MPI_ABORT" not in wrong)
     checks.that("a folder in the way: older results as they were", all(
         (folder/f"case.{ending}").read_bytes() == content for ending, content in before.items()))
@@ -269,7 +269,7 @@ def check_ranks(checks, folder):
 def main():
     checks = Checks()
     for check in (check_options, check_folders, check_quiet, check_warnings, check_petsc_options, check_rerun, check_kill,
-                  check_full_disk, check_side_by_side, check_ranks):
+                  check_hindrance, check_side_by_side, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())
     checks.close()

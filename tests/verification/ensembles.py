@@ -210,12 +210,12 @@ def check_table(checks, folder):
                     and "beyond: no answer (no equilibrium found: " in log and "iteration" not in log)
         checks.that(f"{words}: a line a case", all(f"{number} of 5 done" in log for number in range(1, 6)))
     place = folder/"blocked"
-    (place/"blocked.h5.part").mkdir(parents=True)
+    (place/"blocked.h5"/"full").mkdir(parents=True)
     (place/"springs.log").mkdir()
     status, log, _ = call(folder, "--groups", 2, "--name", "study", "--output", place, *names, ranks=2)
     checks.that("a case that cannot be written: status 3", status == 3)
     check_members(checks, "a case that cannot be written", place/"study", cases, {"beyond": 2, "blocked": 3, "springs": 3})
-    checks.that("it is named", "blocked: failed (" in log and "blocked.h5: the file cannot be written" in log)
+    checks.that("it is named", "blocked: failed (" in log and "blocked.h5: the file cannot be put in its place" in log)
     checks.that("so is one whose log cannot be written", "springs.log: the file cannot be written" in log)
     checks.that("no table under another name", not list(place.glob("ensemble*")))
 

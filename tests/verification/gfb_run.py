@@ -11,7 +11,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 
 import gfb.run  # noqa: E402 (found only now)
-from gfb.results import COST, Answer, read_summary  # noqa: E402, F401 (the checks take them from here)
+from gfb.results import COST, Answer, read_summary, seal  # noqa: E402, F401 (the checks take them from here)
 from gfb.run import MPIEXEC, namelist_value, write_case  # noqa: E402, F401
 
 GFB = os.environ.get("GFB", "gfb")

@@ -46,7 +46,7 @@ def check_case(checks, folder, words, case):
     left = sorted(path.name for path in folder.iterdir())
     for ending in ENDINGS:
         checks.that(f"{words}: case.unconverged.{ending}", f"case.unconverged.{ending}" in left)
-    checks.that(f"{words}: nothing unfinished left", not any(".part" in name for name in left))
+    checks.that(f"{words}: nothing unfinished left", not any(name.startswith(".gfb") for name in left))
     checks.that(f"{words}: summary says so", answer["converged"] == "false")
     checks.that(f"{words}: the log says so", "no equilibrium found: " in answer.log)
     checks.that(f"{words}: and what was reached", "last state reached: load (" in answer.log)

@@ -17,7 +17,7 @@ import numpy
 
 from contact_strips import COARSE, FORCE, PAIR
 from gfb_run import COST, GFB, MPIEXEC, SECONDS, Answer, Checks, largest_difference, read_summary, \
-    run_file, write_case
+    run_file, seal, write_case
 from shell_bearing import BEARING, BUMPS, SHEET, SIZES, SPEED
 
 SEED = 20201
@@ -210,13 +210,13 @@ def check_kills(checks, folder, name, content, chance, ranks=(1, 1, 1, 1), whole
         files -= done
     file = place/f"{name}.restart.h5"
     there = file.exists()
-    file.with_name(file.name + ".part").write_bytes(b"a file that a killed run had begun")
+    (place/".gfb-file-1-0").write_bytes(b"a file that a killed run had begun")
     killed = run_file(path, place, ranks=ranks[KILLS], options=["--quiet", "--restart"])
     off, where = difference(answer, killed, cost=alike)
     checks.below(f"{name}: numbers of the last run, {ranks[KILLS]} rank(s), and of one that nothing stopped ({where})",
                  off, 0.0 if alike else RANKS)
     checks.that(f"{name}: the last run goes on", there and RESUMED in killed.log)
-    left_over = [file.name for file in place.iterdir() if "restart" in file.name]
+    left_over = [file.name for file in place.iterdir() if "restart" in file.name or file.name.startswith(".gfb")]
     checks.that(f"{name}: no restart file is left {left_over}", not left_over)
     return whole
 
@@ -253,15 +253,18 @@ def check_refusals(checks, folder, content):
         with h5py.File(file, "r+") as stored:
             data = stored[f"provenance/{name}"]
             data[()] = b"0"*data.dtype.itemsize
+        seal(file)
         refused(f"another {name}", 1, "was written by gfb", "000", "this is gfb", "run without --restart")
         file.write_bytes(kept)
     with h5py.File(file, "r+") as stored:
         del stored["bearing/state"]
+    seal(file)
     refused("a field is missing", 3, "the file is damaged")
     file.write_bytes(kept)
     with h5py.File(file, "r+") as stored:
         data = stored["bearing/words"]
         data[()] = data[()].replace(b"edge_height", b"edge_length")
+    seal(file)
     refused("a component has another name", 3, "the file is damaged")
     file.write_bytes(kept[:len(kept)//2])
     refused("half a file", 3, "cannot be read")
@@ -274,12 +277,12 @@ def check_refusals(checks, folder, content):
     answer = run_file(path, place, options=["--quiet"])
     checks.that("without --restart a file that is there is named, and the run begins anew",
                 "warning" in answer.log and file.name in answer.log and RESUMED not in answer.log)
-    hindrance = file.with_name(file.name + ".part")
-    (hindrance/"full").mkdir(parents=True)
+    (file/"full").mkdir(parents=True)
     answer = run_file(path, place, options=["--quiet"])
     checks.that("a restart file that cannot be written does not end the run",
-                "restart.h5: the file cannot be written; the run continues without it" in answer.log)
-    shutil.rmtree(hindrance)
+                "restart.h5: the file cannot be put in its place" in answer.log
+                and "the run continues without it" in answer.log)
+    shutil.rmtree(file)
 
 
 def check_all_foils(checks, folder, loads, tilts, chance):

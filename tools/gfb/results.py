@@ -3,12 +3,40 @@
 import csv
 import dataclasses
 import pathlib
+import re
+import zlib
 
 import h5py
 import numpy
 
 # Names of the summary that say what the answer cost, not what it is.
 COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_finest", "wall_time", "peak_memory"}
+
+
+# What gfb writes behind the bytes of an HDF5 file: their checksum and their number.
+SEAL = re.compile(rb"gfb crc32 ([0-9a-f]{8}) ([0-9a-f]{16})\n$")
+SEAL_LENGTH = 36
+
+
+def open_results(path):
+    """An HDF5 file of gfb for reading; OSError where its bytes do not fit its checksum. One without checksum, of an
+    older version or another program, is read as it is."""
+    content = pathlib.Path(path).read_bytes()
+    seal = SEAL.search(content[-SEAL_LENGTH:])
+    if seal:
+        body = memoryview(content)[:-SEAL_LENGTH]
+        if (int(seal[1], 16), int(seal[2], 16)) != (zlib.crc32(body), len(body)):
+            raise OSError("damaged: its contents do not fit its checksum")
+    del content
+    return h5py.File(path, "r")
+
+
+def seal(path):
+    """Puts the checksum behind a file that was changed on purpose."""
+    content = pathlib.Path(path).read_bytes()
+    if SEAL.search(content[-SEAL_LENGTH:]):
+        content = content[:-SEAL_LENGTH]
+    pathlib.Path(path).write_bytes(content + b"gfb crc32 %08x %016x\n" % (zlib.crc32(content), len(content)))
 
 
 def read_summary(path):
@@ -27,13 +55,13 @@ def read_summary(path):
 
 def read_history(path):
     """{column: values, a row each} of the history in a case's HDF5 file."""
-    with h5py.File(path, "r") as file:
+    with open_results(path) as file:
         return {name: data[...] for name, data in file["history"].items()}
 
 
 def read_film(path):
     """{field: values on (station, row)} of a film file: x, z, theta, pressure, gap, ..."""
-    with h5py.File(path, "r") as file:
+    with open_results(path) as file:
         points = file["VTKHDF/Points"][...]
         fields = {name: data[...] for name, data in file["VTKHDF/PointData"].items()}
     rows = int((points[:, 0] == points[0, 0]).sum())

@@ -5,7 +5,7 @@ module gfb_petsc_session
   use slepcsys
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_signals, only: catch_signals, received_signal, agree_on_signal, stop_agreed
   use gfb_petsc_kinds, only: preal, pint
@@ -153,10 +153,13 @@ contains
   !> Makes a failure on one rank a failure on all.
   subroutine share_failure(error)
     type(error_type), allocatable, intent(inout) :: error !! of this rank; on return of all, if one failed
+    integer :: status
 
-    if (any_rank(allocated(error)) .and. .not. allocated(error)) then
-      call fail(error, 'another rank failed', status_machine)
-    end if
+    status = 0
+    if (allocated(error)) status = error%status
+    status = largest_number([status])
+    if (status > 0 .and. .not. allocated(error)) call fail(error, 'another rank failed')
+    if (allocated(error)) error%status = status
   end subroutine share_failure
 
   !> Entries of a field that is spread over the ranks, by the entries' numbers in the whole.

@@ -7,10 +7,11 @@ module gfb_result_set
   use gfb_scene, only: scene_type
   use gfb_quantity, only: quantity_type
   use gfb_petsc_session, only: this_rank, rank_count, share_failure
-  use gfb_result_file, only: result_file_type, keep_result_file, drop_result_file
+  use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
+  use gfb_result_file, only: result_file_type
   use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text
   use gfb_grid_file, only: grid_type, grid_field_type, write_grid_file
-  use gfb_text_file, only: write_text_file
+  use gfb_text_file, only: write_unfinished_text
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
@@ -42,52 +43,50 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
     character(len=:), allocatable :: stem, names
-    type(result_file_type) :: files(size(grids) + 1)
+    type(result_file_type) :: file
+    type(unfinished_file_type) :: files(size(grids) + 3)
     integer :: i
 
     stem = folder//'/'//scene%name
     if (.not. converged) stem = stem//'.unconverged'
     names = stem//'.summary, .h5'
-    call write_case_file(stem//'.h5', PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank() == 0, scene%verbatim, &
-                         scene%echo, provenance, summary, history, arrays, files(1), error)
+    call write_case_file(stem//'.h5', PETSC_COMM_WORLD, this_rank() == 0, scene%verbatim, &
+                         scene%echo, provenance, summary, history, arrays, file, error)
     call share_failure(error)
+    files(1) = file%written
     do i = 1, size(grids)
       if (allocated(error)) exit
       names = names//', .'//grids(i)%name//'.vtkhdf'
-      call write_grid_file(stem//'.'//grids(i)%name//'.vtkhdf', PETSC_COMM_WORLD, MPI_INFO_NULL, this_rank(), &
+      call write_grid_file(stem//'.'//grids(i)%name//'.vtkhdf', PETSC_COMM_WORLD, this_rank(), &
                            rank_count(), grids(i)%grid, grids(i)%point_field, grids(i)%cell_field, &
-                           files(i + 1), error)
+                           file, error)
       call share_failure(error)
+      files(i + 1) = file%written
     end do
-    if (.not. allocated(error)) call keep_all(stem, files, summary, scene, error)
+    if (this_rank() == 0) call keep_all(stem, files, summary, scene, error)
     call share_failure(error)
-    if (allocated(error)) then
-      do i = 1, size(files)
-        call drop_result_file(files(i))
-      end do
-      return
-    end if
+    if (allocated(error)) return
     call log%line('')
     call log%line('results: '//names//', .used.nml')
   end subroutine write_result_set
 
-  !> Gives the finished files their names and writes the small ones, the summary last.
+  !> Writes the small files too and gives all of them their names, the summary last; none stays unfinished.
   subroutine keep_all(stem, files, summary, scene, error)
     character(len=*), intent(in) :: stem
-    type(result_file_type), intent(in) :: files(:)
+    type(unfinished_file_type), intent(inout) :: files(:)
     type(quantity_type), intent(in) :: summary(:)
     type(scene_type), intent(in) :: scene
-    type(error_type), allocatable, intent(out) :: error
+    type(error_type), allocatable, intent(inout) :: error !! of the large files
     integer :: i
 
-    if (this_rank() /= 0) return
-    call write_text_file(stem//'.used.nml', scene%echo, error)
+    associate (last => size(files))
+      if (.not. allocated(error)) call write_unfinished_text(stem//'.used.nml', scene%echo, files(last - 1), error)
+      if (.not. allocated(error)) call write_unfinished_text(stem//'.summary', summary_text(summary), files(last), error)
+    end associate
+    if (.not. allocated(error)) call publish(files, error)
     do i = 1, size(files)
-      if (allocated(error)) return
-      call keep_result_file(files(i), error)
+      call drop_unfinished(files(i))
     end do
-    if (allocated(error)) return
-    call write_text_file(stem//'.summary', summary_text(summary), error)
   end subroutine keep_all
 
   !> Puts a field at the end of a list.

@@ -28,10 +28,10 @@ contains
   !> Writes the file under its temporary name.
   !>
   !> Fails when it cannot be written.
-  subroutine write_case_file(path, communicator, information, first_rank, verbatim, echo, &
+  subroutine write_case_file(path, communicator, first_rank, verbatim, echo, &
                              provenance, summary, history, arrays, file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer, intent(in) :: communicator, information !! MPI's
+    integer, intent(in) :: communicator !! MPI's
     logical, intent(in) :: first_rank !! this rank leads
     character(len=*), intent(in) :: verbatim         !! text of the case file
     character(len=*), intent(in) :: echo             !! every key with the value used
@@ -42,7 +42,7 @@ contains
     type(result_file_type), intent(out) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
-    call open_result_file(path, communicator, information, first_rank, file, error)
+    call open_result_file(path, communicator, first_rank, file, error)
     if (allocated(error)) return
     call file%group('/scene')
     call file%put_text('/scene/case_file', verbatim, 'the case file as it was read')

@@ -45,10 +45,10 @@ contains
   !> Writes a grid and its fields under the file's temporary name.
   !>
   !> Fails when the file cannot be written.
-  subroutine write_grid_file(path, communicator, information, rank, ranks, grid, point_field, &
+  subroutine write_grid_file(path, communicator, rank, ranks, grid, point_field, &
                              cell_field, file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer, intent(in) :: communicator, information !! MPI's
+    integer, intent(in) :: communicator !! MPI's
     integer, intent(in) :: rank, ranks               !! this one, from 0, and their number
     type(grid_type), intent(in) :: grid              !! parts by `block_bounds`
     type(grid_field_type), intent(in) :: point_field(:), cell_field(:) !! values of elements
@@ -56,7 +56,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer :: first, last
 
-    call open_result_file(path, communicator, information, rank == 0, file, error)
+    call open_result_file(path, communicator, rank == 0, file, error)
     if (allocated(error)) return
     call file%group(group)
     call file%mark_longs(group, 'Version', [2_long, 0_long])

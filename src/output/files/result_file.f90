@@ -1,27 +1,31 @@
-!> An HDF5 file that all ranks write together.
+!> An HDF5 file to which all ranks add.
 !>
-!> It is written under a temporary name and takes its own when it is whole. Every dataset has a unit
-!> and a meaning.
+!> The first rank builds it in memory, where no disk can be full, from what the ranks send, and
+!> writes it with a checksum under a temporary name; it takes its own when it is whole. Every
+!> dataset has a unit and a meaning.
 module gfb_result_file
-  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_int8_t, c_char
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_null_ptr, c_int8_t, c_char
   use hdf5
+  use mpi, only: MPI_INTEGER, MPI_Bcast
   use gfb_kinds, only: wp, long
   use gfb_errors, only: error_type, fail, status_machine
-  use gfb_c_library, only: rename_file, remove_file
+  use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
+                          error_words
+  use gfb_rank_parts, only: gather_parts, share_truth
   implicit none (type, external)
   private
   public :: open_result_file, close_result_file, drop_result_file, keep_result_file
 
-  character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
-  integer, parameter :: no_parts(0) = [integer ::]    !! extents of an entry that is a number
+  integer(size_t), parameter :: growth = 1048576_size_t !! of a file in memory, at a time [B]
 
   !> An open file.
   type, public :: result_file_type
     character(len=:), allocatable :: path
-    logical :: first_rank = .false. !! this rank writes what all ranks know
-    logical :: failed = .false.     !! something could not be written
+    logical :: first_rank = .false. !! this rank builds and writes the file
+    logical :: failed = .false.     !! something could not be added
+    type(unfinished_file_type) :: written !! on the first rank, once it is closed
+    integer, private :: communicator = 0  !! MPI's, of the ranks that add to it
     integer(hid_t), private :: file = -1
-    integer(hid_t), private :: collective = -1
   contains
     procedure :: group => add_group
     procedure :: need_group
@@ -34,20 +38,18 @@ module gfb_result_file
     procedure :: put_byte_block
     procedure :: mark_text
     procedure :: mark_longs
-    procedure, private :: write_part
+    procedure, private :: put_parts
+    procedure, private :: put_whole
     procedure, private :: describe
   end type result_file_type
 
 contains
 
-  !> Begins a file, under a temporary name.
-  !>
-  !> Fails when it cannot be made.
-  subroutine open_result_file(path, communicator, information, first_rank, file, error)
+  !> Begins a file in memory.
+  subroutine open_result_file(path, communicator, first_rank, file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's, of the ranks that write
-    integer, intent(in) :: information  !! MPI's null information
-    logical, intent(in) :: first_rank !! this rank leads
+    logical, intent(in) :: first_rank !! this rank is the first of them
     type(result_file_type), intent(out) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     integer(hid_t) :: access
@@ -55,51 +57,82 @@ contains
 
     file%path = path
     file%first_rank = first_rank
+    file%communicator = communicator
+    if (.not. first_rank) return
     call h5open_f(status)
     call h5eset_auto_f(0, status)
     call h5pcreate_f(H5P_FILE_ACCESS_F, access, status)
-    call h5pset_fapl_mpio_f(access, communicator, information, status)
-    call h5fcreate_f(path//unfinished, H5F_ACC_TRUNC_F, file%file, status, access_prp=access)
-    if (status /= 0) call fail(error, path//': the file cannot be written', status_machine)
+    call h5pset_fapl_core_f(access, growth, .false., status)
+    call h5fcreate_f(path, H5F_ACC_TRUNC_F, file%file, status, access_prp=access)
+    if (status /= 0) call fail(error, path//': the file cannot be built in memory', status_machine)
     call h5pclose_f(access, status)
-    call h5pcreate_f(H5P_DATASET_XFER_F, file%collective, status)
-    call h5pset_dxpl_mpio_f(file%collective, H5FD_MPIO_COLLECTIVE_F, status)
   end subroutine open_result_file
 
-  !> Ends a file, which keeps its temporary name until `keep_result_file`.
+  !> Ends a file and writes it; it keeps its temporary name until `keep_result_file`.
   !>
-  !> Fails when anything in it could not be written.
+  !> Fails on all ranks when anything in it could not be written.
   subroutine close_result_file(file, error)
     type(result_file_type), intent(inout) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    integer :: status
+    integer(c_int8_t), allocatable :: image(:)
+    integer :: status, ignored
 
-    call h5pclose_f(file%collective, status)
-    call h5fclose_f(file%file, status)
-    if (status /= 0) file%failed = .true.
+    status = 0
+    if (file%first_rank) then
+      call take_image(file, image)
+      if (.not. file%failed) call write_unfinished(file%path, image, .true., file%written, status)
+    end if
+    call MPI_Bcast(status, 1, MPI_INTEGER, 0, file%communicator, ignored)
+    call share_truth(file%failed, file%communicator)
     if (file%failed) then
-      call fail(error, file%path//': writing failed (is the disk full?)', status_machine)
+      call fail(error, file%path//': the file cannot be built in memory', status_machine)
+    else if (status /= 0) then
+      call fail(error, file%path//': the file cannot be written: '//error_words(status), &
+                status_machine)
     end if
   end subroutine close_result_file
+
+  !> The bytes of the file in memory, which is freed.
+  subroutine take_image(file, image)
+    type(result_file_type), intent(inout) :: file
+    integer(c_int8_t), allocatable, target, intent(out) :: image(:)
+    type(c_ptr) :: address
+    integer(size_t) :: length
+    integer :: status
+
+    call h5fflush_f(file%file, H5F_SCOPE_GLOBAL_F, status)
+    file%failed = file%failed .or. status /= 0
+    address = c_null_ptr ! asks for the length
+    call h5fget_file_image_f(file%file, address, 0_size_t, status, length)
+    if (status == 0) then
+      allocate (image(length))
+      address = c_loc(image)
+      call h5fget_file_image_f(file%file, address, length, status)
+    end if
+    file%failed = file%failed .or. status /= 0
+    call h5fclose_f(file%file, status)
+    file%failed = file%failed .or. status /= 0
+  end subroutine take_image
 
   !> Gives a closed file its own name; what stood there is replaced in one step.
   !>
   !> Fails when the system refuses.
   subroutine keep_result_file(file, error)
-    type(result_file_type), intent(in) :: file !! the file being written
+    type(result_file_type), intent(inout) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+    type(unfinished_file_type) :: alone(1)
 
     if (.not. file%first_rank) return
-    if (.not. rename_file(file%path//unfinished, file%path)) then
-      call fail(error, file%path//': the file cannot be put in its place', status_machine)
-    end if
+    alone(1) = file%written
+    call publish(alone, error)
+    if (.not. allocated(error)) file%written = alone(1)
   end subroutine keep_result_file
 
   !> Removes a file that was not kept.
   subroutine drop_result_file(file)
-    type(result_file_type), intent(in) :: file !! the file being written
+    type(result_file_type), intent(inout) :: file !! the file being written
 
-    if (file%first_rank .and. allocated(file%path)) call remove_file(file%path//unfinished)
+    call drop_unfinished(file%written)
   end subroutine drop_result_file
 
   !> Adds a group.
@@ -109,6 +142,7 @@ contains
     integer(hid_t) :: group
     integer :: status
 
+    if (.not. self%first_rank) return
     call h5gcreate_f(self%file, path, group, status)
     if (status /= 0) self%failed = .true.
     call h5gclose_f(group, status)
@@ -121,6 +155,7 @@ contains
     logical :: there
     integer :: status
 
+    if (.not. self%first_rank) return
     call h5lexists_f(self%file, path, there, status)
     if (.not. there) call self%group(path)
   end subroutine need_group
@@ -133,6 +168,7 @@ contains
     integer(hid_t) :: kind, space, dataset
     integer :: status
 
+    if (.not. self%first_rank) return
     buffer = words
     if (len(buffer) == 0) buffer = ' '
     call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
@@ -141,8 +177,7 @@ contains
     call h5dcreate_f(self%file, path, kind, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, '', meaning)
-    if (.not. self%first_rank) call h5sselect_none_f(space, status)
-    call h5dwrite_f(dataset, kind, c_loc(buffer(1:1)), status, space, space, self%collective)
+    call h5dwrite_f(dataset, kind, c_loc(buffer(1:1)), status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, status)
     call h5sclose_f(space, status)
@@ -159,11 +194,11 @@ contains
     integer(hid_t) :: kind
     integer :: status
 
+    if (.not. self%first_rank) return
     buffer(:size(words)) = words
     call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
     call h5tset_size_f(kind, int(max(1, len(words)), size_t), status)
-    call self%write_part(path, kind, kind, c_loc(buffer), no_parts, &
-                         merge(size(words), 0, self%first_rank), 0, size(words), '', meaning)
+    call self%put_whole(path, kind, c_loc(buffer), 1, size(words), '', meaning)
     call h5tclose_f(kind, status)
   end subroutine put_words
 
@@ -173,10 +208,11 @@ contains
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: numbers(:) !! [SI] in `unit`
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer :: mine
+    real(wp), target :: buffer(max(1, size(numbers)))
 
-    mine = merge(size(numbers), 0, self%first_rank)
-    call self%put_block(path, reshape(numbers(:mine), [1, mine]), 0, size(numbers), unit, meaning)
+    if (.not. self%first_rank) return
+    buffer(:size(numbers)) = numbers
+    call self%put_whole(path, H5T_NATIVE_DOUBLE, c_loc(buffer), 1, size(numbers), unit, meaning)
   end subroutine put_numbers
 
   !> Adds one number that all ranks know, as a dataset without dimensions.
@@ -189,20 +225,19 @@ contains
     integer(hid_t) :: space, dataset
     integer :: status
 
+    if (.not. self%first_rank) return
     value = number
     call h5screate_f(H5S_SCALAR_F, space, status)
     call h5dcreate_f(self%file, path, H5T_NATIVE_DOUBLE, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, unit, meaning)
-    if (.not. self%first_rank) call h5sselect_none_f(space, status)
-    call h5dwrite_f(dataset, H5T_NATIVE_DOUBLE, c_loc(value), status, space, space, self%collective)
+    call h5dwrite_f(dataset, H5T_NATIVE_DOUBLE, c_loc(value), status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, status)
     call h5sclose_f(space, status)
   end subroutine put_scalar
 
-  !> Adds a field of which each rank has consecutive entries; one component makes it a plain list,
-  !> and components can be those of square matrices.
+  !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
   subroutine put_block(self, path, block, offset, total, unit, meaning, order)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
@@ -210,17 +245,12 @@ contains
     integer, intent(in) :: offset       !! entries before this rank's
     integer, intent(in) :: total        !! entries of all ranks
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer, intent(in), optional :: order !! of the matrices; 0: none
+    integer, intent(in), optional :: order !! of the matrices that the entries are, row by row; 0: none
     real(wp), target :: buffer(max(1, size(block)))
-    integer, allocatable :: inner(:)
 
     buffer(:size(block)) = reshape(block, [size(block)])
-    inner = pack([size(block, 1)], [size(block, 1) /= 1])
-    if (present(order)) then
-      if (order > 0) inner = [order, order]
-    end if
-    call self%write_part(path, H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, c_loc(buffer), &
-                         inner, size(block, 2), offset, total, unit, meaning)
+    call self%put_parts(path, H5T_NATIVE_DOUBLE, storage_size(buffer)/8, c_loc(buffer), &
+                        size(block, 1), size(block, 2), offset, total, unit, meaning, order)
   end subroutine put_block
 
   !> Adds 64-bit integers of which each rank has consecutive entries.
@@ -235,9 +265,10 @@ contains
     integer(hid_t) :: kind
 
     buffer(:size(block)) = block
-    kind = h5kind_to_type(long, H5_INTEGER_KIND)
-    call self%write_part(path, kind, kind, c_loc(buffer), no_parts, size(block), offset, &
-                         total, '1', meaning)
+    kind = -1
+    if (self%first_rank) kind = h5kind_to_type(long, H5_INTEGER_KIND)
+    call self%put_parts(path, kind, storage_size(buffer)/8, c_loc(buffer), 1, size(block), offset, &
+                        total, '1', meaning)
   end subroutine put_long_block
 
   !> Adds unsigned bytes of which each rank has consecutive entries.
@@ -251,46 +282,56 @@ contains
     integer(c_int8_t), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = block
-    call self%write_part(path, H5T_STD_U8LE, H5T_STD_U8LE, c_loc(buffer), no_parts, size(block), &
-                         offset, total, '1', meaning)
+    call self%put_parts(path, H5T_STD_U8LE, storage_size(buffer)/8, c_loc(buffer), 1, size(block), &
+                        offset, total, '1', meaning)
   end subroutine put_byte_block
 
-  !> Creates a dataset and writes each rank's part of it.
-  subroutine write_part(self, path, stored, given, buffer, inner, entries, offset, total, &
-                        unit, meaning)
+  !> Brings each rank's part of a dataset to the first rank, which adds it.
+  subroutine put_parts(self, path, kind, item, buffer, components, entries, offset, total, unit, &
+                       meaning, order)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer(hid_t), intent(in) :: stored, given !! types in the file and in memory
+    integer(hid_t), intent(in) :: kind !! of the numbers
+    integer, intent(in) :: item !! bytes of a number
     type(c_ptr), intent(in) :: buffer !! this rank's entries
-    integer, intent(in) :: inner(:) !! extents of an entry; none: it is a number
-    integer, intent(in) :: entries, offset, total !! here, before, in all
+    !> of an entry; here, before, in all
+    integer, intent(in) :: components, entries, offset, total
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
+    integer, intent(in), optional :: order !! of the matrices that the entries are
+    integer(c_int8_t), allocatable, target :: all(:)
 
-    integer(hsize_t), dimension(size(inner) + 1) :: extent, part, start
-    integer(hid_t) :: space, memory, dataset
-    integer :: status, rank
+    call gather_parts(self%communicator, self%first_rank, components*item, buffer, entries, &
+                      offset, total, all)
+    if (.not. self%first_rank) return
+    call self%put_whole(path, kind, c_loc(all), components, total, unit, meaning, order)
+  end subroutine put_parts
 
-    rank = size(extent)
-    extent = [inner, total]
-    part = [inner, entries]
-    start = [0*inner, offset]
-    call h5screate_simple_f(rank, extent, space, status)
-    call h5dcreate_f(self%file, path, stored, space, dataset, status)
+  !> Adds a dataset; only the first rank may.
+  subroutine put_whole(self, path, kind, buffer, components, entries, unit, meaning, order)
+    class(result_file_type), intent(inout) :: self !! the file
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    integer(hid_t), intent(in) :: kind !! of the numbers
+    type(c_ptr), intent(in) :: buffer !! all entries
+    integer, intent(in) :: components, entries !! of an entry; in all
+    character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
+    integer, intent(in), optional :: order !! of the matrices that the entries are
+    integer(hsize_t), allocatable :: extent(:)
+    integer(hid_t) :: space, dataset
+    integer :: status
+
+    extent = int([pack([components], [components /= 1]), entries], hsize_t)
+    if (present(order)) then
+      if (order > 0) extent = int([order, order, entries], hsize_t)
+    end if
+    call h5screate_simple_f(size(extent), extent, space, status)
+    call h5dcreate_f(self%file, path, kind, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, unit, meaning)
-    call h5screate_simple_f(rank, max(part, 1_hsize_t), memory, status)
-    if (entries > 0) then
-      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start, part, status)
-    else
-      call h5sselect_none_f(space, status)
-      call h5sselect_none_f(memory, status)
-    end if
-    call h5dwrite_f(dataset, given, buffer, status, memory, space, self%collective)
+    if (entries > 0) call h5dwrite_f(dataset, kind, buffer, status)
     if (status /= 0) self%failed = .true.
-    call h5sclose_f(memory, status)
     call h5dclose_f(dataset, status)
     call h5sclose_f(space, status)
-  end subroutine write_part
+  end subroutine put_whole
 
   !> Unit and meaning of a dataset.
   subroutine describe(self, dataset, unit, meaning)
@@ -309,6 +350,7 @@ contains
     integer(hid_t) :: object
     integer :: status
 
+    if (.not. self%first_rank) return
     call h5gopen_f(self%file, group, object, status)
     call write_text_attribute(object, name, words, self%failed)
     call h5gclose_f(object, status)
@@ -323,6 +365,7 @@ contains
     integer(hid_t) :: object, kind, space, attribute
     integer :: status
 
+    if (.not. self%first_rank) return
     buffer = numbers
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
     call h5gopen_f(self%file, group, object, status)

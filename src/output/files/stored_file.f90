@@ -1,9 +1,11 @@
-!> An HDF5 file that all ranks read together, dataset by dataset.
+!> An HDF5 file that all ranks read, each what it needs, once its checksum was found to fit.
 module gfb_stored_file
   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_char
   use hdf5
+  use mpi, only: MPI_CHARACTER, MPI_Bcast
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
+  use gfb_file_set, only: check_seal
   implicit none (type, external)
   private
   public :: open_stored_file, close_stored_file
@@ -13,7 +15,6 @@ module gfb_stored_file
     character(len=:), allocatable :: path
     logical :: failed = .false. !! something could not be read on this rank
     integer(hid_t), private :: file = -1
-    integer(hid_t), private :: collective = -1
   contains
     procedure :: has
     procedure :: words
@@ -28,36 +29,48 @@ contains
 
   !> Opens a file for reading.
   !>
-  !> Fails when it is no HDF5 file.
-  subroutine open_stored_file(path, communicator, information, file, error)
+  !> Fails on all ranks when it is no HDF5 file, and when it does not fit its checksum.
+  subroutine open_stored_file(path, communicator, first_rank, file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's, of the ranks that read
-    integer, intent(in) :: information  !! MPI's null information
+    logical, intent(in) :: first_rank !! this rank is the first of them
     type(stored_file_type), intent(out) :: file !! the file being read
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    integer(hid_t) :: access
     integer :: status
 
     file%path = path
+    call compare_seal(path, communicator, first_rank, error)
+    if (allocated(error)) return
     call h5open_f(status)
     call h5eset_auto_f(0, status)
-    call h5pcreate_f(H5P_FILE_ACCESS_F, access, status)
-    call h5pset_fapl_mpio_f(access, communicator, information, status)
-    call h5fopen_f(path, H5F_ACC_RDONLY_F, file%file, status, access_prp=access)
+    call h5fopen_f(path, H5F_ACC_RDONLY_F, file%file, status)
     if (status /= 0) then
       call fail(error, path//': the file cannot be read, or is no HDF5 file', status_machine)
     end if
-    call h5pclose_f(access, status)
-    call h5pcreate_f(H5P_DATASET_XFER_F, file%collective, status)
-    call h5pset_dxpl_mpio_f(file%collective, H5FD_MPIO_COLLECTIVE_F, status)
   end subroutine open_stored_file
+
+  !> Compares the file with its checksum, on one rank for all.
+  !>
+  !> Fails where they do not fit.
+  subroutine compare_seal(path, communicator, first_rank, error)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: communicator
+    logical, intent(in) :: first_rank
+    type(error_type), allocatable, intent(out) :: error
+    character(len=300) :: problem
+    integer :: ignored
+
+    problem = ''
+    if (first_rank) problem = check_seal(path)
+    call MPI_Bcast(problem, len(problem), MPI_CHARACTER, 0, communicator, ignored)
+    if (problem /= '') call fail(error, path//': '//trim(problem), status_machine)
+  end subroutine compare_seal
 
   !> Ends reading.
   subroutine close_stored_file(file)
     type(stored_file_type), intent(inout) :: file !! the file being read
     integer :: status
 
-    call h5pclose_f(file%collective, status)
     call h5fclose_f(file%file, status)
   end subroutine close_stored_file
 
@@ -213,7 +226,7 @@ contains
       call h5sselect_none_f(memory, status)
     end if
     address = c_loc(buffer)
-    call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status, memory, space, self%collective)
+    call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status, memory, space)
     if (status == 0) block = reshape(buffer(:components*entries), [components, entries])
     if (status /= 0) self%failed = .true.
     call h5sclose_f(memory, ignored)

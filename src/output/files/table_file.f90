@@ -25,10 +25,10 @@ contains
   !> Writes the file under its temporary name.
   !>
   !> Fails when it cannot be written.
-  subroutine write_table_file(path, communicator, information, provenance, summary, members, &
+  subroutine write_table_file(path, communicator, provenance, summary, members, &
                               file, error)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer, intent(in) :: communicator, information !! MPI's, of one rank
+    integer, intent(in) :: communicator !! MPI's, of one rank
     type(quantity_type), intent(in) :: provenance(:), summary(:) !! the answer
     type(table_member_type), intent(in) :: members(:) !! a row each
     type(result_file_type), intent(out) :: file !! the file being written
@@ -44,7 +44,7 @@ contains
       reasons(i) = members(i)%reason
       rows(i) = members(i)%row
     end do
-    call open_result_file(path, communicator, information, .true., file, error)
+    call open_result_file(path, communicator, .true., file, error)
     if (allocated(error)) return
     call write_quantities(file, '/provenance', provenance)
     call write_quantities(file, '/summary', summary)

@@ -1,53 +1,63 @@
-!> Small text files, written under a temporary name by one rank.
+!> Small text files, written by one rank.
 module gfb_text_file
+  use, intrinsic :: iso_c_binding, only: c_int8_t
   use gfb_errors, only: error_type, fail, status_machine
-  use gfb_c_library, only: rename_file
+  use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
+                          error_words
   implicit none (type, external)
   private
-  public :: write_text_file, folder_is_writable
+  public :: write_unfinished_text, write_text_file, try_folder
 
-  character(len=*), parameter :: unfinished = '.part' !! ending of a file that is being written
-  !> a file that is written to see whether one can
-  character(len=*), parameter :: trial = '.gfb-trial'
+  integer, parameter :: input_output = 5, no_space = 28, no_quota = 122 !! errno on Linux
 
 contains
+
+  !> Writes a text as a file of a set that is to become visible.
+  !>
+  !> Fails when the system refuses.
+  subroutine write_unfinished_text(path, words, file, error)
+    character(len=*), intent(in) :: path !! that the file is to get
+    character(len=*), intent(in) :: words !! with its line ends
+    type(unfinished_file_type), intent(out) :: file !! that was written
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+    integer(c_int8_t), allocatable :: bytes(:)
+    integer :: status
+
+    bytes = transfer(words, bytes, len(words))
+    call write_unfinished(path, bytes, .false., file, status)
+    if (status /= 0) then
+      call fail(error, path//': the file cannot be written: '//error_words(status), status_machine)
+    end if
+  end subroutine write_unfinished_text
 
   !> Writes a text as a file, whole or not at all.
   !>
   !> Fails when the system refuses.
   subroutine write_text_file(path, words, error)
-    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    character(len=*), intent(in) :: path !! of the file
     character(len=*), intent(in) :: words !! with its line ends
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    integer :: unit, status
-    logical :: done
+    type(unfinished_file_type) :: file(1)
 
-    open (newunit=unit, file=path//unfinished, access='stream', form='unformatted', &
-          status='replace', action='write', iostat=status)
-    done = status == 0
-    if (done) then
-      write (unit, iostat=status) words
-      done = status == 0
-      close (unit, iostat=status)
-      done = done .and. status == 0
-    end if
-    if (.not. done) then
-      call fail(error, path//': the file cannot be written', status_machine)
-    else if (.not. rename_file(path//unfinished, path)) then
-      call fail(error, path//': the file cannot be put in its place', status_machine)
-    end if
+    call write_unfinished_text(path, words, file(1), error)
+    if (allocated(error)) return
+    call publish(file, error)
+    call drop_unfinished(file(1))
   end subroutine write_text_file
 
-  !> Whether a file can be made in a folder.
-  function folder_is_writable(folder) result(writable)
+  !> Tries whether a file can be made in a folder.
+  !>
+  !> Fails where none can.
+  subroutine try_folder(folder, error)
     character(len=*), intent(in) :: folder !! of the results
-    logical :: writable
-    integer :: unit, status
+    type(error_type), allocatable, intent(out) :: error !! why none can
+    type(unfinished_file_type) :: trial
+    integer :: status
 
-    open (newunit=unit, file=folder//'/'//trial, status='replace', action='write', iostat=status)
-    writable = status == 0
-    if (.not. writable) return
-    close (unit, status='delete', iostat=status)
-    writable = status == 0
-  end function folder_is_writable
+    call write_unfinished(folder//'/trial', [integer(c_int8_t) ::], .false., trial, status)
+    call drop_unfinished(trial)
+    if (status == 0) return
+    call fail(error, folder//': results cannot be written to this folder: '//error_words(status))
+    if (any(status == [no_space, no_quota, input_output])) error%status = status_machine
+  end subroutine try_folder
 end module gfb_text_file

@@ -65,6 +65,7 @@ contains
     end if
     status = job%largest(mine%status)
     if (status == 0) call drop_restart(own%restart)
+    call own%give_back()
     call close_group_log(own%log)
     call study%discard()
   end subroutine run_divided_sweep
@@ -136,6 +137,7 @@ contains
       end if
     end associate
     call study%check(scene, error)
+    if (.not. allocated(error)) call context%take_case(own%name, error)
     if (.not. allocated(error)) call context%find_restart(own, error)
     if (allocated(error)) return
     call context%log%heading('solution')
@@ -231,6 +233,12 @@ contains
     terminal = context
     terminal%log%active = job%leads
     terminal%log%verbose = .false.
+    call terminal%take_case(scene%name, error)
+    if (allocated(error)) then
+      status = max(status, error%status)
+      call terminal%log%complaint(error%message)
+      return
+    end if
     result%converged = all(stretches%status == 0)
     result%upwind = study%plan%upwind
     result%cost = cost_type(study%unknowns, sum(stretches%iterations), sum(stretches%factorizations), &
@@ -242,6 +250,7 @@ contains
     call merge_histories(scene, stretches, study%sweep%record%history)
     study%sweep%record%tilted%first_slope = stretches(1)%first_slope
     call write_bearing(scene, terminal, study%sweep, result, summary, error)
+    call terminal%give_back()
     call show_failures(scene, stretches, terminal%log)
     call show_seams(scene, stretches, terminal%log)
     if (.not. allocated(error)) return

@@ -7,6 +7,8 @@ import pathlib
 import h5py
 import numpy
 
+from gfb.results import open_results
+
 # What two runs of one program on one case need not have alike; nothing else is left out. A name without a folder holds
 # in summaries and in every group of every file.
 EXCLUDED = {
@@ -98,7 +100,7 @@ def contents_of(path):
         for attribute, value in item.attrs.items():
             contents[f"{name}@{attribute}"] = value
 
-    with h5py.File(path, "r") as file:
+    with open_results(path) as file:
         add("", file)
         file.visititems(add)
     return contents

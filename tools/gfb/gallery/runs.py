@@ -8,11 +8,10 @@ import json
 import pathlib
 import re
 
-import h5py
 
 from gfb.plot.film import draw_film, read_film
 from gfb.plot.strip import used_keys
-from gfb.results import read_history, read_summary, text_of
+from gfb.results import open_results, read_history, read_summary, text_of
 from gfb.run import DONE, NOT_CONVERGED, call, command_of, namelist_value, stem_of
 from gfb.tool import ROOT, stop
 
@@ -66,7 +65,7 @@ class Result:
         path = pathlib.Path(f"{self.stem}.film.vtkhdf")
         if not path.exists():  # of several branches the first one's
             path = pathlib.Path(f"{self.stem}.1.film.vtkhdf")
-        with h5py.File(path, "r") as file:
+        with open_results(path) as file:
             return what(path, file)
 
     @functools.cached_property
@@ -87,7 +86,7 @@ class Result:
         return pathlib.Path(f"{self.stem}.h5")
 
     def open(self):
-        return h5py.File(self.path, "r")
+        return open_results(self.path)
 
 
 class Runs:

@@ -22,7 +22,6 @@ import contextlib
 import pathlib
 import re
 
-import h5py
 import matplotlib
 import numpy
 
@@ -31,7 +30,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb.plot import foil, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
-from gfb.results import attribute, text_of  # noqa: E402
+from gfb.results import attribute, open_results, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
@@ -61,7 +60,10 @@ def main():
         if options.list:
             print(list_names(options.file, files[0]), end="")
             return 0
-        figure = draw(options, [options.file, *more], files)
+        try:
+            figure = draw(options, [options.file, *more], files)
+        except (KeyError, IndexError, ValueError, OSError, RuntimeError) as error:
+            stop(f"{options.file}: cannot be drawn, not a whole file of this gfb: {error}")
     try:
         figure.savefig(picture, dpi=100)
     except (OSError, ValueError) as error:
@@ -81,7 +83,7 @@ def step_numbers(text):
 def open_file(path, opened):
     """An HDF5 file that stays open as long as the stack."""
     try:
-        return opened.enter_context(h5py.File(path, "r"))
+        return opened.enter_context(open_results(path))
     except FileNotFoundError:
         stop(f"{path}: there is no such file")
     except OSError as error:

@@ -1,0 +1,245 @@
+"""Faults on purpose: full disks, failing calls, kills and damaged files, and what a run leaves after each.
+
+A small case stands in a folder with its results. A run of another load into the same folder meets a fault at each of its
+operations on files in turn; a preloaded library (faults.c) lets it fail. What counts: the exit status, a sentence, no crash,
+and that the folder holds one whole set of results, the old one or the new.
+"""
+
+import collections
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+
+from gfb.results import open_results, read_summary
+from gfb.run import ENVIRONMENT, MPIEXEC, case_text
+from gfb.tables import markdown_table
+
+SOURCE = pathlib.Path(__file__).with_name("faults.c")
+SECONDS = 120
+CRASH = ("SIGSEGV", "Segmentation", "Backtrace", "MPI_ABORT", "PETSC ERROR", "HDF5-DIAG", "Fortran runtime error")
+CASE = {
+    "scene": {"analysis": "equilibrium"},
+    "bearing": {"radius": 0.02, "length": 0.04, "clearance": 2.0e-5},
+    "gas": {"viscosity": 2.0e-5, "ambient_pressure": 1.0e5},
+    "operation": {"speed_rpm": 20000.0, "load": (-20.0, 0.0)},
+    "model": {"foil": "rigid"},
+    "mesh": {"circumferential_elements": 32, "axial_elements": 4},
+}
+ENDINGS = ("summary", "h5", "film.vtkhdf", "used.nml")
+Row = collections.namedtuple("Row", "fault tried survived refused wrong")
+
+
+def add_options(parser):
+    """Options of `tools/bench faults`."""
+    parser.add_argument("--short", action="store_true", help="fewer faults, as the default tests have")
+
+
+def run(options):
+    """The table of faults."""
+    rows = all_rows(options.gfb, long=not options.short)
+    head = ("fault", "tried", "done all the same", "refused with a sentence", "wrong")
+    lines = [[row.fault, *map(str, (row.tried, row.survived, row.refused, len(row.wrong)))] for row in rows]
+    return markdown_table("Faults on purpose, and what a run leaves", head, lines) + "".join(f"\nwrong: {row.fault}: {word}" for row in rows for word in row.wrong) + "\n"
+
+
+def build_library(folder):
+    """The preloaded library; None where no compiler makes it."""
+    library = pathlib.Path(folder)/"faults.so"
+    done = subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-O1", "-o", str(library), str(SOURCE), "-ldl"],
+                          capture_output=True, check=False)
+    return library if done.returncode == 0 else None
+
+
+def write_cases(folder):
+    """The case whose results are there, and the one that is run over it."""
+    for name, load in (("old", -20.0), ("new", -40.0)):
+        place = pathlib.Path(folder)/name
+        place.mkdir(exist_ok=True)
+        (place/"case.nml").write_text(case_text(CASE | {"operation": CASE["operation"] | {"load": (load, 0.0)}}),
+                                      encoding="utf-8")
+
+
+def call(gfb, case, folder, *words, environment=None, ranks=1):
+    """Status and complaints of a run."""
+    command = [gfb, "--quiet", *words, "--output", str(folder), str(case)]
+    if ranks > 1:
+        command = [MPIEXEC, "-n", str(ranks), *command]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
+                          check=False, timeout=SECONDS,
+                          env={**ENVIRONMENT, **os.environ, **(environment or {})})
+    return done.returncode, done.stderr + "".join(line for line in done.stdout.splitlines(True)
+                                                  if any(word in line for word in CRASH))
+
+
+def load_of(folder):
+    """Loads that the files of a set say, one where they are one set."""
+    stem = pathlib.Path(folder)/"case"
+    with open_results(f"{stem}.h5") as file:
+        loads = {round(float(file["summary/force_x"][()]), 6)}
+        gap = float(file["summary/minimum_gap"][()])
+    with open_results(f"{stem}.film.vtkhdf") as file:
+        loads |= loads if abs(file["VTKHDF/PointData/gap"][...].min() - gap) < 1.0e-12*gap else {"another film"}
+    loads.add(round(read_summary(f"{stem}.summary")[0]["force_x"], 6))
+    echo = pathlib.Path(f"{stem}.used.nml").read_text(encoding="utf-8")
+    loads.add(-20.0 if "load = -20" in echo else -40.0)
+    return loads
+
+
+def problem_after(folder, status, complaint, expected=(0, 3)):
+    """What is wrong with how a run has ended; empty where nothing is."""
+    if any(word in complaint for word in CRASH):
+        return "crash: " + complaint[:200]
+    if status not in expected:
+        return f"status {status}: {complaint[:200]}"
+    if status and not complaint.strip():
+        return "no sentence"
+    try:
+        loads = load_of(folder)
+    except (OSError, KeyError, ValueError) as error:
+        return f"no whole set: {error}"
+    if loads != {-40.0 if status == 0 else -20.0}:
+        return f"status {status} with results of {sorted(map(str, loads))}"
+    left = [path.name for path in folder.iterdir() if path.name.startswith(".gfb")]
+    return f"left behind: {left}" if left else ""
+
+
+class Faults:
+    """Runs over a folder of results that is made anew each time."""
+
+    def __init__(self, gfb, folder):
+        self.gfb, self.folder = gfb, pathlib.Path(folder)
+        write_cases(self.folder)
+        self.kept = self.folder/"kept"
+        status, complaint = call(gfb, self.folder/"old/case.nml", self.kept)
+        if status != 0:
+            raise RuntimeError(complaint)
+
+    def anew(self, place=None):
+        """A folder with the old results."""
+        place = place or self.folder/"results"
+        if place.exists():
+            shutil.rmtree(place)
+        shutil.copytree(self.kept, place)
+        return place
+
+    def over(self, place, **more):
+        """A run over it."""
+        return call(self.gfb, self.folder/"new/case.nml", place, **more)
+
+    def operations(self, library, kind, step=1, ranks=1):
+        """A fault at each operation in turn."""
+        survived, refused, wrong, at = 0, 0, [], 1
+        count = self.folder/"count"
+        while True:
+            place = self.anew()
+            count.unlink(missing_ok=True)
+            status, complaint = self.over(place, ranks=ranks, environment={
+                "LD_PRELOAD": str(library), "GFB_FAULT_FOLDER": str(place), "GFB_FAULT_AT": str(at),
+                "GFB_FAULT_KIND": kind, "GFB_FAULT_COUNT": str(count)})
+            if kind == "kill":
+                if status == 0:
+                    break
+                found = self.after_kill(place, status)
+            else:
+                found = problem_after(place, status, complaint, expected=(0, 3))
+            survived += status == 0
+            refused += status == 3
+            if found:
+                wrong.append(f"operation {at}: {found}")
+            if kind != "kill" and int(count.read_text(encoding="utf-8")) < at:
+                survived -= 1  # no fault any more
+                break
+            at += step
+        tried = (at - 1 + step - 1)//step
+        return Row({"once": "one call fails", "full": "disk full from a call on", "kill": "killed at a call"}[kind] +
+                   (f", {ranks} ranks" if ranks > 1 else ""), tried, survived if kind != "kill" else tried - len(wrong),
+                   refused, wrong)
+
+    def after_kill(self, place, status):
+        """A run of another case finishes or clears what a killed one has left; the set is one."""
+        if status != -signal.SIGKILL:
+            return f"status {status}"
+        shutil.copy(self.folder/"old/case.nml", self.folder/"other.nml")
+        status, complaint = call(self.gfb, self.folder/"other.nml", place)
+        if status != 0:
+            return f"the next run: status {status}: {complaint[:200]}"
+        try:
+            loads = load_of(place)
+        except (OSError, KeyError, ValueError) as error:
+            return f"no whole set: {error}"
+        if len(loads) != 1:
+            return f"a set of {sorted(map(str, loads))}"
+        left = [path.name for path in place.iterdir() if path.name.startswith((".gfb-file", ".gfb-set"))]
+        return f"left behind: {left}" if left else ""
+
+    def small_disk(self, sizes):
+        """A disk of a few pages; None where the machine mounts none."""
+        disk = self.folder/"disk"
+        disk.mkdir(exist_ok=True)
+        survived, refused, wrong, tried = 0, 0, [], 0
+        need = sum(-(-path.stat().st_size//4096)*4096 for path in self.kept.iterdir())
+        for more in sizes:
+            done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={need + more}", "tmpfs", str(disk)],
+                                  capture_output=True, check=False)
+            if done.returncode != 0:
+                return None
+            try:
+                place = self.anew(disk/"results")
+                status, complaint = self.over(place)
+                found = problem_after(place, status, complaint)
+            finally:
+                subprocess.run(["umount", str(disk)], check=False)
+            tried, survived, refused = tried + 1, survived + (status == 0), refused + (status == 3)
+            if found:
+                wrong.append(f"{more} bytes left: {found}")
+        return Row("disk (tmpfs) with a few pages left", tried, survived, refused, wrong)
+
+    def damaged(self, flips):
+        """Bits of a restart file that have changed."""
+        sweep = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(2000))}}
+        case = self.folder/"sweep.nml"
+        case.write_text(case_text(sweep), encoding="utf-8")
+        place = self.folder/"sweep"
+        call(self.gfb, case, place, "--time-limit", "2")
+        file = place/"sweep.restart.h5"
+        whole = file.read_bytes()
+        chance, survived, refused, wrong = random.Random(1), 0, 0, []
+        for _ in range(flips):
+            bit = chance.randrange(8*len(whole))
+            damaged = bytearray(whole)
+            damaged[bit//8] ^= 1 << bit % 8
+            file.write_bytes(damaged)
+            status, complaint = call(self.gfb, case, place, "--restart", "--time-limit", "1")
+            refused += status == 3
+            if status != 3 or "sweep.restart.h5: the file" not in complaint or any(word in complaint for word in CRASH):
+                wrong.append(f"bit {bit}: status {status}: {complaint[:100]}")
+        cuts = range(0, len(whole), len(whole)//9)
+        for cut in cuts:
+            file.write_bytes(whole[:cut])
+            status, complaint = call(self.gfb, case, place, "--restart", "--time-limit", "1")
+            refused += status == 3
+            if status != 3 or "sweep.restart.h5: the file" not in complaint:
+                wrong.append(f"cut at {cut}: status {status}: {complaint[:100]}")
+        file.write_bytes(whole)
+        return Row("a bit of a restart file changed, or its end is missing", flips + len(cuts), survived, refused, wrong)
+
+
+def all_rows(gfb, long=True):
+    """Every kind of fault."""
+    rows = []
+    with tempfile.TemporaryDirectory() as name:
+        faults = Faults(gfb, name)
+        library = build_library(name)
+        if library:
+            rows.append(faults.operations(library, "once", step=1 if long else 3))
+            if long:
+                rows.append(faults.operations(library, "full"))
+                rows.append(faults.operations(library, "kill"))
+                rows.append(faults.operations(library, "full", ranks=2))
+        rows.append(faults.small_disk([4096*i for i in range(40 if long else 5)]))
+        rows.append(faults.damaged(200 if long else 10))
+    return [row for row in rows if row]
