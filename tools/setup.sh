@@ -95,11 +95,11 @@ need_venv() {
   if [[ -x $venv/bin/python && -f $venv/installed.txt && $(<"$venv/installed.txt") == "$wanted" ]]; then
     return
   fi
-  names=$(grep -v '^#' -- "$requirements" | tr '\n' ' ')
+  names=$(grep -o '^[a-z-]*==[^ ]*' -- "$requirements" | tr '\n' ' ')
   say "installing in build/venv with pip: $names"
   rm -rf -- "$venv"
   if ! { "$base" -m venv --system-site-packages "$venv" && "$venv/bin/python" -m pip install --no-input \
-    --disable-pip-version-check --requirement "$requirements"; } >"$log" 2>&1 </dev/null 9>&-; then
+    --disable-pip-version-check --require-hashes --requirement "$requirements"; } >"$log" 2>&1 </dev/null 9>&-; then
     tail -n 15 -- "$log" >&2
     stop "pip failed; its messages are in $log"
   fi

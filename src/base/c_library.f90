@@ -19,7 +19,7 @@ module gfb_c_library
       integer(c_int) :: status
     end function c_mkdir
 
-    function c_remove(path) result(status) bind(c, name='remove')
+    function c_remove(path) result(status) bind(c, name='unlink')
       import :: c_char, c_int
       implicit none (type, external)
       character(kind=c_char), intent(in) :: path(*)
@@ -63,9 +63,9 @@ contains
     ignored = c_mkdir(trim(path)//c_null_char, folder_mode)
   end subroutine make_folder
 
-  !> Removes a file if it exists.
+  !> Removes a file, or a link in its place, if it exists.
   subroutine remove_file(path)
-    character(len=*), intent(in) :: path !! of the file or folder
+    character(len=*), intent(in) :: path !! of the file
     integer(c_int) :: ignored
 
     ignored = c_remove(trim(path)//c_null_char)

@@ -1,5 +1,6 @@
 !> A scene that is looked at and not computed.
 module gfb_check_scene
+  use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: rank_count
@@ -9,6 +10,7 @@ module gfb_check_scene
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_builder, only: foil_plan_type
   use gfb_foil_plan, only: plan_foil
+  use gfb_memory_check, only: check_memory
   use gfb_partition_report, only: show_bearing_partition, show_strip_partition
   use gfb_provenance, only: version_text
   implicit none (type, external)
@@ -19,7 +21,7 @@ contains
 
   !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
   !>
-  !> Fails when METIS does.
+  !> Fails where the machine has too little memory, as the run would, and when METIS does.
   subroutine check_scene(scene, shares, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
     integer, intent(in) :: shares !! ranks whose shares to show; 0: those of the job; negative: none
@@ -27,6 +29,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(bearing_plan_type) :: plan
     type(foil_plan_type) :: foil_plan
+    real(wp) :: memory
     integer :: ranks
 
     call log%line(version_text())
@@ -35,10 +38,18 @@ contains
     if (shares == 0) ranks = rank_count()
     if (is_bearing(scene%general%analysis)) then
       call plan_bearing(scene, log, plan)
-      if (shares >= 0) call show_bearing_partition(scene, plan, ranks, log, error)
+      memory = plan%memory
     else
       call plan_foil(scene, log, foil_plan)
-      if (shares >= 0) call show_strip_partition(scene, foil_plan, ranks, log, error)
+      memory = foil_plan%memory
+    end if
+    ! With &accuracy the run begins on a coarser mesh, and stops where the machine is full.
+    if (.not. scene%accuracy%present) call check_memory(scene, memory, error)
+    if (allocated(error)) return
+    if (shares >= 0 .and. is_bearing(scene%general%analysis)) then
+      call show_bearing_partition(scene, plan, ranks, log, error)
+    else if (shares >= 0) then
+      call show_strip_partition(scene, foil_plan, ranks, log, error)
     end if
     if (allocated(error)) return
     call log%line('')

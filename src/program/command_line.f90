@@ -88,6 +88,10 @@ contains
         line%quiet = .true.
       case ('--petsc') ! the rest is for PETSc
         exit
+      case ('--') ! the rest are case files
+        do i = i + 1, command_argument_count()
+          call take_file(argument(i), line, error)
+        end do
       case ('--output')
         i = i + 1
         line%folder = argument(i)
@@ -186,7 +190,6 @@ contains
     type(command_line_type), intent(inout) :: line
     type(error_type), allocatable, intent(out) :: error
     character(len=:), allocatable :: near
-    type(file_name_type) :: file
     integer :: status
 
     if (index(word, '--output=') == 1 .and. len(word) > 9) then
@@ -206,14 +209,26 @@ contains
       near = nearest_word(word, options)
       if (near /= '') near = ', did you mean '//near//'?'
       call fail(error, 'gfb: unknown option '//word//near//' (gfb --help shows all)')
-    else if (word == '') then
-      call fail(error, 'gfb: the name of the case file is empty')
     else
-      if (.not. allocated(line%case_file)) line%case_file = word
-      file%path = word
-      line%case_files = [line%case_files, file]
+      call take_file(word, line, error)
     end if
   end subroutine take_other
+
+  !> A case file.
+  subroutine take_file(word, line, error)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(inout) :: error
+    type(file_name_type) :: file
+
+    if (word == '') then
+      call fail(error, 'gfb: the name of the case file is empty')
+      return
+    end if
+    if (.not. allocated(line%case_file)) line%case_file = word
+    file%path = word
+    line%case_files = [line%case_files, file]
+  end subroutine take_file
 
   !> One word of the command line, empty where there is none.
   function argument(number) result(word)
@@ -269,6 +284,7 @@ contains
       '  --results       table of the names of all results'//next// &
       '  --version       version of the program and its libraries'//next// &
       '  --help          this text'//next// &
+      '  --              case files follow, also such as begin with -'//next// &
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
       next// &
       'results: CASE.summary, .h5, .used.nml, and surfaces as .<part>.vtkhdf;'//next// &

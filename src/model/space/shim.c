@@ -14,8 +14,18 @@ static PetscErrorCode end_with_sentence(MPI_Comm communicator, int line, const c
   const int status_machine = 3;
   int       ranks, initialized;
 
-  if (code != PETSC_ERR_LIB && code != PETSC_ERR_MEM && code != PETSC_ERR_NOT_CONVERGED)
+  switch (code) {
+  case PETSC_ERR_LIB:
+  case PETSC_ERR_MEM:
+  case PETSC_ERR_NOT_CONVERGED:
+  case PETSC_ERR_CONV_FAILED:
+  case PETSC_ERR_MAT_LU_ZRPVT:
+  case PETSC_ERR_MAT_CH_ZRPVT:
+  case PETSC_ERR_INT_OVERFLOW:
+    break;
+  default:
     return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
+  }
   if (kind != PETSC_ERROR_INITIAL) return code;
   fflush(stdout);
   fprintf(stderr, "a library failed, in %s: %s\n", function ? function : "a library",

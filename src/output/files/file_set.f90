@@ -203,11 +203,16 @@ contains
     integer :: too_long, status
 
     call c_name_limits(folder//c_null_char, longest_name, longest)
-    too_long = max(len(name//longest_ending) - int(longest_name), &
-                   len(folder//'/'//name//longest_ending) - int(longest))
+    too_long = len(name//longest_ending) - int(longest_name)
     if (too_long > 0) then
       call fail(error, name//': the name of the case is too long by '//text(too_long)// &
                 ' characters: its files are to be called '//name//longest_ending//' and the like')
+      return
+    end if
+    too_long = len(folder//'/'//name//longest_ending) - int(longest)
+    if (too_long > 0) then
+      call fail(error, folder//': the path of the results is too long by '//text(too_long)// &
+                ' characters, with names such as '//name//longest_ending)
       return
     end if
     lock%name = folder//'/.gfb-lock-'//short_mark(name)

@@ -1,5 +1,6 @@
 !> The characters of a case file, read once.
 module gfb_case_text
+  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
   use, intrinsic :: iso_fortran_env, only: iostat_end
   use gfb_kinds, only: long, wp
   use gfb_errors, only: error_type, fail, status_input
@@ -9,6 +10,15 @@ module gfb_case_text
   public :: read_case_text
 
   integer(long), parameter :: longest = 1000000_long !! bytes; a case file has some thousand
+
+  interface
+    function gfb_is_no_file(path) result(answer) bind(c)
+      import :: c_char, c_int
+      implicit none (type, external)
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: answer
+    end function gfb_is_no_file
+  end interface
 
 contains
 
@@ -49,6 +59,10 @@ contains
     inquire (file=trim(file)//'/.', exist=folder)
     if (folder) then
       problem = 'is a folder, not a case file'
+      return
+    end if
+    if (gfb_is_no_file(trim(file)//c_null_char) /= 0) then
+      problem = 'is a pipe, a terminal or another device, not a case file; save its text as a file'
       return
     end if
     inquire (file=trim(file), size=bytes)

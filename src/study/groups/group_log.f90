@@ -1,6 +1,7 @@
 !> The log of a group of ranks: a file of its own.
 module gfb_group_log
   use gfb_errors, only: error_type, fail, status_machine
+  use gfb_c_library, only: remove_file
   use gfb_run_log, only: run_log_type
   use gfb_run_context, only: run_context_type
   use gfb_petsc_session, only: any_rank
@@ -25,7 +26,8 @@ contains
     context%listener => job
     status = 0
     if (job%leads) then
-      open (newunit=unit, file=path, action='write', status='replace', iostat=status)
+      call remove_file(path) ! a link in its place is not followed
+      open (newunit=unit, file=path, action='write', status='new', iostat=status)
       context%log%unit = unit
     end if
     if (any_rank(status /= 0)) then

@@ -3,6 +3,7 @@ module gfb_bearing_plan
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: is_symmetric
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
@@ -59,6 +60,11 @@ contains
       call log%line('shaft: (e_x, e_y) are unknowns, balanced with the load')
     else
       call log%line('shaft: position given, no shaft unknowns')
+    end if
+    if (rank_count() > plan%circumferential .and. scene%model%foil /= foil_shell) then
+      call log%warning(text(rank_count() - plan%circumferential)//' of '//text(rank_count())// &
+                       ' ranks have nothing to do: the pad has '//text(plan%circumferential)// &
+                       ' columns of elements to share out')
     end if
     nodes = (plan%order*plan%circumferential + 1)*solved_rows(plan)
     call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &

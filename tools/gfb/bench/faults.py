@@ -17,9 +17,21 @@ import tempfile
 from gfb.results import open_results, read_summary
 from gfb.run import ENVIRONMENT, MPIEXEC, case_text
 from gfb.tables import markdown_table
+from gfb.tool import ROOT
 
 SOURCE = pathlib.Path(__file__).with_name("faults.c")
 SECONDS = 120
+PAGE = ROOT/"docs/measured/faults.md"
+WORDS = """# Faults on purpose
+
+A bearing of 32 x 4 elements is run into a folder that holds its results for another load. At each of its operations on files
+in turn (create, write, sync, link, rename) that operation fails, or it and all that need room from then on, or the process is
+killed. *Done all the same*: status 0 and the new set whole (after a kill: one whole set, once another run has used the folder);
+*refused*: status 3, a sentence, and the old set whole, to which nothing was added; *wrong*: anything else, such as a crash, a
+mixed set, a file left behind. `tools/bench faults --page` writes this page; [failures.md](../manual/failures.md) says what to
+expect.
+
+"""
 CRASH = ("SIGSEGV", "Segmentation", "Backtrace", "MPI_ABORT", "PETSC ERROR", "HDF5-DIAG", "Fortran runtime error")
 CASE = {
     "scene": {"analysis": "equilibrium"},
@@ -36,6 +48,7 @@ Row = collections.namedtuple("Row", "fault tried survived refused wrong")
 def add_options(parser):
     """Options of `tools/bench faults`."""
     parser.add_argument("--short", action="store_true", help="fewer faults, as the default tests have")
+    parser.add_argument("--page", action="store_true", help=f"write {PAGE.relative_to(ROOT)} too")
 
 
 def run(options):
@@ -43,7 +56,11 @@ def run(options):
     rows = all_rows(options.gfb, long=not options.short)
     head = ("fault", "tried", "done all the same", "refused with a sentence", "wrong")
     lines = [[row.fault, *map(str, (row.tried, row.survived, row.refused, len(row.wrong)))] for row in rows]
-    return markdown_table("Faults on purpose, and what a run leaves", head, lines) + "".join(f"\nwrong: {row.fault}: {word}" for row in rows for word in row.wrong) + "\n"
+    table = markdown_table("Faults on purpose, and what a run leaves", head, lines)
+    wrong = "".join(f"\nwrong: {row.fault}: {word}" for row in rows for word in row.wrong)
+    if options.page:
+        PAGE.write_text(WORDS + table + wrong, encoding="utf-8")
+    return table + wrong
 
 
 def build_library(folder):
