@@ -88,7 +88,7 @@ def places_with_mistakes(folder):
     yield "long name", ["--check", "x" * 5000], ["does not exist"]
     yield "a folder", ["--check", "folder.nml"], ["folder.nml: is a folder"]
     yield "the root folder", ["--check", "/"], ["is a folder"]
-    yield "a device", ["--check", "/dev/zero"], ["is empty"]
+    yield "a device", ["--check", "/dev/zero"], ["is a pipe, a terminal or another device"]
     yield "empty file", ["--check", "empty.nml"], ["empty.nml: the case file is empty"]
     yield "binary file", ["--check", "binary.nml"], ["binary.nml: is binary", "line 2"]
     yield "a program", ["--check", "program.nml"], ["program.nml: is binary"]
