@@ -19,6 +19,10 @@ set(gfb_warnings -Wall -Wextra -Werror -Wno-unused-dummy-argument -Wno-compare-r
 set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-99999999 -finit-derived
                      -ffpe-trap=invalid,zero,overflow -fbacktrace)
 
+# What the sanitizers find ends the program. With them the compiler warns of what it cannot see through, which is no error.
+set(gfb_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all)
+add_link_options("$<$<CONFIG:Sanitize>:${gfb_sanitizers}>")
+
 function(gfb_compile_options target)
   if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL GNU)
     return()
@@ -27,7 +31,8 @@ function(gfb_compile_options target)
     $<$<COMPILE_LANGUAGE:Fortran>:${gfb_warnings} -ffree-line-length-none>
     $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Werror>
     $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Debug>>:${gfb_debug_checks}>
-    $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O2 -g1>)
+    $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O2 -g1>
+    "$<$<CONFIG:Sanitize>:${gfb_sanitizers};-Wno-error;-O1;-g;-fno-omit-frame-pointer>")
   # Sources that need no preprocessor are standard Fortran; PETSc's headers are not.
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.f90$")
