@@ -23,7 +23,7 @@ module gfb_branch_watch
   use gfb_case_file, only: history_row_type
   implicit none (type, external)
   private
-  public :: watch_branch
+  public :: watch_branch, note_start
 
   real(wp), parameter :: foretold = 0.2_wp !! off the line through two answers, over C [1]
   real(wp), parameter :: alone = 0.4_wp    !! off the only answer before, over C [1]
@@ -31,6 +31,14 @@ module gfb_branch_watch
     'leading_edge_lift', 'leading_edge_lift_edge']
 
 contains
+
+  !> Puts `started_anew` into the last row of a sweep's history.
+  subroutine note_start(history, anew)
+    type(history_row_type), intent(inout) :: history(:) !! the last row gets the result
+    logical, intent(in) :: anew !! its answer was found from nothing, where no path led to it
+
+    call add_result(history(size(history))%quantity, 'started_anew', anew)
+  end subroutine note_start
 
   !> Judges the last row of a sweep's history by the rows before, and puts `branch_changed` into it;
   !> nothing is done where no edge is free.

@@ -242,10 +242,9 @@ contains
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in `unit` [SI]
-    integer, intent(in) :: offset       !! entries before this rank's
-    integer, intent(in) :: total        !! entries of all ranks
+    integer, intent(in) :: offset, total !! entries before this rank's; of all ranks
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer, intent(in), optional :: order !! of the matrices that the entries are, row by row; 0: none
+    integer, intent(in), optional :: order !! of the matrices that entries are; 0: none
     real(wp), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = reshape(block, [size(block)])
@@ -258,8 +257,7 @@ contains
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(long), intent(in) :: block(:) !! entries of this rank
-    integer, intent(in) :: offset         !! entries before this rank's
-    integer, intent(in) :: total          !! entries of all ranks
+    integer, intent(in) :: offset, total !! entries before this rank's; of all ranks
     character(len=*), intent(in) :: meaning !! a sentence
     integer(long), target :: buffer(max(1, size(block)))
     integer(hid_t) :: kind
@@ -276,8 +274,7 @@ contains
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(c_int8_t), intent(in) :: block(:) !! entries of this rank
-    integer, intent(in) :: offset             !! entries before this rank's
-    integer, intent(in) :: total              !! entries of all ranks
+    integer, intent(in) :: offset, total !! entries before this rank's; of all ranks
     character(len=*), intent(in) :: meaning !! a sentence
     integer(c_int8_t), target :: buffer(max(1, size(block)))
 

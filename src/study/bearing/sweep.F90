@@ -2,13 +2,10 @@
 !> A bearing that walks along a sweep, each answer from its neighbour's; a scene without a sweep has the
 !> first answer only.
 module gfb_sweep
-  use petscsys
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_signals, only: stop_words
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local
-  use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_petsc_session, only: wall_time
   use gfb_operating_point, only: operating_point_type
@@ -20,9 +17,9 @@ module gfb_sweep
   use gfb_tilt_response, only: begin_tilt, measure_tilt
   use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
-  use gfb_branch_watch, only: watch_branch
-  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_stopped
-  use gfb_results, only: add_result
+  use gfb_branch_watch, only: watch_branch, note_start
+  use gfb_reasons, only: reason_type
+  use gfb_missing_answer, only: explain_missing
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
   use gfb_answer_judgement, only: judge_answer
@@ -110,7 +107,7 @@ contains
         call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point))
       end if
       if (scene%sweep%parameter == sweep_keys) then
-        call add_result(record%history(size(record%history))%quantity, 'started_anew', self%anew)
+        call note_start(record%history, self%anew)
       end if
       if (scene%sweep%friction_memory) call bearing%commit()
       call show_progress(self%context, scene, point, record%begun)
@@ -210,45 +207,8 @@ contains
     logical, intent(in) :: fixed             !! the shaft was, at an equilibrium
     type(reason_type), intent(out) :: reason !! why there is none
 
-    reason%code = reason_no_answer
-    if (self%scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
-    if (fixed) reason%code = reason_fixed_shaft
-    reason%detail = report%reason
-    if (stop_agreed()) then
-      reason%code = reason_stopped
-      reason%detail = stop_words()
-      return
-    end if
-    associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)
-      call log%line(reason%words())
-      if (has_stiff_edges(self%scene)) then
-        call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do not deflect and may '// &
-                      'touch first; ''axial_mean'' in &model lets them')
-      end if
-      select case (reason%code)
-      case (reason_fixed_shaft)
-        call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)// &
-                      ') rad, film force ('//text(force(1), 5)//', '//text(force(2), 5)//') N, smallest gap '// &
-                      text(self%bearing%smallest_gap()*1.0e6_wp, 3)//' um')
-      case (reason_no_equilibrium)
-        call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
-                      ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
-                      text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad')
-      case default
-        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)//' % of the path, speed '// &
-                      text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm')
-      end select
-    end associate
+    call explain_missing(self%scene, self%bearing, report, fixed, self%context%log, reason)
   end subroutine explain
-
-  !> Whether the pad's edges stay where they are: on springs that feel the ambient pressure there.
-  pure function has_stiff_edges(scene)
-    type(scene_type), intent(in) :: scene
-    logical :: has_stiff_edges
-
-    has_stiff_edges = scene%model%foil == foil_elastic_foundation .and. &
-                      scene%model%foundation_pressure == foundation_pressure_local
-  end function has_stiff_edges
 
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
   subroutine show_progress(context, scene, point, begun)
