@@ -3,6 +3,7 @@
 module gfb_start_list
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_signals, only: stop_agreed
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
@@ -57,7 +58,7 @@ contains
     type(cold_start_type), allocatable :: starts(:)
     type(nearest_type) :: nearest
     integer, allocatable :: list(:)
-    logical :: ends
+    logical :: ends, stopped
     integer :: i
 
     starts = cold_starts()
@@ -72,7 +73,8 @@ contains
         if (start%counts) call keep_nearest(problem, report, nearest)
         problem%shown = ends .and. .not. (report%converged .or. start%counts)
         if (problem%shown) nearest%report%reason = report%reason
-        if (report%converged .or. ends) exit
+        stopped = stop_agreed()
+        if (report%converged .or. ends .or. stopped) exit
         if (i < size(list)) call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('// &
           report%reason//'); the next: "'//trim(starts(list(i + 1))%name)//'"')
       end associate

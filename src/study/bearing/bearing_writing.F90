@@ -5,6 +5,7 @@ module gfb_bearing_writing
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_scene, only: scene_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -60,6 +61,7 @@ contains
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       call add_quantity(summary, cost_quantities(result%cost))
       call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
+      if (converged .and. answer%has_foils) call show_growth(log, record%judged)
       call show_tilt_response(log, record%tilted)
       if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
         call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -72,4 +74,18 @@ contains
                             grids, log, error)
     end associate
   end subroutine write_bearing
+
+  !> Says that an equilibrium of the foils cannot be one that stays: where the determinant is negative an odd number of
+  !> motions grows.
+  subroutine show_growth(log, judged)
+    type(run_log_type), intent(in) :: log
+    type(quantity_type), intent(in) :: judged(:) !! what is known of the answer
+    integer :: i
+
+    do i = 1, size(judged)
+      if (judged(i)%name /= 'determinant_sign' .or. judged(i)%number > -0.5_wp) cycle
+      call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
+                    'foils grows; gfb --branches lists equilibria')
+    end do
+  end subroutine show_growth
 end module gfb_bearing_writing
