@@ -94,8 +94,10 @@ contains
     integer, intent(in) :: number !! of the stretch
     logical :: parts
 
-    parts = number > 1
-    if (parts) parts = seam_words(scene, stretches(max(1, number - 1)), stretches(number)) /= ''
+    parts = .false.
+    if (number < 2) return
+    if (.not. allocated(stretches(number - 1)%next)) return
+    parts = seam_words(scene, stretches(number - 1), stretches(number)) /= ''
   end function parts
 
   !> Adds to a row's count, or says that something is true.

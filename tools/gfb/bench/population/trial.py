@@ -16,6 +16,7 @@ REFUSALS = {"touch-down": "touches down", "fold": "ends in a fold", "suction": "
 OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
+BY_SIGNAL = 128            # plus the signal's number: the status of a run that a signal has stopped
 THIN = 2.0                 # a film this many times touch_down_gap has touched down
 RISING = (0.1, 0.25, 0.5, 0.75, 1.0)    # of the load, in the sweep that must stop
 FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)    # where light loads are what the film draws the edge at
@@ -54,7 +55,7 @@ def outcome_of(status, log):
         return ANSWER
     if status == WRONG_INPUT:
         return INVALID
-    if status in (-signal.SIGXCPU, -signal.SIGKILL):
+    if status in (-signal.SIGXCPU, -signal.SIGKILL, BY_SIGNAL + signal.SIGXCPU):
         return BOUND
     if status != NOT_CONVERGED:
         return BROKEN
