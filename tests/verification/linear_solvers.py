@@ -81,9 +81,11 @@ def check_failures(checks, folder):
         checks.that(f"{solver}: no answer is written", not (pathlib.Path(folder)/"failing.summary").exists())
 
 
-def estimate(path):
-    """What `--check` says of a case's memory [B]."""
-    done = subprocess.run([GFB, "--check", str(path)], capture_output=True, text=True, timeout=SECONDS, check=True)
+def estimate(path, status=0):
+    """What `--check` says of a case's memory [B], and its exit status."""
+    done = subprocess.run([GFB, "--check", str(path)], capture_output=True, text=True, timeout=SECONDS, check=False)
+    if done.returncode != status:
+        raise RuntimeError(f"--check of {path} ended with status {done.returncode}, not {status}")
     found = re.search(r"memory: about ([0-9.e+]+) (MB|GB) in all", done.stdout)
     return float(found[1])*UNIT[found[2]]
 
@@ -114,7 +116,7 @@ def check_machine(checks, folder):
     checks.that("a strip of 240 million unknowns: a sentence with its memory and what helps",
                 re.search(r"needs about [0-9.]+(e[0-9]+)? GB of memory .* linear_solver = 'iterative'", answer.complaint))
     path = pathlib.Path(folder)/"huge.nml"
-    checks.that("--check: more than 200 GB", estimate(path) > 2.0e11)
+    checks.that("--check refuses it, too: more than 200 GB", estimate(path, status=1) > 2.0e11)
     checks.that("nothing is written", [file.name for file in pathlib.Path(folder).glob("huge.*")] == ["huge.nml"])
 
 

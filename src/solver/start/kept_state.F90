@@ -26,7 +26,13 @@ contains
     class(kept_state_type), intent(inout) :: self !! the kept state
     type(bearing_system_type), intent(in) :: bearing !! with the state that is kept
     PetscErrorCode :: ierr
+    PetscInt :: kept_size, size
 
+    if (self%created) then ! maybe of a bearing with another mesh
+      PetscCallA(VecGetSize(self%state, kept_size, ierr))
+      PetscCallA(VecGetSize(bearing%state, size, ierr))
+      if (kept_size /= size) call self%destroy()
+    end if
     if (.not. self%created) then
       PetscCallA(VecDuplicate(bearing%state, self%state, ierr))
       self%created = .true.
