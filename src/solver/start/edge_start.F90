@@ -10,6 +10,7 @@ module gfb_edge_start
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_force
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: guess_position
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
@@ -20,7 +21,7 @@ module gfb_edge_start
   private
   public :: try_free_edge, has_free_edge
 
-  real(wp), parameter :: resting = 0.05_wp       !! highest edge that rests, over the clearance [1]
+  real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
   real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
@@ -150,11 +151,14 @@ contains
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! it stays nowhere
+    real(wp) :: highest !! edge that is accepted, over the clearance [1]
 
     ends = .false.
     report%converged = .false.
+    ! It moves the way the film presses it.
+    highest = merge(resting, 0.0_wp, edge_force(problem%bearing) < 0.0_wp)
     call release(problem, problem%target, problem%newton%settings, &
-                 [low_edge, resting]*clearance_of(problem%bearing), report)
+                 [low_edge, highest]*clearance_of(problem%bearing), report)
     if (.not. report%converged) call seek_height(problem, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
 
