@@ -167,6 +167,9 @@ class Faults:
             refused += status == 3
             if found:
                 wrong.append(f"operation {at}: {found}")
+            if not count.exists():
+                wrong.append(f"operation {at}: no operation was seen: status {status}: {complaint[:200]}")
+                break
             if kind != "kill" and int(count.read_text(encoding="utf-8")) < at:
                 survived -= 1  # no fault any more
                 break
