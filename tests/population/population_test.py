@@ -24,7 +24,8 @@ SCENES = pathlib.Path(__file__).resolve().parent/"scenes"
 SECONDS = 5.0      # CPU time of a member's run at most: how many are stopped depends on the machine, and is no claim
 SCENE_SECONDS = 600.0
 # From the best to the worst: an outcome may move up.
-RANKS = {trial.ANSWER: 0, **{name: 1 for name in trial.REFUSALS}, trial.NO_REASON: 2, trial.BOUND: 3, trial.BROKEN: 4,
+REFUSED = "refused"  # by any name: where a film closes, rounding decides which sentence comes first
+RANKS = {trial.ANSWER: 0, **{name: 1 for name in (*trial.REFUSALS, REFUSED)}, trial.NO_REASON: 2, trial.BOUND: 3, trial.BROKEN: 4,
          trial.INVALID: 5}
 SMALL = {"axial_elements": 4, "arc_elements": 4, "flat_elements": 1}
 
@@ -54,7 +55,7 @@ def check_rules(checks):
         checks.that(f"{len(of_model)} of {model}, {len(edges)} pairs of edges", len(of_model) >= 200
                     and (len(edges) == 4 or model == members.FOUNDATION))
     grid = members.engineer_set(10000, members.MODELS)
-    checks.that(f"the engineer's grid has {len(grid)} members", len(grid) == 288 and len({str(one) for one in grid}) == 288)
+    checks.that(f"the engineer's grid has {len(grid)} members", len(grid) == 144 + 24 and len({str(one) for one in grid}) == len(grid))
 
 
 def check_words(checks):
@@ -63,7 +64,10 @@ def check_words(checks):
     for expected, status, log in (
             (trial.ANSWER, 0, ""), ("touch-down", 2, said + "the shaft touches down: the film is thinner than 0.003 um"),
             ("fold", 2, "2.nml\n" + said + "the branch of answers ends in a fold: beyond it the top foil moves on by itself"),
+            ("fold", 2, said + "the branch of answers ends in a fold: beyond it the shaft moves on by itself"),
+            ("emptied", 2, said + "the film is emptied: its pressure falls to 0.06 Pa behind a gap of 0.7 um"),
             ("suction", 2, said + "the film draws the free edge of the top foil to the shaft"),
+            ("suction in part", 2, said + "the film draws the free edge of the top foil to the shaft, as far as it was followed"),
             (trial.NO_REASON, 2, said + "no step, however short, leads on"), (trial.BROKEN, 76, ""), (trial.BROKEN, -11, ""),
             (trial.BOUND, -24, ""), (trial.INVALID, 1, "")):
         checks.that(f"status {status} '{log[-30:]}' is {expected}", trial.outcome_of(status, log) == expected)
@@ -78,7 +82,7 @@ def check_words(checks):
         table = page.write(some, rows, argparse.Namespace(set="random", seconds=9.0), pathlib.Path(folder))
         text = (pathlib.Path(folder)/"population.md").read_text(encoding="utf-8")
     for words in ("5 members: 2 answers, 2 refused by name, 1 without a reason", "| beam | by name | 3.0 | 3.0 |",
-                  "| elastic_foundation | by name | 4.0 | 4.0 |", "| shell | CPU bound | 1 | 100 % | 9.0 | 9.0 | 900 |"):
+                  "| elastic_foundation | by name | 4.0 | 4.0 |", "| shell 4 | CPU bound | 9.0 |", "| shell | CPU bound | 1 | 100 % | 9.0 | 9.0 | 900 |"):
         checks.that(f"the page has '{words}'", words in text)
     checks.that("the terminal has the same", "2 refused by name" in table)
 
@@ -132,7 +136,7 @@ def check_scene(checks, path):
     better = ", better than its file says" if RANKS[outcome] < RANKS[expected] else ""
     checks.that(f"{path.stem}: {outcome} ({expected}){better}, {cpu:.1f} s, "
                 f"workspace enlarged {log.count('workspace was too small')} times {'' if status == DONE else trial.reason_in(log)}",
-                better or outcome == expected)
+                better or outcome == expected or expected == REFUSED and outcome in trial.REFUSALS)
 
 
 def main():

@@ -8,39 +8,24 @@ module gfb_continuation
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_fold_search, only: look_beyond, branch_goes_on, branch_folds
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_fold_search, only: look_beyond, branch_lost, branch_goes_on, branch_folds
+  use gfb_path_report, only: path_settings_type, path_report_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   implicit none (type)
   private
-  public :: follow_path
+  public :: follow_path, path_settings_type, path_report_type
 
   integer, parameter :: hasty_iterations = 20        !! of a step that can be cut
   integer, parameter :: easy_iterations = 6          !! a step that took no more of them is doubled
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
-  real(wp), parameter :: closing_gap = 0.005_wp      !! a gap this small ends paths, over the clearance [1]
+  integer, parameter :: closing_steps = 40           !! more, where the gap is closing
+  integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
+  integer, parameter :: straight_before_leap = 3     !! Newton steps, before they are bent
+  real(wp), parameter :: leaps(3) = [0.002_wp, 0.02_wp, 0.1_wp] !! of the path that is left [1]
+  real(wp), parameter :: closing_gap = 0.01_wp       !! a gap this small ends paths, over the clearance [1]
+  real(wp), parameter :: empty = 1.0e-3_wp           !! a pressure that is nothing, over the ambient one [1]
   real(wp), parameter :: micrometres = 1.0e6_wp      !! in a metre
-
-  !> Limits of a path.
-  type, public :: path_settings_type
-    integer :: maximum_steps = 200
-    real(wp) :: smallest_step = 1.0e-4_wp !! share of the path [1]
-    real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
-    logical :: look_for_folds = .true.    !! beyond the end of a path
-    integer :: most_cuts = huge(1)        !! of steps, after one that succeeded
-  end type path_settings_type
-
-  !> How far a path led.
-  type, public :: path_report_type
-    logical :: converged = .false.
-    logical :: touched = .false.              !! the shaft came too near
-    character(len=:), allocatable :: reason   !! in words
-    type(operating_point_type) :: reached     !! the last point with an answer
-    real(wp) :: fraction = 0.0_wp             !! of the path that was gone [1]
-    integer :: steps = 0
-    integer :: cuts = 0                       !! steps that had to be shortened
-    logical :: folded = .false.               !! the branch of answers turns back
-    logical :: shaft_fixed = .false.          !! the shaft was still fixed
-  end type path_report_type
 
 contains
 
@@ -60,7 +45,8 @@ contains
     type(newton_report_type) :: solved
     Vec :: here, before
     real(wp) :: step, smallest, at_before, trial
-    logical :: goes_on, just_cut
+    integer :: most_steps, rescues
+    logical :: goes_on, just_cut, spent
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -73,10 +59,19 @@ contains
     step = min(1.0_wp, max(first_step, smallest))
     at_before = -1.0_wp
     just_cut = .false.
+    most_steps = settings%maximum_steps
+    rescues = 0
+    spent = .false.
     do while (report%fraction < 1.0_wp)
-      if (report%steps + report%cuts >= settings%maximum_steps) then
-        report%reason = 'more than '//text(settings%maximum_steps)//' load steps'
-        exit
+      if (report%steps + report%cuts >= most_steps) then
+        ! A film that thins steadily gets its steps to touch down by.
+        spent = most_steps > settings%maximum_steps
+        if (.not. spent) spent = .not. is_closing(bearing)
+        if (spent) then
+          report%reason = 'more than '//text(most_steps)//' load steps'
+          exit
+        end if
+        most_steps = most_steps + closing_steps
       end if
       trial = min(1.0_wp, report%fraction + step)
       bearing%point = point_between(start, target, trial)
@@ -92,10 +87,13 @@ contains
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'
-          if (.not. (settings%look_for_folds .and. bearing%pad(1)%foil%has_contacts())) exit
-          call find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
+          if (.not. (settings%look_for_folds .and. bearing%floats)) exit
+          rescues = rescues + 1
+          if (rescues > most_rescues) exit
+          call find_end(bearing, newton, target, smallest, settings, here, before, at_before, report, goes_on)
           if (.not. goes_on) exit
           step = 4.0_wp*smallest
+          if (too_thin(bearing, settings, report)) exit
         end if
         cycle
       end if
@@ -107,27 +105,36 @@ contains
       report%steps = report%steps + 1
       if (solved%iterations <= easy_iterations .and. .not. just_cut) step = 2.0_wp*step
       just_cut = .false.
-      if (bearing%smallest_gap() < settings%touch_down_gap) then
-        report%touched = .true.
-        report%reason = 'the shaft touches down: the film is thinner than '// &
-          text(settings%touch_down_gap*micrometres, 3)//' um'
-        exit
-      end if
+      if (too_thin(bearing, settings, report)) exit
     end do
     report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
     if (report%converged) report%reason = 'converged'
     bearing%point = report%reached
-    if (.not. report%converged .and. .not. report%touched) call name_end(bearing, report)
+    if (.not. report%converged .and. .not. report%touched) call name_end(bearing, spent, report)
     PetscCallA(VecDestroy(here, ierr))
     PetscCallA(VecDestroy(before, ierr))
   end subroutine follow_path
 
+  !> Whether the shaft has come too near, and what the report says then.
+  function too_thin(bearing, settings, report) result(thin)
+    type(bearing_system_type), intent(in) :: bearing
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(inout) :: report
+    logical :: thin
+
+    thin = bearing%smallest_gap() < settings%touch_down_gap
+    if (.not. thin) return
+    report%touched = .true.
+    report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*micrometres, 3)//' um'
+  end function too_thin
+
   !> Where no step leads on: goes to the very end of the branch, or past what hindered.
-  subroutine find_end(bearing, newton, target, smallest, here, before, at_before, report, goes_on)
+  subroutine find_end(bearing, newton, target, smallest, settings, here, before, at_before, report, goes_on)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: target
     real(wp), intent(in) :: smallest      !! step that did not lead on [1]
+    type(path_settings_type), intent(in) :: settings
     Vec, intent(in) :: here, before       !! last two answers
     real(wp), intent(inout) :: at_before  !! where on the path; negative if there is none
     type(path_report_type), intent(inout) :: report
@@ -149,7 +156,57 @@ contains
       report%fraction = report%fraction + min(ahead, 1.0_wp - smallest)*left ! the target itself is still to be met
       report%reached = bearing%point
     end if
+    if (outcome == branch_lost .and. bearing%pad(1)%foil%has_contacts()) then
+      call leap(bearing, newton, target, settings%longest_leap, here, at_before, report, goes_on)
+    end if
   end subroutine find_end
+
+  !> Where the branch is lost: takes an answer a little farther on that is near enough, with Newton's steps bent at contacts
+  !> that change.
+  subroutine leap(bearing, newton, target, longest, here, at_before, report, lands)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: longest       !! change of any scaled unknown [1]
+    Vec, intent(in) :: here               !! last answer
+    real(wp), intent(inout) :: at_before  !! where on the path; negative if there is none
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: lands
+    type(operating_point_type) :: start
+    type(newton_report_type) :: solved
+    Vec :: change
+    real(wp) :: share, farthest
+    integer :: straight, trial
+    PetscErrorCode :: ierr
+
+    call newton%log%detail('the branch is lost: other answers near by are looked for')
+    straight = newton%settings%straight_steps
+    newton%settings%straight_steps = straight_before_leap
+    start = bearing%point
+    lands = .false.
+    PetscCallA(VecDuplicate(here, change, ierr))
+    do trial = 1, size(leaps)
+      share = leaps(trial)
+      bearing%point = point_between(start, target, share)
+      PetscCallA(VecCopy(here, bearing%state, ierr))
+      call solve_newton(newton, solved)
+      PetscCallA(VecWAXPY(change, -1.0_wp, here, bearing%state, ierr))
+      PetscCallA(VecNorm(change, NORM_INFINITY, farthest, ierr))
+      lands = solved%converged .and. farthest <= longest
+      if (lands) exit
+    end do
+    PetscCallA(VecDestroy(change, ierr))
+    newton%settings%straight_steps = straight
+    if (lands) then
+      PetscCallA(VecCopy(bearing%state, here, ierr))
+      at_before = -1.0_wp
+      report%fraction = report%fraction + share*(1.0_wp - report%fraction)
+      report%reached = bearing%point
+    else
+      PetscCallA(VecCopy(here, bearing%state, ierr))
+      bearing%point = start
+    end if
+  end subroutine leap
 
   !> Newton's method, which gives up early where a shorter step can be tried: a step that
   !> converges does so soon.
@@ -165,21 +222,36 @@ contains
     newton%settings%maximum_iterations = allowed
   end subroutine try_step
 
-  !> Says so where a path ended because the gap closes, or because its answers turn back.
-  subroutine name_end(bearing, report)
+  !> Says so where a path ended because the gap closes, because its answers turn back, or because the film is emptied.
+  subroutine name_end(bearing, spent, report)
     type(bearing_system_type), intent(in) :: bearing
+    logical, intent(in) :: spent !! all steps are
     type(path_report_type), intent(inout) :: report
-    real(wp) :: gap
+    type(bearing_answer_type) :: answer
 
-    gap = bearing%smallest_gap()
-    report%touched = gap < closing_gap*bearing%pad(1)%film%clearance .and. .not. bearing%pad(1)%contact%present
+    answer = bearing_answer(bearing)
+    report%touched = is_closing(bearing) .and. .not. spent
     if (report%touched) then
-      report%reason = 'the shaft touches down: the gap has closed to '//text(gap*micrometres, 3)// &
+      report%reason = 'the shaft touches down: the gap has closed to '//text(answer%minimum_gap*micrometres, 3)// &
         ' um, beyond that '//report%reason
     else if (report%folded) then
-      report%reason = 'the branch of answers ends in a fold: beyond it the top foil moves on by itself'
+      report%reason = 'the branch of answers ends in a fold: beyond it the '//trim(merge('top foil', 'shaft   ', &
+        bearing%pad(1)%foil%has_contacts()))//' moves on by itself'
+    else if (answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure) then
+      report%emptied = .true.
+      report%reason = 'the film is emptied: its pressure falls to '//text(answer%minimum_pressure, 2)// &
+        ' Pa behind a gap of '//text(answer%minimum_gap*micrometres, 3)//' um, on cells of a Peclet number up to '// &
+        text(answer%maximum_peclet, 2)//'; a finer mesh may lead farther'
     end if
   end subroutine name_end
+
+  !> Whether the gap is so small that the film thins fast from step to step.
+  function is_closing(bearing) result(closing)
+    type(bearing_system_type), intent(in) :: bearing
+    logical :: closing
+    closing = bearing%smallest_gap() < closing_gap*bearing%pad(1)%film%clearance
+    if (closing) closing = .not. bearing%pad(1)%contact%present
+  end function is_closing
 
   !> Start value of a step: the line through the last two answers, as far along it as can be
   !> evaluated.

@@ -1,12 +1,13 @@
 #include "gfb_petsc.h"
 !> Looks beyond the point where a path of operating points stops.
 !>
-!> There the free edge of the top foil is moved on instead, and the operating point on the path is
-!> what follows from it. Where the point turns back, the branch of answers folds: with a foil that
+!> There the free edge of the top foil is moved on instead, or the whole state as it last changed, and the
+!> operating point on the path is what follows from it. Where the point turns back, the branch of answers folds: with a foil that
 !> leaves its bumps that is a corner, where no small step along the path itself has an answer.
 module gfb_fold_search
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: edge_direction
@@ -29,7 +30,7 @@ module gfb_fold_search
 
 contains
 
-  !> Moves the free edge on from an answer, until the point is `wanted` ahead on the path, or turns
+  !> Moves the free edge on from an answer, or all of it, until the point is `wanted` ahead on the path, or turns
   !> back. On return the bearing is at the answer that lies farthest ahead.
   !>
   !> The edge moves on in the sense in which it moved; where that is not known, in both.
@@ -49,16 +50,24 @@ contains
     PetscErrorCode :: ierr
 
     ahead = 0.0_wp
+    outcome = branch_lost
     call create_bordered_system(bearing, target, path)
-    call aim_at_edge(bearing, path, before, known)
     call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
     PetscCallA(VecCopy(path%state, farthest, ierr))
-    call newton%log%detail('the free edge is moved on, the path follows')
-    call move_edge(path, mover, wanted, farthest, outcome, ahead)
-    if (outcome == branch_folds .and. .not. known) then
-      PetscCallA(VecScale(path%direction, -1.0_wp, ierr))
-      call move_edge(path, mover, wanted, farthest, outcome, ahead)
+    if (any_rank(size(bearing%pad(1)%edge%unknown) > 0)) then
+      call aim_at_edge(bearing, path, before, known)
+      call newton%log%detail('the free edge is moved on, the path follows')
+      call move_on(path, mover, wanted, farthest, outcome, ahead)
+      if (outcome == branch_folds .and. .not. known) then
+        PetscCallA(VecScale(path%direction, -1.0_wp, ierr))
+        call move_on(path, mover, wanted, farthest, outcome, ahead)
+      end if
+    end if
+    if (outcome == branch_lost .and. known) then
+      call aim_along_change(bearing, path, before)
+      call newton%log%detail('the state is moved on as it changed, the path follows')
+      call move_on(path, mover, wanted, farthest, outcome, ahead)
     end if
     PetscCallA(VecCopy(farthest, path%state, ierr))
     ahead = path%give()
@@ -69,8 +78,8 @@ contains
     call destroy_bordered_system(path)
   end subroutine look_beyond
 
-  !> Moves the edge in one sense.
-  subroutine move_edge(path, mover, wanted, farthest, outcome, ahead)
+  !> Moves on in the path's direction.
+  subroutine move_on(path, mover, wanted, farthest, outcome, ahead)
     type(bordered_system_type), intent(inout) :: path
     type(newton_type), target, intent(inout) :: mover
     real(wp), intent(in) :: wanted   !! share of the path [1]
@@ -106,7 +115,7 @@ contains
         move = 0.25_wp*move
       end if
     end do
-  end subroutine move_edge
+  end subroutine move_on
 
   !> Makes the mean displacement of the top foil's free edge, over the clearance, the path's length,
   !> in the sense in which it was moving.
@@ -132,4 +141,24 @@ contains
     call path%join(edge, 0.0_wp, path%direction)
     PetscCallA(VecDestroy(edge, ierr))
   end subroutine aim_at_edge
+
+  !> Makes the way along the last change of the state the path's length, over that of its unknown that changed most.
+  subroutine aim_along_change(bearing, path, before)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(bordered_system_type), intent(inout) :: path
+    Vec, intent(in) :: before
+    Vec :: change
+    real(wp) :: largest, product
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    PetscCallA(VecWAXPY(change, -1.0_wp, before, bearing%state, ierr))
+    PetscCallA(VecNorm(change, NORM_INFINITY, largest, ierr))
+    PetscCallA(VecDot(change, change, product, ierr))
+    if (product > 0.0_wp) then
+      PetscCallA(VecScale(change, largest/product, ierr))
+    end if
+    call path%join(change, 0.0_wp, path%direction)
+    PetscCallA(VecDestroy(change, ierr))
+  end subroutine aim_along_change
 end module gfb_fold_search

@@ -85,7 +85,7 @@ contains
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call try_starts(problem, report)
     end if
-    if (problem%refused .and. .not. (report%converged .or. report%touched .or. report%folded)) then
+    if (problem%refused .and. .not. (report%converged .or. report%has_cause())) then
       report%reason = problem%refusal%reason ! of all starts, not of one
     end if
     call coarse_anchor%destroy()

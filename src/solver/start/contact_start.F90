@@ -51,7 +51,7 @@ contains
     if (.not. (report%converged .or. report%shaft_fixed)) then
       call follow_path(problem%bearing, problem%newton, problem%target, first_hard_step, settings, report)
     end if
-    ends = report%touched .or. report%folded
+    ends = report%has_cause()
   end subroutine try_soft_contacts
 
   !> The path towards the target with soft two-way contacts; at the point it reached they are released and stiffened to

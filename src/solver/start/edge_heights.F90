@@ -116,6 +116,7 @@ contains
     type(kept_state_type) :: nearest !! where the edge needs the least force
     type(operating_point_type) :: next
     real(wp) :: force, force_before, height_before, highest, least, room, step
+    character(len=:), allocatable :: heights
     integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
 
     ends = .false.
@@ -150,15 +151,17 @@ contains
         if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
       end do
       highest = bearing%point%edge_height
+      heights = ': fixed at '//text(number + 1)//' heights up to '//text(highest*micrometres, 3)//' um, '// &
+        text(room*micrometres, 2)//' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
       ends = report%converged .and. room < near_shaft*clearance .or. report%touched .and. rising >= long_rise
       if (ends) then
         call nearest%put_back(bearing)
         call problem%anchor%keep(bearing)
         report%shaft_fixed = .false.
         report%touched = .false.
-        report%reason = suction//': fixed at '//text(number + 1)//' heights up to '//text(highest*micrometres, 3)//' um, '// &
-          text(room*micrometres, 2)//' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
+        report%reason = suction//heights
       else
+        if (highest > 0.0_wp) problem%suspicion = suction//', as far as it was followed'//heights//'; higher up '//report%reason
         report%reason = 'fixed at '//text(number + 1)//' heights the free edge of the top foil needs '// &
           text(least, 2)//' N or more; '//report%reason
       end if

@@ -7,6 +7,7 @@
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
 module gfb_edge_start
   use gfb_kinds, only: wp
+  use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -119,7 +120,7 @@ contains
     if (.not. report%converged) return
     call problem%anchor%keep(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
-    ends = report%touched
+    ends = report%has_cause()
   end subroutine go_on_released
 
   !> The branch with the edge released does not lead to the target: goes on with the edge fixed, which cannot fold by it.
@@ -136,15 +137,45 @@ contains
     call last%keep(problem%bearing)
     call fixed%put_back(problem%bearing)
     call follow_path(problem%bearing, problem%newton, with_fixed_edge(problem), first_step, settings, report)
-    ends = .not. report%converged .and. (report%touched .or. released%folded)
+    ends = .not. report%converged .and. (report%has_cause() .or. released%folded)
     if (ends .and. released%folded) then
       report = released
       call last%put_back(problem%bearing)
     else if (ends) then
       report%reason = report%reason//', with the free edge of the top foil fixed at its height at rest'
+    else if (.not. report%converged) then
+      call release_short_of_load(problem, report, ends)
     end if
     call last%destroy()
   end subroutine go_on_fixed
+
+  !> No step leads to the target with the edge fixed: where it is fixed now, seeks the height where it stays by itself, and
+  !> follows the branch from there.
+  subroutine release_short_of_load(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report !! of the path with the edge fixed
+    logical, intent(out) :: ends !! the edge stays nowhere, or the branch ends
+    type(operating_point_type) :: target
+    type(path_report_type) :: short
+    real(wp) :: share
+
+    target = problem%target
+    problem%target = report%reached
+    problem%target%edge_hold = 0.0_wp
+    problem%target%edge_height = 0.0_wp
+    share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
+    call release_edge(problem, short, ends)
+    problem%target = target
+    if (short%converged) then
+      call problem%anchor%keep(problem%bearing)
+      call follow_path(problem%bearing, problem%newton, target, first_step, trial_settings(problem%settings), report)
+      ends = report%has_cause()
+    else if (ends) then
+      report = short
+      report%reason = report%reason//', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
+        'no step leads on with the edge fixed'
+    end if
+  end subroutine release_short_of_load
 
   !> At the target: releases the edge where it stays by itself.
   subroutine release_edge(problem, report, ends)

@@ -65,7 +65,7 @@ contains
     else
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, &
                        trial_settings(problem%settings), report)
-      ends = report%touched .or. report%folded
+      ends = report%has_cause()
     end if
   end subroutine try_smaller_refusal
 end module gfb_smaller_start

@@ -17,6 +17,7 @@ module gfb_start_list
   private
   public :: cold_starts, try_starts
 
+  integer, parameter :: most_iterations = 800 !! Newton's, after which no other start begins
   real(wp), parameter :: slow = 0.5_wp       !! speed of a slower shaft, over the one asked for [1]
   real(wp), parameter :: first_step = 0.25_wp !! from there, of the path to the speed asked for [1]
 
@@ -59,9 +60,11 @@ contains
     type(nearest_type) :: nearest
     integer, allocatable :: list(:)
     logical :: ends, stopped
-    integer :: i
+    integer :: i, spent_before
 
     starts = cold_starts()
+    spent_before = problem%newton%iterations
+    if (allocated(problem%suspicion)) deallocate (problem%suspicion)
     list = applying(starts, problem)
     problem%from_smaller = .false.
     problem%shown = .false.
@@ -75,15 +78,25 @@ contains
         if (problem%shown) nearest%report%reason = report%reason
         stopped = stop_agreed()
         if (report%converged .or. ends .or. stopped) exit
-        if (i < size(list)) call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('// &
-          report%reason//'); the next: "'//trim(starts(list(i + 1))%name)//'"')
+        if (i == size(list)) exit
+        associate (next => starts(list(i + 1)))
+          if (next%counts .and. problem%newton%iterations - spent_before > most_iterations) then
+            call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('//report%reason// &
+              '); no other one after '//text(most_iterations)//' iterations')
+            exit
+          end if
+          call problem%newton%log%line('no answer from the start "'//trim(start%name)//'" ('//report%reason// &
+            '); the next: "'//trim(next%name)//'"')
+        end associate
       end associate
     end do
     if (.not. report%converged .and. nearest%known) then
       report = nearest%report
-      if (.not. (problem%shown .or. problem%slowed .or. report%touched .or. report%folded) .and. problem%bearing%floats) then
-        report%reason = text(count(starts(list)%soft%release /= never))// &
-          ' starts failed, and one with half the speed; from the nearest state they reached: '//report%reason
+      if (.not. (problem%shown .or. report%has_cause()) .and. allocated(problem%suspicion)) then
+        report%reason = problem%suspicion
+      else if (.not. (problem%shown .or. problem%slowed .or. report%has_cause()) .and. problem%bearing%floats) then
+        report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
+          report%reason
       end if
       call nearest%kept%put_back(problem%bearing)
     end if

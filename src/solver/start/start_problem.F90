@@ -7,7 +7,7 @@ module gfb_start_problem
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_kept_state, only: kept_state_type
-  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_path_report, only: path_settings_type, path_report_type
   implicit none (type)
   private
   public :: trial_settings
@@ -42,6 +42,7 @@ module gfb_start_problem
     logical :: slowed = .false.          !! the target is at half the speed of another problem
     logical :: others_left = .false.     !! other starts with soft contacts follow
     logical :: shown = .false.           !! out: there is no answer, whatever start is tried
+    character(len=:), allocatable :: suspicion !! out: what speaks against an answer, where no start leads to one
     type(kept_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
   end type start_problem_type
@@ -82,5 +83,6 @@ contains
     trial = settings
     trial%smallest_step = max(settings%smallest_step, shortest_trial)
     trial%maximum_steps = min(settings%maximum_steps, most_steps)
+    trial%longest_leap = huge(1.0_wp)
   end function trial_settings
 end module gfb_start_problem

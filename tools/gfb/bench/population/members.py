@@ -1,6 +1,7 @@
 """Members of tools/bench population: bearings drawn by numbers from a fixed seed, and an engineer's bearing on a grid."""
 
 import dataclasses
+import itertools
 import math
 import random
 
@@ -18,6 +19,7 @@ STEEL_MESH = {"arc_elements": 8, "flat_elements": 2}
 ENGINEER_ANGLES = tuple(range(0, 360, 30))  # of the load, from x [deg]
 ENGINEER_LOADS = (20.0, 60.0, 100.0, 140.0)  # [N]
 ENGINEER_SPEEDS = (40000.0, 80000.0, 120000.0)  # [rpm]
+ENGINEER_SHELLS = 24  # points of the grid that have shells, too
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,11 +110,12 @@ def random_set(count, models):
 
 
 def engineer_set(count, models):
-    """The grid of the engineer's bearing, of which the first are far apart."""
-    grid = [(degrees, load, speed, model) for speed in ENGINEER_SPEEDS for load in ENGINEER_LOADS
-            for degrees in ENGINEER_ANGLES for model in models if model != FOUNDATION]
+    """The grid of the engineer's bearing, of which the first are far apart: beams everywhere, shells at the first points."""
+    grid = list(itertools.product(ENGINEER_ANGLES, ENGINEER_LOADS, ENGINEER_SPEEDS))
     random.Random(SEED).shuffle(grid)
-    return [engineer_member(*one) for one in grid[:count]]
+    members = [engineer_member(*point, model) for number, point in enumerate(grid) for model in models
+               if model == BEAM or model == SHELL and number < ENGINEER_SHELLS]
+    return members[:count]
 
 
 SETS = {"random": random_set, "engineer": engineer_set}

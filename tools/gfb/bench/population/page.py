@@ -3,7 +3,7 @@
 import statistics
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (ANSWER, BOUND, BY_GAP, BY_SWEEP, CHEAP, FALLING, OUTCOMES, REFUSALS,
+from gfb.bench.population.trial import (AGAINST, ANSWER, BOUND, BY_GAP, BY_SWEEP, CHEAP, FALLING, OUTCOMES, REFUSALS,
                                         RISING, SECOND_WAYS, THIN, imbalance)
 from gfb.tables import markdown_table, plain_table
 
@@ -26,7 +26,9 @@ Written by `tools/bench population --set {name} --count {count} --seconds {secon
 
 Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound* (on a busy
 machine the system's limit may strike before that by the times given here). *no reason*: the run ends with status 2, but its
-sentence names nothing of the bearing. Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
+sentence names nothing of the bearing. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
+the shaft; *in part*: at every height that was reached. *emptied*: the pressure falls to nothing on cells that are too large.
+Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
 those of answers of the same model. Times depend on the machine and on what else runs there.
 
 """
@@ -38,7 +40,7 @@ def write(members, rows, options, folder):
               worst_table(members, rows)]
     text = HEAD.format(name=options.set, count=len(members), said=SAID[options.set], seconds=options.seconds)
     text += facts(members, rows) + "\n"
-    for table in tables:
+    for table in [*tables, nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
     folder.mkdir(parents=True, exist_ok=True)
     (folder/FILES[options.set]).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
@@ -57,6 +59,7 @@ def notes(title):
 
 
 OUTCOME, RATIO, SHOWN, DEAR = "Outcomes", "Refusals against answers", "Second ways", f"The {WORST} most expensive"
+NAMELESS = "Neither answered nor refused by name, and refusals that the second way contradicts"
 
 
 def facts(members, rows):
@@ -139,3 +142,12 @@ def worst_table(members, rows):
     return DEAR, ["member", "how it ended", "CPU [s]", "factorizations"], [
         [f"{member.model} {member.name}", (row["reason"] or row["outcome"]).replace("|", "/")[:160], f"{row['cpu']:.1f}",
          median(factorizations([row]), "{:.0f}")] for member, row in order]
+
+
+def nameless_table(members, rows):
+    """Every member whose end says nothing of the bearing, or something else than the second way."""
+    some = [(member, row) for member, row in zip(members, rows)
+            if row["outcome"] not in (ANSWER, *REFUSALS) or row["shown"] == AGAINST]
+    return NAMELESS, ["member", "how it ended", "CPU [s]"], [
+        [f"{member.model} {member.name}", f"{row['outcome']}: {row['reason']}".replace("|", "/")[:240].rstrip(": "),
+         f"{row['cpu']:.1f}"] for member, row in some]

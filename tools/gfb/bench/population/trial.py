@@ -12,7 +12,9 @@ from gfb.results import read_history, read_summary
 from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
 
 ANSWER, NO_REASON, BOUND, BROKEN, INVALID = "answer", "no reason", "CPU bound", "broke off", "wrong input"
-REFUSALS = {"touch-down": "touches down", "fold": "ends in a fold", "suction": "draws the free edge"}
+REFUSALS = {"touch-down": "touches down", "fold": "ends in a fold", "emptied": "film is emptied",
+            "suction in part": "as far as it was followed", "suction": "draws the free edge"}
+SUCTION = ("suction", "suction in part")
 OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
@@ -95,7 +97,7 @@ def second_way(gfb, member, row):
     gap = row["summary"].get("minimum_gap", math.inf)
     if row["outcome"] == "touch-down" and gap <= THIN*TOUCH_DOWN_SHARE*clearance:
         return BY_GAP, 0.0
-    shares, ends = (FALLING, ("fold", "suction")) if row["outcome"] == "suction" else (RISING, (row["outcome"],))
+    shares, ends = (FALLING, ("fold", *SUCTION)) if row["outcome"] in SUCTION else (RISING, (row["outcome"],))
     operation = member.groups["operation"]
     first = {**operation, "load": tuple(shares[0]*part for part in operation["load"])}
     sweep = {"parameter": "load", "values": tuple(share*member.load for share in shares)}

@@ -1,0 +1,43 @@
+!> Limits of a path of operating points, and how far it led.
+module gfb_path_report
+  use gfb_kinds, only: wp
+  use gfb_operating_point, only: operating_point_type
+  implicit none (type, external)
+  private
+
+  !> Limits of a path.
+  type, public :: path_settings_type
+    integer :: maximum_steps = 200
+    real(wp) :: smallest_step = 1.0e-4_wp !! share of the path [1]
+    real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
+    logical :: look_for_folds = .true.    !! beyond the end of a path
+    integer :: most_cuts = huge(1)        !! of steps, after one that succeeded
+    !> Of any scaled unknown, where the branch is lost; farther off lies another one [1].
+    real(wp) :: longest_leap = 0.05_wp
+  end type path_settings_type
+
+  !> How far a path led.
+  type, public :: path_report_type
+    logical :: converged = .false.
+    logical :: touched = .false.              !! the shaft came too near
+    character(len=:), allocatable :: reason   !! in words
+    type(operating_point_type) :: reached     !! the last point with an answer
+    real(wp) :: fraction = 0.0_wp             !! of the path that was gone [1]
+    integer :: steps = 0
+    integer :: cuts = 0                       !! steps that had to be shortened
+    logical :: folded = .false.               !! the branch of answers turns back
+    logical :: emptied = .false.              !! the film's pressure has fallen to nothing somewhere
+    logical :: shaft_fixed = .false.          !! the shaft was still fixed
+  contains
+    procedure :: has_cause => report_has_cause
+  end type path_report_type
+
+contains
+
+  !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
+  elemental function report_has_cause(self) result(has)
+    class(path_report_type), intent(in) :: self !! of a path that did not reach its end
+    logical :: has
+    has = self%touched .or. self%folded .or. self%emptied
+  end function report_has_cause
+end module gfb_path_report
