@@ -155,6 +155,7 @@ contains
     PetscInt, allocatable :: renumbered(:)
     PetscScalar :: value(size(number))
     PetscErrorCode :: ierr
+    integer, allocatable :: kept(:)
     integer :: i
 
     PetscCallA(MatZeroEntries(matrix, ierr))
@@ -164,8 +165,10 @@ contains
         PetscCallA(MatGetOwnershipRange(foil%elastic, first, last, ierr))
         do row = first, last - 1
           call copy_row(foil%elastic, row, entries, number, value)
-          renumbered = [(int(blocks%global_number(foil_block, int(number(i)) + 1), pint), i=1, int(entries))]
-          PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], entries, renumbered, value, ADD_VALUES, ierr))
+          ! The bearing's matrix has no room for exact zeros.
+          kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp)
+          renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
+          PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
         end do
       end if
     end associate
