@@ -33,10 +33,13 @@ def check_same(checks, folder):
             case = shells(0.1, reduction=reduction, half_width=width) | {"tilt": (0.0, 0.0)}
             _, _, found[reduction, width] = vibrate(folder, "same", FOIL_BEARING, {
                 "frequency_ratios": (0.5, 2.0), "contact_tangent": tangent, "loss_factor": 0.05}, **case)
+        _, _, other = vibrate(folder, "same", FOIL_BEARING, {
+            "frequency_ratios": (0.5, 2.0), "contact_tangent": tangent, "loss_factor": 0.05}, ranks=2, **case)
+        checks.below(f"shells, {tangent}: 2 ranks", block_error(other, found["auto", "yes"], ((0, 0), (1, 1))), 1.0e-8)
         checks.below(f"shells, {tangent}: condensed and full",
                      block_error(found["auto", "no"], found["none", "no"], ((0, 0), (1, 1))), 1.0e-8)
         checks.below(f"shells, {tangent}: half and whole width",
-                     block_error(found["auto", "yes"], found["auto", "no"], ((0, 0),)), 1.0e-9)
+                     block_error(found["auto", "yes"], found["auto", "no"], ((0, 0), (1, 1))), 1.0e-9)
 
 
 def check_narrow(checks, folder):

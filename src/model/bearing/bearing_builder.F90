@@ -21,7 +21,7 @@ module gfb_bearing_builder
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, divide_bearing, film_mesh_of
+  public :: build_bearing, build_opposite, divide_bearing, film_mesh_of
 
 contains
 
@@ -34,24 +34,54 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
+
+    call enter_stage('set-up')
+    call build_on_mesh(scene, film_mesh_of(scene, plan), plan%upwind, plan%floats, bearing, error)
+    if (allocated(error)) return
+    bearing%point = operating_point(scene%operation)
+    call leave_stage()
+  end subroutine build_bearing
+
+  !> The equations of a bearing on half the width for motions against those of the other half's mirror.
+  !>
+  !> Fails when the mesh cannot be cut into parts.
+  subroutine build_opposite(scene, bearing, opposite, error)
+    type(scene_type), intent(in) :: scene !! that the bearing is of
+    type(bearing_system_type), intent(in) :: bearing !! on half the width
+    type(bearing_system_type), intent(inout) :: opposite !! at no answer yet
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(film_mesh_type) :: film
+
+    film = bearing%pad(1)%whole
+    film%opposite = .true.
+    call build_on_mesh(scene, film, bearing%pad(1)%film%flow%upwind, bearing%floats, opposite, error)
+  end subroutine build_opposite
+
+  !> The equations on a mesh of the film.
+  !>
+  !> Fails when it cannot be cut into parts.
+  subroutine build_on_mesh(scene, film, upwind, floats, bearing, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    logical, intent(in) :: upwind !! SUPG instead of Galerkin
+    logical, intent(in) :: floats !! the shaft's position is unknown
+    type(bearing_system_type), intent(inout) :: bearing
+    type(error_type), allocatable, intent(out) :: error
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
 
-    call enter_stage('set-up')
-    call divide_bearing(scene, film_mesh_of(scene, plan), rank_count(), division, error)
+    call divide_bearing(scene, film, rank_count(), division, error)
     if (allocated(error)) return
-    call create_film_part(film_mesh_of(scene, plan), scene%bearing%clearance, scene%gas%ambient_pressure, &
-                          scene%gas%viscosity, plan%upwind, bearing, error, division%film)
+    call create_film_part(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
+                          bearing, error, division%film)
     if (allocated(error)) return
-    bearing%point = operating_point(scene%operation)
     associate (contact => scene%shaft_contact)
       bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
-    call create_bearing_system(bearing, foil, plan%floats)
-    call leave_stage()
-  end subroutine build_bearing
+    call create_bearing_system(bearing, foil, floats)
+  end subroutine build_on_mesh
 
   !> The parts of film and foils: what touches belongs to one part.
   !>

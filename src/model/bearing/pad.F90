@@ -32,6 +32,7 @@ module gfb_pad
     type(solid_contact_type) :: contact    !! of the shaft with the foil
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
+    real(wp), allocatable :: held(:)       !! at its nodes, a deflection that no unknown moves [m]
     integer :: first = 0, last = 0         !! local unknown of the bearing before the pad's, and their last
     integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads
   contains
@@ -98,7 +99,9 @@ contains
     real(wp), intent(in) :: unknown(:)              !! the pad's, in SI
     real(wp) :: gap(size(self%mesh%mesh_node))
 
-    gap = self%film%gap(point, self%foil%deflection(unknown))
+    gap = self%foil%deflection(unknown)
+    if (allocated(self%held)) gap = gap + self%held
+    gap = self%film%gap(point, gap)
   end function pad_gap
 
   !> All pressure that loads shaft and foil, the film's and the asperities', at this rank's nodes [Pa].

@@ -15,6 +15,7 @@ module gfb_film_mesh
     real(wp) :: radius = 0.0_wp                !! of the bearing [m]
     logical :: periodic = .false.              !! the last station's neighbour is the first
     logical :: half = .false.                  !! z >= 0 only, the other half is its mirror
+    logical :: opposite = .false.              !! what is solved changes its sign there
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     real(wp), allocatable :: row_axial(:)      !! z of the rows, 0 at the midplane [m]

@@ -218,16 +218,22 @@ contains
     end associate
   end function plate_stations
 
-  !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent.
-  pure subroutine find_symmetry_supports(mesh, fixed)
+  !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent; of the
+  !> opposite motions all others.
+  pure subroutine find_symmetry_supports(mesh, fixed, opposite)
     type(quad_mesh_type), intent(in) :: mesh !! of a foil
     logical, allocatable, intent(out) :: fixed(:, :) !! (5, nodes), under the mesh's numbers
+    logical, intent(in), optional :: opposite !! the other half moves against its mirror
+    logical :: held(node_unknowns)
     integer :: node
 
     allocate (fixed(node_unknowns, lbound(mesh%position, 2):ubound(mesh%position, 2)), source=.false.)
     if (.not. mesh%half) return
+    held = .false.
+    held([axial, about_tangent]) = .true.
+    if (present(opposite)) held = held .neqv. opposite
     do node = lbound(fixed, 2), ubound(fixed, 2)
-      if (abs(mesh%position(3, node)) <= 0.0_wp) fixed([axial, about_tangent], node) = .true.
+      if (abs(mesh%position(3, node)) <= 0.0_wp) fixed(:, node) = held
     end do
   end subroutine find_symmetry_supports
 
@@ -290,7 +296,7 @@ contains
     logical, allocatable :: fixed(:, :)
 
     mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1))
-    call find_symmetry_supports(mesh, fixed)
+    call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
     call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
   end subroutine build_top
@@ -317,7 +323,7 @@ contains
     mesh = bump_strip_mesh(shape, film%row_axial, film%half, columns_window(column_part, this_rank() + 1))
     piece = strip_substructures(shape, mesh)
     piece%kind = strip_kinds(shape, film%row_axial, film%half)
-    call find_symmetry_supports(mesh, fixed)
+    call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, 'fixed_edge')) = .true.
     call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)
   end subroutine build_bumps

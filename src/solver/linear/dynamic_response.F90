@@ -12,18 +12,17 @@
 !>
 !> Real and imaginary part of an unknown stand side by side in one real matrix, of twice the order, whose
 !> pattern is analysed once. On half the width translations have the symmetry of the steady state, tilts
-!> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay.
+!> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay. Shells
+!> move against their mirror then: they are a bearing of their own, with other supports at z = 0.
 module gfb_dynamic_response
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use petscksp
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns
-  use gfb_solid_contact, only: contact_pressure_rate
-  use gfb_stick_tangent, only: stick_contacts
   use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_columns, only: shaft_column
+  use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
   use gfb_direct_solver, only: use_factors, make_factors
   use gfb_complex_pairs, only: create_pairs, fill_pairs
@@ -39,7 +38,6 @@ module gfb_dynamic_response
     logical :: stick = .true.           !! contacts that rub stick; else they slide on as they did
     real(wp) :: loss_factor = 0.0_wp    !! eta of the foil's stiffness [1]
     real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs over their stiffness [s]
-    logical :: tilts = .true.           !! tilts are asked for; not with shells on half the width
   end type vibration_type
 
   !> The equations of motions with one symmetry about z = 0, or of all.
@@ -63,22 +61,41 @@ module gfb_dynamic_response
     type(tMat), private :: real_part, imaginary_part
     type(tVec), private :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
     type(tVec), private :: one, other !! work space
+    type(bearing_system_type), allocatable, private :: opposite_bearing !! of tilts, where its foil is another
+    type(dynamic_response_type), allocatable, private :: opposite       !! of that
     real(wp), allocatable, private :: solid_rate(:) !! slope of the asperities' pressure over the gap [Pa/m]
   end type dynamic_response_type
 
 contains
 
   !> Linearises a bearing about its present state, which must be an answer and is left as it is.
-  subroutine create_response(bearing, vibration, response)
+  subroutine create_response(bearing, vibration, response, opposite)
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(vibration_type), intent(in) :: vibration !! of the foil
     type(dynamic_response_type), intent(out) :: response !! to vibrations of the shaft
+    !> the bearing of tilts, where shells are solved on half the width; it moves into the response
+    type(bearing_system_type), allocatable, optional, intent(inout) :: opposite
+
+    response%vibration = vibration
+    if (present(opposite)) call move_alloc(opposite, response%opposite_bearing)
+    call linearise_steady(bearing, vibration%stick, response%steady, response%opposite_bearing)
+    if (allocated(response%opposite_bearing)) then
+      allocate (response%opposite)
+      response%opposite%vibration = vibration
+      call linearise_exactly(response%opposite_bearing, response%opposite%steady)
+      call complete_response(response%opposite_bearing, response%opposite)
+    end if
+    call complete_response(bearing, response)
+  end subroutine create_response
+
+  !> What else there is beside the steady equations.
+  subroutine complete_response(bearing, response)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(dynamic_response_type), intent(inout) :: response !! with its steady equations
     integer :: k
     PetscErrorCode :: ierr
 
-    response%vibration = vibration
     response%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
-    call linearise_steady(bearing, vibration%stick, response%steady)
     call copy_pattern(response%steady, response%squeeze)
     call fill_squeeze(bearing, response%squeeze)
     if (dissipates(response)) call linearise_springs(bearing, response)
@@ -94,26 +111,7 @@ contains
     end do
     call measure_asperities(bearing, response%solid_rate)
     call create_parts(bearing, response)
-  end subroutine create_response
-
-  !> Derivative of the steady equations, the shaft fixed, without what is lent to open contacts.
-  subroutine linearise_steady(bearing, stick, steady)
-    type(bearing_system_type), intent(inout) :: bearing
-    logical, intent(in) :: stick
-    Mat, intent(out) :: steady
-    logical :: moved
-    PetscErrorCode :: ierr
-
-    call bearing%settle(bearing%state, moved)
-    associate (foil => bearing%pad(1)%foil)
-      if (stick .and. foil%has_contacts()) call stick_contacts(foil%contacts)
-      call foil%set_lending(.false.)
-      call bearing%linearise_at(bearing%point, .true., bearing%state)
-      call foil%set_lending(.true.)
-    end associate
-    PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, steady, ierr))
-    call bearing%settle(bearing%state, moved)
-  end subroutine linearise_steady
+  end subroutine complete_response
 
   !> An empty matrix like another.
   subroutine copy_pattern(matrix, other)
@@ -147,18 +145,6 @@ contains
     end if
   end subroutine linearise_springs
 
-  !> Slope of the asperities' pressure at this rank's nodes.
-  subroutine measure_asperities(bearing, rate)
-    type(bearing_system_type), intent(in) :: bearing
-    real(wp), allocatable, intent(out) :: rate(:)
-    real(wp) :: unknown(bearing%local_size())
-
-    allocate (rate(bearing%film_nodes()), source=0.0_wp)
-    if (.not. bearing%pad(1)%contact%present) return
-    call bearing%get_unknowns(unknown)
-    rate = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(unknown))
-  end subroutine measure_asperities
-
   !> Motions of both symmetries on half the width, or all motions at once.
   subroutine create_parts(bearing, response)
     type(bearing_system_type), intent(in) :: bearing
@@ -166,11 +152,17 @@ contains
     real(wp) :: has(bearing%local_size())
     integer :: i
 
-    allocate (response%part(merge(2, 1, bearing%pad(1)%whole%half .and. response%vibration%tilts)))
+    allocate (response%part(merge(2, 1, bearing%pad(1)%whole%half .and. .not. bearing%pad(1)%whole%opposite .and. &
+                                  .not. allocated(response%opposite))))
     associate (part => response%part, film => bearing%pad(1)%film)
       has = 1.0_wp
       has(bearing%first_shaft + 1:) = 0.0_wp
-      if (.not. bearing%pad(1)%whole%half) then
+      if (bearing%pad(1)%whole%opposite) then
+        part(1)%coordinate = tilts
+        part(1)%weight = -film%half_torque_weight
+        where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
+        call create_part(bearing, response%steady, has, part(1))
+      else if (.not. bearing%pad(1)%whole%half) then
         part(1)%coordinate = [translations, tilts]
         part(1)%weight = film%force_weight
         part(1)%weight(tilts, :) = -part(1)%weight(tilts, :) ! torques act on the shaft
@@ -246,18 +238,18 @@ contains
 
   !> Z at one frequency, one factorization for motions of each symmetry; `found` is false where a
   !> matrix cannot be factorized.
-  subroutine find_coefficients(bearing, response, frequency, coefficient, found, only_translations)
+  recursive subroutine find_coefficients(bearing, response, frequency, coefficient, found, only_translations)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     real(wp), intent(in) :: frequency !! omega, of either sign [rad/s]
-    !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry, not a number without tilts [SI]
+    !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry [SI]
     complex(wp), intent(out) :: coefficient(shaft_coordinates, shaft_coordinates)
     logical, intent(out) :: found !! all of them
     logical, intent(in), optional :: only_translations !! tilts are not asked for
+    complex(wp) :: other(shaft_coordinates, shaft_coordinates)
     integer :: i, wanted
 
     coefficient = 0.0_wp
-    if (.not. response%vibration%tilts) coefficient(tilts, tilts) = cmplx(nan(), nan(), wp)
     found = .false.
     wanted = shaft_coordinates
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
@@ -272,13 +264,16 @@ contains
       call solve_part(bearing, response, frequency, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
+    if (.not. allocated(response%opposite) .or. wanted < shaft_coordinates) return
+    associate (opposite => response%opposite)
+      call find_coefficients(response%opposite_bearing, opposite, frequency, other, found)
+      coefficient(tilts, tilts) = other(tilts, tilts)
+      response%factorizations = response%factorizations + opposite%factorizations
+      response%enlargements = response%enlargements + opposite%enlargements
+      opposite%factorizations = 0
+      opposite%enlargements = 0
+    end associate
   end subroutine find_coefficients
-
-  !> Not a number.
-  pure function nan()
-    real(wp) :: nan
-    nan = ieee_value(nan, ieee_quiet_nan)
-  end function nan
 
   !> Real and imaginary part of the matrix.
   subroutine combine(response, frequency)
@@ -369,11 +364,16 @@ contains
   end function forces_of
 
   !> Frees what PETSc holds.
-  subroutine destroy_response(response)
+  recursive subroutine destroy_response(response)
     type(dynamic_response_type), intent(inout) :: response !! created before
     PetscErrorCode :: ierr
     integer :: i
 
+    if (allocated(response%opposite)) then
+      call destroy_response(response%opposite)
+      call response%opposite_bearing%destroy()
+      deallocate (response%opposite, response%opposite_bearing)
+    end if
     do i = 1, size(response%part)
       PetscCallA(KSPDestroy(response%part(i)%linear, ierr))
       PetscCallA(MatDestroy(response%part(i)%matrix, ierr))

@@ -9,13 +9,14 @@ module gfb_dynamics
   use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_rigid, foil_shell, half_width_yes, meshes_foils
+  use gfb_model_case, only: foil_rigid, foil_shell, meshes_foils
   use gfb_dynamics_case, only: tangent_stick
   use gfb_strip_load_case, only: bump_stiffness
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type
   use gfb_dynamic_response, only: dynamic_response_type, vibration_type, create_response, find_coefficients, &
                                   destroy_response
@@ -61,7 +62,8 @@ contains
     end if
     call log%heading('small vibrations')
     call describe(scene, log)
-    call create_response(bearing, vibration_of(scene), response)
+    call start_response(scene, bearing, response, error)
+    if (allocated(error)) return
     associate (record => self%record, frequency => scene%dynamics%frequencies)
       allocate (record%coefficient(shaft_coordinates, shaft_coordinates, size(frequency)))
       do i = 1, size(frequency)
@@ -81,6 +83,24 @@ contains
     call destroy_response(response)
   end subroutine find_dynamics
 
+  !> The bearing linearised at its answer, with that of tilts where shells are solved on half the width.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine start_response(scene, bearing, response, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing
+    type(dynamic_response_type), intent(out) :: response
+    type(error_type), allocatable, intent(out) :: error
+    type(bearing_system_type), allocatable :: opposite
+
+    if (scene%model%foil == foil_shell .and. bearing%pad(1)%whole%half) then
+      allocate (opposite)
+      call build_opposite(scene, bearing, opposite, error)
+      if (allocated(error)) return
+    end if
+    call create_response(bearing, vibration_of(scene), response, opposite)
+  end subroutine start_response
+
   !> What the foil does under vibration.
   pure function vibration_of(scene) result(vibration)
     type(scene_type), intent(in) :: scene
@@ -88,18 +108,10 @@ contains
 
     vibration%stick = scene%dynamics%contact_tangent == tangent_stick
     vibration%loss_factor = scene%dynamics%loss_factor
-    vibration%tilts = .not. is_half_of_shells(scene)
     if (scene%dynamics%foundation_damping > 0.0_wp) then
       vibration%damping_time = scene%dynamics%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
     end if
   end function vibration_of
-
-  !> Whether tilts are left out, for shells move otherwise then than on the half that is solved.
-  pure function is_half_of_shells(scene)
-    type(scene_type), intent(in) :: scene
-    logical :: is_half_of_shells
-    is_half_of_shells = scene%model%foil == foil_shell .and. scene%model%half_width == half_width_yes
-  end function is_half_of_shells
 
   !> What is modelled of the foil, and what is not.
   subroutine describe(scene, log)
@@ -108,7 +120,6 @@ contains
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: mass !! of both foils [kg/m2]
 
-    if (is_half_of_shells(scene)) call log%line('tilts: left out, for shells on half the width are solved for translations alone')
     associate (dynamics => scene%dynamics, foil => scene%model%foil)
       if (meshes_foils(foil)) then
         call log%line('contacts: closed ones stay closed, and if they rub '// &

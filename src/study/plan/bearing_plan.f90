@@ -149,11 +149,7 @@ contains
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
 
-    if (scene%model%half_width == half_width_auto .and. scene%dynamics%present .and. &
-        scene%model%foil == foil_shell) then
-      call log%line('width: whole, because tilts of a vibrating shaft move shells of both '// &
-                    'halves in turns')
-    else if (scene%model%half_width == half_width_auto) then
+    if (scene%model%half_width == half_width_auto) then
       plan%half = is_symmetric(scene%operation, scene%sweep) .and. modulo(plan%axial, 2) == 0
       if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
