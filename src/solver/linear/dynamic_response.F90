@@ -25,7 +25,7 @@ module gfb_dynamic_response
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
   use gfb_direct_solver, only: use_factors, make_factors
-  use gfb_complex_pairs, only: create_pairs, fill_pairs
+  use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs
   implicit none (type)
   private
   public :: create_response, find_coefficients, destroy_response
@@ -205,6 +205,7 @@ contains
     PetscCallA(KSPCreate(PETSC_COMM_WORLD, part%linear, ierr))
     PetscCallA(KSPSetOptionsPrefix(part%linear, prefix, ierr))
     PetscCallA(KSPSetOperators(part%linear, part%matrix, part%matrix, ierr))
+    call order_pairs(prefix)
     call use_factors(part%linear, prefix, .false., .false.)
     PetscCallA(KSPSetFromOptions(part%linear, ierr))
   end subroutine create_part
