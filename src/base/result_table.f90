@@ -194,6 +194,18 @@ module gfb_result_table
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
       'the same: frequency of that whirl over the speed of the shaft'), &
+    result_type('growth_rate', '1/s', number, bearing, &
+      'growth of the rotor''s least damped mode, exp(growth t); negative: it dies out', &
+      'with `&rotor`: growth of its least damped mode, exp(growth t); negative: it dies out'), &
+    result_type('whirl_frequency', 'rad/s', number, bearing, &
+      'circular frequency of that mode', 'the same: circular frequency of that mode'), &
+    result_type('damping_ratio', '1', number, bearing, &
+      'damping of that mode over critical damping; negative: it grows', &
+      'the same: damping of that mode over critical damping; negative: it grows'), &
+    result_type('onset_speed_rpm', 'rpm', number, bearing, &
+      'speed at which growth_rate changes its sign, the first along the sweep', &
+      'with `&rotor` in a sweep of `speed_rpm`: speed at which `growth_rate` changes its sign, '// &
+      'the first along the sweep; absent where it does not'), &
     result_type('<quantity>_error', own_unit, number, accuracy, &
       'estimated from nested meshes, absolute', &
       'estimated error of that quantity, absolute; order of convergence that the meshes show, '// &

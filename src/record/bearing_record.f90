@@ -16,6 +16,7 @@ module gfb_bearing_record
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: answer_quantities, add_counts
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
+  use gfb_dynamics_record, only: dynamics_record_type, remember_dynamics
   use gfb_tilt_response, only: tilt_response_type, row_quantities, remember_response
   implicit none (type, external)
   private
@@ -28,6 +29,7 @@ module gfb_bearing_record
     type(contact_record_type) :: contacts
     type(quantity_type), allocatable :: judged(:) !! what else is known of the last answer
     type(tilt_response_type) :: tilted
+    type(dynamics_record_type) :: dynamics !! stiffness, damping, rotor
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
   end type bearing_record_type
 
@@ -116,6 +118,8 @@ contains
     call remember_rows(memory, judged)
     call memory%part('tilted')
     call remember_response(memory, record%tilted)
+    call memory%part('dynamics')
+    call remember_dynamics(memory, record%dynamics)
     elapsed = wall_time() - record%begun
     call memory%visit('elapsed', elapsed)
     if (memory%packs .or. memory%failed) return

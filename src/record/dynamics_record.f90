@@ -1,81 +1,163 @@
-!> Stiffness and damping under small vibrations: what is kept of them, as arrays and as a table.
+!> Stiffness and damping under small vibrations, and the rotor's modes: what is kept of them, as
+!> arrays and as a table.
 !>
 !> Z = K + i w C, with the circular frequency w, is the force of the film that brings the shaft
 !> back over its displacement; rows and columns are those of e_x, e_y, phi_x, phi_y.
 module gfb_dynamics_record
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_text, only: exact_text
   use gfb_shaft_motion, only: shaft_coordinates
-  use gfb_case_file, only: case_array_type, fill_array
+  use gfb_case_file, only: case_array_type, fill_array, add_arrays
   implicit none (type, external)
   private
-  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table
+  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, remember_dynamics
+
+  !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense [1].
+  integer, parameter, public :: mode_numbers = 6
+  integer, parameter :: most_modes = 24 !! that are kept of each point of a sweep
+  character(len=*), parameter :: mode_names(mode_numbers) = &
+    [character(len=13) :: 'frequency', 'growth_rate', 'damping_ratio', 'shaft_share', 'kind', &
+                          'sense']
+  character(len=*), parameter :: mode_units(mode_numbers) = &
+    [character(len=5) :: 'rad/s', '1/s', '1', '1', '1', '1']
+  character(len=*), parameter :: mode_meanings(mode_numbers) = [character(len=120) :: &
+    'circular frequency of the modes of film, foil and rotor, growth falling', &
+    'growth of the amplitude, exp(growth t); negative: the mode dies out', &
+    'minus the growth over the modulus of growth + i frequency; negative: it grows', &
+    'share of the rotor''s motion, against the pressure''s; below 0.02: a mode of film or foil', &
+    '1: cylindrical, both bearings move alike; 2: conical, the rotor turns about its centre', &
+    '1: a circle with the speed, -1: a circle against it, 0: to and fro']
 
   character(len=*), parameter :: names(shaft_coordinates) = [character(len=4) :: 'x', 'y', &
                                                              'phix', 'phiy']
   character(len=*), parameter :: order = &
-    ', [frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
+    'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
 
-  !> Coefficients over frequency; none without an answer.
-  type, public :: dynamics_record_type
+  !> At one answer.
+  type, public :: dynamics_point_type
     real(wp), allocatable :: frequency(:)          !! [rad/s]
     complex(wp), allocatable :: coefficient(:, :, :) !! (row, column, frequency) Z in SI
+    real(wp), allocatable :: mode(:, :)            !! (number, mode) of the rotor, if there is one
+  end type dynamics_point_type
+
+  !> At all answers so far; none without an answer.
+  type, public :: dynamics_record_type
+    type(dynamics_point_type), allocatable :: point(:)
+    real(wp) :: onset = 0.0_wp !! speed at which a sweep has seen growth begin or end; 0: none [rpm]
+    character(len=:), allocatable :: problem !! a matrix that could not be factorized
   end type dynamics_record_type
 
 contains
 
   !> K at one of the frequencies.
-  pure function stiffness_of(record, i) result(stiffness)
-    type(dynamics_record_type), intent(in) :: record !! with an answer
+  pure function stiffness_of(point, i) result(stiffness)
+    type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
     real(wp) :: stiffness(shaft_coordinates, shaft_coordinates)
 
-    stiffness = real(record%coefficient(:, :, i), wp)
+    stiffness = real(point%coefficient(:, :, i), wp)
   end function stiffness_of
 
   !> C at one of the frequencies.
-  pure function damping_of(record, i) result(damping)
-    type(dynamics_record_type), intent(in) :: record !! with an answer
+  pure function damping_of(point, i) result(damping)
+    type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
     real(wp) :: damping(shaft_coordinates, shaft_coordinates)
 
-    damping = aimag(record%coefficient(:, :, i))/record%frequency(i)
+    damping = aimag(point%coefficient(:, :, i))/point%frequency(i)
   end function damping_of
 
-  !> The arrays of the result file; none without an answer.
-  function dynamics_arrays(record) result(arrays)
+  !> The arrays of the result file; none without an answer. Those of a sweep have its points first.
+  function dynamics_arrays(record, sweeps, points) result(arrays)
     type(dynamics_record_type), intent(in) :: record !! of a run
+    logical, intent(in) :: sweeps !! the answers are those of a sweep
+    integer, intent(in) :: points !! of the record, from the first
     type(case_array_type), allocatable :: arrays(:)
-    real(wp), allocatable, dimension(:, :) :: stiffness, damping
-    integer :: i
+    type(case_array_type) :: three(3)
+    real(wp), allocatable, dimension(:, :) :: frequency, stiffness, damping
+    character(len=:), allocatable :: axes
+    integer, parameter :: entries = shaft_coordinates**2
+    integer :: i, k, n, first
 
-    allocate (arrays(merge(3, 0, allocated(record%frequency))))
-    if (size(arrays) == 0) return
-    allocate (stiffness(shaft_coordinates**2, size(record%frequency)))
+    allocate (arrays(0))
+    if (.not. allocated(record%point)) return
+    if (min(points, size(record%point)) == 0) return
+    n = size(record%point(1)%frequency)
+    allocate (frequency(n, points), stiffness(n*entries, points))
     allocate (damping, mold=stiffness)
-    do i = 1, size(record%frequency)
-      stiffness(:, i) = reshape(transpose(stiffness_of(record, i)), [size(stiffness, 1)])
-      damping(:, i) = reshape(transpose(damping_of(record, i)), [size(damping, 1)])
+    do k = 1, points
+      frequency(:, k) = record%point(k)%frequency
+      do i = 1, n
+        first = (i - 1)*entries
+        associate (point => record%point(k))
+          stiffness(first + 1:first + entries, k) = &
+            reshape(transpose(stiffness_of(point, i)), [entries])
+          damping(first + 1:first + entries, k) = &
+            reshape(transpose(damping_of(point, i)), [entries])
+        end associate
+      end do
     end do
+    axes = ', [point, '//order
+    if (.not. sweeps) then
+      axes = ', ['//order
+      frequency = transpose(frequency)
+      stiffness = reshape(stiffness, [entries, n])
+      damping = reshape(damping, [entries, n])
+    end if
     call fill_array('/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
-                    reshape(record%frequency, [1, size(record%frequency)]), arrays(1))
+                    frequency, three(1), sweeps)
     call fill_array('/dynamics/stiffness', 'N/m, N/rad; N m/m, N m/rad', &
-                    'real part of K + i omega C'//order//'film force (x, y) or torque that '// &
+                    'real part of K + i omega C'//axes//'film force (x, y) or torque that '// &
                     'brings the shaft back, over its displacement or rotation', stiffness, &
-                    arrays(2))
+                    three(2), sweeps)
     call fill_array('/dynamics/damping', 'N s/m, N s/rad; N m s/m, N m s/rad', &
-                    'imaginary part of K + i omega C over omega'//order// &
-                    'the same over velocity or angular velocity', damping, arrays(3))
-    arrays(2:)%order = shaft_coordinates
+                    'imaginary part of K + i omega C over omega'//axes// &
+                    'the same over velocity or angular velocity', damping, three(3), sweeps)
+    three(2:)%order = shaft_coordinates
+    call add_arrays(arrays, three)
+    call add_mode_arrays(record, sweeps, points, arrays)
   end function dynamics_arrays
 
-  !> A table for other programs: a row a frequency, comma-separated.
-  function dynamics_table(record) result(words)
+  !> Adds the rotor's modes; a point of a sweep that has fewer than others has NaN at the end.
+  subroutine add_mode_arrays(record, sweeps, points, arrays)
+    type(dynamics_record_type), intent(in) :: record
+    logical, intent(in) :: sweeps
+    integer, intent(in) :: points
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(case_array_type) :: one(mode_numbers)
+    real(wp), allocatable :: values(:, :)
+    integer :: i, k, n, most
+
+    if (.not. allocated(record%point(1)%mode)) return
+    most = most_modes
+    if (.not. sweeps) most = size(record%point(1)%mode, 2)
+    do i = 1, mode_numbers
+      allocate (values(most, points), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      do k = 1, points
+        if (.not. allocated(record%point(k)%mode)) cycle
+        n = min(most, size(record%point(k)%mode, 2))
+        values(:n, k) = record%point(k)%mode(i, :n)
+      end do
+      if (.not. sweeps) values = transpose(values)
+      call fill_array('/dynamics/mode_'//trim(mode_names(i)), trim(mode_units(i)), &
+                      trim(mode_meanings(i)), values, one(i), sweeps)
+      deallocate (values)
+    end do
+    call add_arrays(arrays, one)
+  end subroutine add_mode_arrays
+
+  !> A table for other programs: a row a frequency, comma-separated; the value of the sweep first.
+  function dynamics_table(record, sweep_name, values) result(words)
     type(dynamics_record_type), intent(in) :: record !! with an answer
+    character(len=*), intent(in) :: sweep_name !! what the sweep changes; empty without one
+    real(wp), intent(in) :: values(:) !! of the sweep, as many as answers, in its unit
     character(len=:), allocatable :: words
-    integer :: i, row, column
+    integer :: i, k, row, column
 
     words = 'frequency'
+    if (sweep_name /= '') words = sweep_name//',frequency'
     do row = 1, shaft_coordinates
       do column = 1, shaft_coordinates
         words = words//',k'//trim(names(row))//trim(names(column))
@@ -87,9 +169,14 @@ contains
       end do
     end do
     words = words//new_line('a')
-    do i = 1, size(record%frequency)
-      words = words//exact_text(record%frequency(i))//matrix_text(stiffness_of(record, i))// &
-              matrix_text(damping_of(record, i))//new_line('a')
+    do k = 1, size(record%point)
+      associate (point => record%point(k))
+        do i = 1, size(point%frequency)
+          if (sweep_name /= '') words = words//exact_text(values(k))//','
+          words = words//exact_text(point%frequency(i))//matrix_text(stiffness_of(point, i))// &
+                  matrix_text(damping_of(point, i))//new_line('a')
+        end do
+      end associate
     end do
   end function dynamics_table
 
@@ -106,4 +193,45 @@ contains
       end do
     end do
   end function matrix_text
+
+  !> Packs or unpacks a record.
+  pure subroutine remember_dynamics(memory, record)
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
+    type(dynamics_record_type), intent(inout) :: record !! written where the memory unpacks
+    integer :: points, i
+
+    points = 0
+    if (allocated(record%point)) points = size(record%point)
+    call memory%visit('points', points)
+    call memory%visit('onset', record%onset)
+    if (memory%failed) return
+    if (.not. memory%packs) then
+      if (allocated(record%point)) deallocate (record%point)
+      allocate (record%point(max(0, points)))
+    end if
+    do i = 1, points
+      call remember_point(memory, record%point(i))
+      if (memory%failed) return
+    end do
+  end subroutine remember_dynamics
+
+  !> Packs or unpacks one answer's.
+  pure subroutine remember_point(memory, point)
+    type(memory_type), intent(inout) :: memory
+    type(dynamics_point_type), intent(inout) :: point
+    real(wp), allocatable :: parts(:, :)
+    integer, parameter :: entries = shaft_coordinates**2
+
+    if (memory%packs) then
+      allocate (parts(2*entries, size(point%frequency)))
+      parts(:entries, :) = reshape(real(point%coefficient, wp), [entries, size(point%frequency)])
+      parts(entries + 1:, :) = reshape(aimag(point%coefficient), [entries, size(point%frequency)])
+    end if
+    call memory%visit_sized('frequency', point%frequency)
+    call memory%visit_sized('coefficient', parts)
+    call memory%visit_sized('mode', point%mode)
+    if (memory%packs .or. memory%failed) return
+    point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &
+                                [shaft_coordinates, shaft_coordinates, size(parts, 2)])
+  end subroutine remember_point
 end module gfb_dynamics_record

@@ -11,6 +11,7 @@ module gfb_scene
   use gfb_modes_case, only: modes_case_type
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
+  use gfb_rotor_case, only: rotor_case_type
   use gfb_scene_case, only: scene_case_type
   use gfb_shaft_contact_case, only: shaft_contact_case_type
   use gfb_solver_case, only: solver_case_type
@@ -33,6 +34,7 @@ module gfb_scene
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
     type(dynamics_case_type) :: dynamics
+    type(rotor_case_type) :: rotor
     type(accuracy_case_type) :: accuracy
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil

@@ -5,6 +5,7 @@ module gfb_scene_checks
   use gfb_case_keys, only: case_keys_type
   use gfb_dynamics_case, only: check_dynamics
   use gfb_plausible_values, only: check_plausible
+  use gfb_rotor_case, only: check_rotor
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
                              check_rigid_position, check_strip, check_plates, &
@@ -31,8 +32,9 @@ contains
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
-    call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, scene%sweep%present, &
+    call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, scene%sweep, &
                         scene%accuracy%present)
+    call check_rotor(keys, scene%rotor, scene%operation, scene%sweep)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
                      scene%model)
     call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &

@@ -13,6 +13,7 @@ module gfb_scene_groups
                             part_strip, part_top_foil
   use gfb_operation_case, only: read_operation_case
   use gfb_output_case, only: read_output_case
+  use gfb_rotor_case, only: read_rotor_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes
@@ -55,6 +56,7 @@ contains
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
+      call read_rotor_case(keys, scene%rotor, analysis)
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &

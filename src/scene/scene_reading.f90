@@ -100,6 +100,8 @@ contains
     call keys%report(error)
     there = scene
     there%bearing = changed%bearing
+    there%dynamics = changed%dynamics
+    there%rotor = changed%rotor
     there%gas = changed%gas
     there%operation = changed%operation
     there%top_foil = changed%top_foil

@@ -100,6 +100,10 @@ contains
       end if
     case ('shaft_contact')
       if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
+    case ('rotor')
+      if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
+    case ('dynamics')
+      if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
     case ('model')
       if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
     case default

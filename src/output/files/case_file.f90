@@ -20,7 +20,8 @@ module gfb_case_file
     logical :: by_step = .false.          !! a row is a load step or sweep point
     !> in the file where one rank alone has any; 0: all ranks have all
     integer :: rows = 0
-    integer :: order = 0                  !! a row is a square matrix of that order, row by row
+    !> a row is a square matrix of that order, row by row, or, by step, several of them
+    integer :: order = 0
   end type case_array_type
 
 contains
@@ -92,6 +93,7 @@ contains
   subroutine write_arrays(file, arrays)
     type(result_file_type), intent(inout) :: file
     type(case_array_type), intent(in) :: arrays(:)
+    integer, allocatable :: extent(:)
     integer :: i, mine, total
 
     do i = 1, size(arrays)
@@ -101,8 +103,14 @@ contains
         mine = size(one%values, 2)
         total = merge(one%rows, mine, one%rows > 0)
         if (one%rows == 0 .and. .not. file%first_rank) mine = 0
-        call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning, &
-                            one%order)
+        if (one%order == 0) then
+          call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning)
+        else
+          extent = [one%order, one%order, size(one%values, 1)/one%order**2]
+          if (.not. one%by_step) extent = extent(:2)
+          call file%put_block(one%path, one%values(:, :mine), 0, total, one%unit, one%meaning, &
+                              extent)
+        end if
       end associate
     end do
   end subroutine write_arrays

@@ -238,18 +238,18 @@ contains
   end subroutine put_scalar
 
   !> Adds a field of which each rank has consecutive entries; one component makes it a plain list.
-  subroutine put_block(self, path, block, offset, total, unit, meaning, order)
+  subroutine put_block(self, path, block, offset, total, unit, meaning, shape)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in `unit` [SI]
     integer, intent(in) :: offset, total !! entries before this rank's; of all ranks
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer, intent(in), optional :: order !! of the matrices that entries are; 0: none
+    integer, intent(in), optional :: shape(:) !! of an entry that is no list, fastest index first
     real(wp), target :: buffer(max(1, size(block)))
 
     buffer(:size(block)) = reshape(block, [size(block)])
     call self%put_parts(path, H5T_NATIVE_DOUBLE, storage_size(buffer)/8, c_loc(buffer), &
-                        size(block, 1), size(block, 2), offset, total, unit, meaning, order)
+                        size(block, 1), size(block, 2), offset, total, unit, meaning, shape)
   end subroutine put_block
 
   !> Adds 64-bit integers of which each rank has consecutive entries.
@@ -285,7 +285,7 @@ contains
 
   !> Brings each rank's part of a dataset to the first rank, which adds it.
   subroutine put_parts(self, path, kind, item, buffer, components, entries, offset, total, unit, &
-                       meaning, order)
+                       meaning, shape)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t), intent(in) :: kind !! of the numbers
@@ -294,32 +294,30 @@ contains
     !> of an entry; here, before, in all
     integer, intent(in) :: components, entries, offset, total
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer, intent(in), optional :: order !! of the matrices that the entries are
+    integer, intent(in), optional :: shape(:) !! of an entry that is no list, fastest index first
     integer(c_int8_t), allocatable, target :: all(:)
 
     call gather_parts(self%communicator, self%first_rank, components*item, buffer, entries, &
                       offset, total, all)
     if (.not. self%first_rank) return
-    call self%put_whole(path, kind, c_loc(all), components, total, unit, meaning, order)
+    call self%put_whole(path, kind, c_loc(all), components, total, unit, meaning, shape)
   end subroutine put_parts
 
   !> Adds a dataset; only the first rank may.
-  subroutine put_whole(self, path, kind, buffer, components, entries, unit, meaning, order)
+  subroutine put_whole(self, path, kind, buffer, components, entries, unit, meaning, shape)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(hid_t), intent(in) :: kind !! of the numbers
     type(c_ptr), intent(in) :: buffer !! all entries
     integer, intent(in) :: components, entries !! of an entry; in all
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
-    integer, intent(in), optional :: order !! of the matrices that the entries are
+    integer, intent(in), optional :: shape(:) !! of an entry that is no list, fastest index first
     integer(hsize_t), allocatable :: extent(:)
     integer(hid_t) :: space, dataset
     integer :: status
 
     extent = int([pack([components], [components /= 1]), entries], hsize_t)
-    if (present(order)) then
-      if (order > 0) extent = int([order, order, entries], hsize_t)
-    end if
+    if (present(shape)) extent = int([shape, entries], hsize_t)
     call h5screate_simple_f(size(extent), extent, space, status)
     call h5dcreate_f(self%file, path, kind, space, dataset, status)
     if (status /= 0) self%failed = .true.

@@ -154,6 +154,7 @@ contains
       call memory%visit_sized('values', arrays(i)%values)
       call memory%visit('by_step', arrays(i)%by_step)
       call memory%visit('rows', arrays(i)%rows)
+      call memory%visit('order', arrays(i)%order)
       if (memory%failed) return
     end do
   end subroutine remember_arrays

@@ -7,10 +7,12 @@ module gfb_dynamics_case
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, misplaced_group
+  use gfb_sweep_case, only: sweep_case_type, sweep_speed
   use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)
   private
-  public :: dynamics_case_type, read_dynamics_case, check_dynamics, analysis_of_state
+  public :: dynamics_case_type, read_dynamics_case, check_dynamics, analysis_of_state, &
+            frequencies_at
 
   integer, parameter, public :: tangent_stick = 1 !! contacts that rub stick under vibration
   integer, parameter, public :: tangent_slip = 2  !! they slide on as they did
@@ -21,6 +23,7 @@ module gfb_dynamics_case
   type :: dynamics_case_type
     logical :: present = .false.              !! the analysis is 'linear_dynamics'
     real(wp), allocatable :: frequencies(:)   !! [rad/s]
+    real(wp), allocatable :: ratios(:)        !! the same over the speed of the shaft, or none [1]
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
@@ -47,7 +50,6 @@ contains
     type(dynamics_case_type), intent(out) :: dynamics !! what `&dynamics` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
-    real(wp), allocatable :: ratios(:)
 
     dynamics%present = analysis == analysis_linear_dynamics
     call keys%start_group('dynamics', required=dynamics%present, optional=.not. dynamics%present, &
@@ -55,10 +57,10 @@ contains
     call keys%real_list_key('frequencies', dynamics%frequencies, longest_list, 'rad/s', &
                             'circular frequencies at which stiffness and damping are asked for', &
                             positive, .false., 'required without `frequency_ratios`')
-    call keys%real_list_key('frequency_ratios', ratios, longest_list, '1', &
+    call keys%real_list_key('frequency_ratios', dynamics%ratios, longest_list, '1', &
                             'the same over the speed of the shaft', positive, .false., &
                             'required without `frequencies`')
-    if (size(ratios) > 0) dynamics%frequencies = ratios*angular_speed(operation%speed_rpm)
+    dynamics%frequencies = frequencies_at(dynamics, angular_speed(operation%speed_rpm))
     call keys%choice_key('contact_tangent', dynamics%contact_tangent, tangent_words, &
                          'what contacts that rub do under a small vibration: stick, as those '// &
                          'do that it has shaken down, or slide on as when they were loaded')
@@ -70,6 +72,16 @@ contains
                        not_negative)
     call keys%finish_group()
   end subroutine read_dynamics_case
+
+  !> The frequencies at a speed of the shaft.
+  pure function frequencies_at(dynamics, speed) result(frequencies)
+    type(dynamics_case_type), intent(in) :: dynamics !! what `&dynamics` asks for
+    real(wp), intent(in) :: speed !! of the shaft [rad/s]
+    real(wp), allocatable :: frequencies(:) !! [rad/s]
+
+    frequencies = dynamics%frequencies
+    if (size(dynamics%ratios) > 0) frequencies = dynamics%ratios*speed
+  end function frequencies_at
 
   !> One key gives the frequencies; those over the speed need one.
   subroutine check_frequencies(keys, operation)
@@ -90,19 +102,26 @@ contains
   end subroutine check_frequencies
 
   !> What the rest of the scene allows.
-  subroutine check_dynamics(keys, dynamics, operation, model, sweeps, refines)
+  subroutine check_dynamics(keys, dynamics, operation, model, sweep, refines)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(dynamics_case_type), intent(in) :: dynamics !! what `&dynamics` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(model_case_type), intent(in) :: model !! what `&model` asks for
-    logical, intent(in) :: sweeps  !! the scene has a sweep
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     logical, intent(in) :: refines !! the scene asks for an accuracy
-    character(len=*), parameter :: no_use = "has no use with analysis = 'linear_dynamics': "
 
     if (.not. dynamics%present) return
     call check_frequencies(keys, operation)
-    if (sweeps) call keys%complain('sweep', 'parameter', no_use//'one state vibrates')
-    if (refines) call keys%complain('accuracy', 'quantity', no_use//'give the mesh')
+    if (refines) then
+      call keys%complain('accuracy', 'quantity', &
+                         "has no use with analysis = 'linear_dynamics': "// &
+                         'give the mesh')
+    end if
+    if (sweep%parameter == sweep_speed .and. keys%meant('dynamics', 'frequency_ratios') .and. &
+        any(.not. sweep%values > 0.0_wp)) then
+      call keys%complain('dynamics', 'frequency_ratios', 'needs a shaft that turns '// &
+                         'at every point of the sweep: give frequencies')
+    end if
     call check_model(keys, dynamics, model)
   end subroutine check_dynamics
 

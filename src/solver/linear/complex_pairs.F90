@@ -14,7 +14,7 @@ module gfb_complex_pairs
   use gfb_direct_solver, only: set_option_default
   implicit none (type)
   private
-  public :: create_pairs, fill_pairs, order_pairs
+  public :: create_pairs, fill_pairs, order_pairs, keep_entries
 
 contains
 
@@ -102,4 +102,16 @@ contains
     PetscCallA(MatAssemblyBegin(pairs, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(pairs, MAT_FINAL_ASSEMBLY, ierr))
   end subroutine fill_pairs
+
+  !> Takes out of a vector what is not kept.
+  subroutine keep_entries(vector, kept)
+    Vec, intent(in) :: vector !! on the left or right of the matrix before it was doubled
+    logical, intent(in) :: kept(:) !! one an entry of this rank
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(vector, values, ierr))
+    where (.not. kept) values = 0.0_wp
+    PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
+  end subroutine keep_entries
 end module gfb_complex_pairs

@@ -25,10 +25,10 @@ module gfb_dynamic_response
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
   use gfb_direct_solver, only: use_factors, make_factors
-  use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs
+  use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs, keep_entries
   implicit none (type)
   private
-  public :: create_response, find_coefficients, destroy_response
+  public :: create_response, find_coefficients, forces_of, dissipates, destroy_response
 
   character(len=*), parameter :: prefix = 'dynamic_' !! of PETSc's options
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
@@ -41,7 +41,7 @@ module gfb_dynamic_response
   end type vibration_type
 
   !> The equations of motions with one symmetry about z = 0, or of all.
-  type :: part_type
+  type, public :: part_type
     integer, allocatable :: coordinate(:) !! of the shaft that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
@@ -53,16 +53,16 @@ module gfb_dynamic_response
   type, public :: dynamic_response_type
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
-    type(vibration_type), private :: vibration
-    logical, private :: local_springs = .false. !! a node's pressure moves the foil there
-    type(part_type), allocatable, private :: part(:)
-    type(tMat), private :: steady, squeeze !! derivatives by the unknowns
-    type(tMat), private :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
+    type(vibration_type) :: vibration
+    logical :: local_springs = .false. !! a node's pressure moves the foil there
+    type(part_type), allocatable :: part(:)
+    type(tMat) :: steady, squeeze !! derivatives by the unknowns
+    type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
     type(tMat), private :: real_part, imaginary_part
-    type(tVec), private :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
-    type(tVec), private :: one, other !! work space
-    type(bearing_system_type), allocatable, private :: opposite_bearing !! of tilts, where its foil is another
-    type(dynamic_response_type), allocatable, private :: opposite       !! of that
+    type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
+    type(tVec) :: one, other !! work space
+    type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
+    type(dynamic_response_type), allocatable :: opposite       !! of that
     real(wp), allocatable, private :: solid_rate(:) !! slope of the asperities' pressure over the gap [Pa/m]
   end type dynamic_response_type
 
@@ -124,7 +124,7 @@ contains
 
   !> Whether the foil's stiffness is complex.
   pure function dissipates(response)
-    type(dynamic_response_type), intent(in) :: response
+    type(dynamic_response_type), intent(in) :: response !! that was created
     logical :: dissipates
     dissipates = response%vibration%loss_factor > 0.0_wp .or. response%vibration%damping_time > 0.0_wp
   end function dissipates
@@ -221,31 +221,24 @@ contains
   subroutine keep_columns(part, response)
     type(part_type), intent(in) :: part
     type(dynamic_response_type), intent(in) :: response
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
     integer :: i
 
     do i = 1, size(part%coordinate)
       associate (k => part%coordinate(i))
-        PetscCallA(GFB_VecGetArray(response%steady_column(k), values, ierr))
-        where (.not. part%kept) values = 0.0_wp
-        PetscCallA(GFB_VecRestoreArray(response%steady_column(k), values, ierr))
-        PetscCallA(GFB_VecGetArray(response%squeeze_column(k), values, ierr))
-        where (.not. part%kept) values = 0.0_wp
-        PetscCallA(GFB_VecRestoreArray(response%squeeze_column(k), values, ierr))
+        call keep_entries(response%steady_column(k), part%kept)
+        call keep_entries(response%squeeze_column(k), part%kept)
       end associate
     end do
   end subroutine keep_columns
 
-  !> Z at one frequency, one factorization for motions of each symmetry; `found` is false where a
-  !> matrix cannot be factorized.
-  recursive subroutine find_coefficients(bearing, response, frequency, coefficient, found, only_translations)
+  !> Z of motions \( e^{\lambda t} \), one factorization for those of each symmetry.
+  recursive subroutine find_coefficients(bearing, response, rate, coefficient, found, only_translations)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
-    real(wp), intent(in) :: frequency !! omega, of either sign [rad/s]
+    complex(wp), intent(in) :: rate !! lambda, i omega for vibrations; with a loss factor for these alone [1/s]
     !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry [SI]
     complex(wp), intent(out) :: coefficient(shaft_coordinates, shaft_coordinates)
-    logical, intent(out) :: found !! all of them
+    logical, intent(out) :: found !! all of them; else a matrix cannot be factorized
     logical, intent(in), optional :: only_translations !! tilts are not asked for
     complex(wp) :: other(shaft_coordinates, shaft_coordinates)
     integer :: i, wanted
@@ -254,20 +247,19 @@ contains
     found = .false.
     wanted = shaft_coordinates
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
-    call combine(response, frequency)
+    call combine(response, rate)
     do i = 1, size(response%part)
       if (response%part(i)%coordinate(1) > wanted) cycle
       call fill_pairs(response%real_part, response%imaginary_part, response%part(i)%kept, coupled_columns(bearing), &
                       response%part(i)%matrix)
       response%factorizations = response%factorizations + 1
       call make_factors(response%part(i)%linear, response%part(i)%matrix, found, response%enlargements)
-      if (.not. found) return
-      call solve_part(bearing, response, frequency, wanted, response%part(i), coefficient, found)
+      if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
     if (.not. allocated(response%opposite) .or. wanted < shaft_coordinates) return
     associate (opposite => response%opposite)
-      call find_coefficients(response%opposite_bearing, opposite, frequency, other, found)
+      call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)
       response%factorizations = response%factorizations + opposite%factorizations
       response%enlargements = response%enlargements + opposite%enlargements
@@ -277,35 +269,43 @@ contains
   end subroutine find_coefficients
 
   !> Real and imaginary part of the matrix.
-  subroutine combine(response, frequency)
+  subroutine combine(response, rate)
     type(dynamic_response_type), intent(in) :: response
-    real(wp), intent(in) :: frequency !! [rad/s]
+    complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp) :: loss, softening
     PetscErrorCode :: ierr
 
     PetscCallA(MatCopy(response%steady, response%real_part, SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatCopy(response%squeeze, response%imaginary_part, SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatScale(response%imaginary_part, frequency, ierr))
+    PetscCallA(MatZeroEntries(response%imaginary_part, ierr))
+    call add_multiple(rate, response%squeeze)
     if (.not. dissipates(response)) return
     associate (vibration => response%vibration)
-      loss = cmplx(0.0_wp, sign(vibration%loss_factor, frequency) + frequency*vibration%damping_time, wp)
+      loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
     end associate
     if (response%local_springs) then
       softening = 1.0_wp/(1.0_wp + loss) - 1.0_wp
-      PetscCallA(MatAXPY(response%real_part, real(softening, wp), response%flow_by_gap, SAME_NONZERO_PATTERN, ierr))
-      PetscCallA(MatAXPY(response%real_part, -frequency*aimag(softening), response%squeeze_by_gap, SAME_NONZERO_PATTERN, ierr))
-      PetscCallA(MatAXPY(response%imaginary_part, aimag(softening), response%flow_by_gap, SAME_NONZERO_PATTERN, ierr))
-      PetscCallA(MatAXPY(response%imaginary_part, frequency*real(softening, wp), response%squeeze_by_gap, SAME_NONZERO_PATTERN, ierr))
+      call add_multiple(softening, response%flow_by_gap)
+      call add_multiple(rate*softening, response%squeeze_by_gap)
     else
-      PetscCallA(MatAXPY(response%imaginary_part, aimag(loss), response%springs, SAME_NONZERO_PATTERN, ierr))
+      call add_multiple(loss, response%springs)
     end if
+
+  contains
+
+    subroutine add_multiple(factor, matrix)
+      complex(wp), intent(in) :: factor
+      Mat, intent(in) :: matrix
+
+      PetscCallA(MatAXPY(response%real_part, real(factor, wp), matrix, SAME_NONZERO_PATTERN, ierr))
+      PetscCallA(MatAXPY(response%imaginary_part, aimag(factor), matrix, SAME_NONZERO_PATTERN, ierr))
+    end subroutine add_multiple
   end subroutine combine
 
   !> Forces of a part's motions, with the factors there are.
-  subroutine solve_part(bearing, response, frequency, wanted, part, coefficient, found)
+  subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found)
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(in) :: response
-    real(wp), intent(in) :: frequency !! [rad/s]
+    complex(wp), intent(in) :: rate   !! [1/s]
     integer, intent(in) :: wanted     !! coordinates, from the first
     type(part_type), intent(in) :: part
     complex(wp), intent(inout) :: coefficient(:, :)
@@ -322,9 +322,10 @@ contains
     do i = 1, size(part%coordinate)
       associate (k => part%coordinate(i), one => response%one, other => response%other)
         if (k > wanted) cycle
+        PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
         PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
-        PetscCallA(VecScale(other, frequency, ierr))
-        PetscCallA(VecStrideScatter(response%steady_column(k), 0_pint, right, INSERT_VALUES, ierr))
+        PetscCallA(VecScale(other, aimag(rate), ierr))
+        PetscCallA(VecStrideScatter(one, 0_pint, right, INSERT_VALUES, ierr))
         PetscCallA(VecStrideScatter(other, 1_pint, right, INSERT_VALUES, ierr))
         PetscCallA(KSPSolve(part%linear, right, answer, ierr))
         PetscCallA(KSPGetConvergedReason(part%linear, reason, ierr))
@@ -342,14 +343,13 @@ contains
 
   !> Weighted pressures of minus a change of the unknowns, with the asperities'.
   function forces_of(bearing, response, part, coordinate, motion, change) result(force)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(in) :: response
-    type(part_type), intent(in) :: part
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(in) :: response !! of it
+    type(part_type), intent(in) :: part !! of the response
     integer, intent(in) :: coordinate !! that moves
     real(wp), intent(in) :: motion    !! how far, with this change [m], [rad]
     Vec, intent(in) :: change         !! minus it, scaled
-    real(wp) :: force(size(part%coordinate))
-    real(wp) :: value(bearing%local_size()), pressure(bearing%film_nodes()), gap
+    real(wp) :: force(size(part%coordinate)), value(bearing%local_size()), pressure(bearing%film_nodes()), gap
     integer :: node
 
     call bearing%get_unknowns(value, change)

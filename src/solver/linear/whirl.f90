@@ -68,8 +68,8 @@ contains
     logical, intent(out) :: found
     complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
 
-    call find_coefficients(bearing, response, ratio*bearing%point%speed, coefficient, found, &
-                           only_translations=.true.)
+    call find_coefficients(bearing, response, cmplx(0.0_wp, ratio*bearing%point%speed, wp), &
+                           coefficient, found, only_translations=.true.)
     kappa = planar_eigenvalues(coefficient(:2, :2))
   end subroutine eigenvalues_at
 

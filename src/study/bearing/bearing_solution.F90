@@ -11,7 +11,7 @@ module gfb_bearing_solution
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_bearing_builder, only: build_bearing
+  use gfb_bearing_builder, only: build_bearing, build_opposite
   use gfb_newton, only: newton_settings_type, create_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, start_partitioned
@@ -63,6 +63,7 @@ contains
 
     sweep%scene = scene
     sweep%context = context
+    sweep%build => build_opposite
     associate (solver => scene%solver)
       sweep%path = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
       sweep%tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &
@@ -121,6 +122,7 @@ contains
     else
       scene = sweep%scene
     end if
+    sweep%here = scene
   end subroutine scene_of
 
   !> The answer that a restart file holds.
@@ -179,6 +181,7 @@ contains
     type(reason_type), intent(out) :: reason
     type(error_type), allocatable, intent(out) :: error
     type(path_report_type) :: report
+    type(scene_type) :: scene
     integer :: point
 
     do point = first, size(sweep%scene%sweep%values)
@@ -191,7 +194,8 @@ contains
         call sweep%stop_short(report, reason)
         return
       end if
-      sweep%value = sweep%scene%sweep%values(point)
+      call scene_of(sweep, point, scene, error)
+      if (allocated(error)) return
       call sweep%record_point(point)
       call sweep%keep_point(point)
     end do

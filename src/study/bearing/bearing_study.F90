@@ -3,7 +3,7 @@
 module gfb_bearing_study
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, fail, status_machine
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_run_log, only: run_log_type
   use gfb_c_library, only: peak_memory
@@ -16,12 +16,11 @@ module gfb_bearing_study
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_record, only: analysis_name
   use gfb_bearing_summary, only: cost_type, answer_quantities
-  use gfb_contact_record, only: foil_contact_arrays
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
   use gfb_sweep, only: sweep_type
   use gfb_bearing_solution, only: solve_bearing
-  use gfb_dynamics, only: dynamics_type
+  use gfb_dynamics_writing, only: record_arrays, write_coefficients
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
   implicit none (type)
   private
@@ -30,7 +29,6 @@ module gfb_bearing_study
   type, extends(study_type), public :: bearing_study_type
     type(bearing_plan_type) :: plan
     type(sweep_type) :: sweep
-    type(dynamics_type) :: dynamics !! of the answer, where it is asked for
   contains
     procedure :: prepare => prepare_bearing
     procedure :: solve => solve_study
@@ -63,10 +61,10 @@ contains
     call solve_bearing(scene, self%plan, context, self%sweep, self%reason, error)
     if (allocated(error)) return
     self%converged = .not. self%reason%is_given()
-    if (scene%dynamics%present) then
-      call self%dynamics%find(scene, context%log, self%converged, self%sweep%bearing, self%sweep%newton, self%more, error)
+    associate (dynamics => self%sweep%record%dynamics)
+      if (allocated(dynamics%problem)) call fail(error, dynamics%problem, status_machine)
       if (allocated(error)) return
-    end if
+    end associate
     associate (bearing => self%sweep%bearing, newton => self%sweep%newton)
       self%unknowns = bearing%unknowns
       self%iterations = newton%iterations
@@ -97,12 +95,11 @@ contains
     result%ranks = rank_count()
     result%origin = context%origin()
     associate (record => self%sweep%record)
-      result%contacts = foil_contact_arrays(self%sweep%bearing%pad(1)%foil, record%contacts, size(record%history))
+      result%contacts = record_arrays(scene, self%sweep%bearing%pad(1)%foil, record, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
+      call write_bearing(scene, context, self%sweep, result, summary, error)
+      if (.not. allocated(error)) call write_coefficients(record, scene, context, error)
     end associate
-    call self%dynamics%add_arrays(result%contacts)
-    call write_bearing(scene, context, self%sweep, result, summary, error)
-    if (.not. allocated(error)) call self%dynamics%write(scene, context, error)
   end subroutine write_study
 
   !> What the model leaves out, and why.

@@ -7,6 +7,7 @@ module gfb_bearing_writing
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
@@ -59,6 +60,7 @@ contains
       call add_quantity(summary, summary_quantities(record%tilted))
       call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
+      if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
       call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
       if (converged .and. answer%has_foils) call show_growth(log, record%judged)

@@ -1,102 +1,153 @@
 #include "gfb_petsc.h"
-!> Small vibrations of the shaft about an answer: stiffness and damping, and the mass that whirls.
+!> Small vibrations of the shaft about an answer: stiffness and damping, the mass that whirls, and the
+!> modes of a rotor.
 module gfb_dynamics
-  use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_rigid, foil_shell, meshes_foils
-  use gfb_dynamics_case, only: tangent_stick
+  use gfb_dynamics_case, only: tangent_stick, frequencies_at
   use gfb_strip_load_case, only: bump_stiffness
-  use gfb_petsc_session, only: this_rank, share_failure
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type
   use gfb_dynamic_response, only: dynamic_response_type, vibration_type, create_response, find_coefficients, &
                                   destroy_response
   use gfb_whirl, only: whirl_type, find_critical_mass
-  use gfb_dynamics_record, only: dynamics_record_type, stiffness_of, damping_of, dynamics_arrays, dynamics_table
-  use gfb_case_file, only: case_array_type, add_arrays
-  use gfb_text_file, only: write_text_file
-  use gfb_run_context, only: run_context_type
-  implicit none (type)
+  use gfb_rotor, only: rotor_type
+  use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes
+  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of
+  implicit none (type, external)
   private
+  public :: find_dynamics, find_growth_rate, opposite_builder
 
-  !> The coefficients of a bearing's answer; none without one.
-  type, public :: dynamics_type
-    type(dynamics_record_type), private :: record
-  contains
-    procedure :: find => find_dynamics
-    procedure :: add_arrays => add_dynamics_arrays
-    procedure :: write => write_dynamics
-  end type dynamics_type
+  abstract interface
+    !> Builds the bearing of motions against the mirror's, where shells are solved on half the width.
+    subroutine opposite_builder(scene, bearing, opposite, error)
+      import :: scene_type, bearing_system_type, error_type
+      implicit none (type, external)
+      type(scene_type), intent(in) :: scene !! that the bearing is of
+      type(bearing_system_type), intent(in) :: bearing !! on half the width
+      type(bearing_system_type), intent(inout) :: opposite !! at no answer yet
+      type(error_type), allocatable, intent(out) :: error !! why it failed
+    end subroutine opposite_builder
+  end interface
 
 contains
 
-  !> Coefficients at the frequencies of the scene, and the critical mass; none where there is no answer.
-  !>
-  !> Fails when a matrix cannot be factorized.
-  subroutine find_dynamics(self, scene, log, converged, bearing, newton, found, error)
-    class(dynamics_type), intent(inout) :: self !! the coefficients
-    type(scene_type), intent(in) :: scene !! what is asked for
+  !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes; the bearing's
+  !> state and equations are left as they are.
+  subroutine find_dynamics(scene, log, bearing, newton, build, record, found, rotor)
+    type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
-    logical, intent(in) :: converged !! the bearing is at its answer
-    type(bearing_system_type), intent(inout) :: bearing !! left as it is
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
-    type(quantity_type), allocatable, intent(out) :: found(:) !! what the summary says of them
-    type(error_type), allocatable, intent(out) :: error !! why it failed
+    procedure(opposite_builder) :: build !! of the bearing of tilts
+    type(dynamics_record_type), intent(inout) :: record !! gets the answer's coefficients
+    type(quantity_type), allocatable, intent(out) :: found(:) !! critical mass, whirl ratio
+    type(rotor_answer_type), intent(out) :: rotor !! modes of the scene's rotor, where it has one
     type(dynamic_response_type) :: response
-    integer :: i
-    logical :: made
+    type(dynamics_point_type) :: point
+    logical :: first
 
+    if (.not. allocated(record%point)) allocate (record%point(0))
+    first = size(record%point) == 0
     allocate (found(0))
-    if (.not. converged) then
-      call log%line('no stiffness and damping: they are those of an answer, and there is none')
-      return
+    if (.not. scene%sweep%present) call log%heading('small vibrations')
+    if (first) call describe(scene, log)
+    call start_response(scene, bearing, build, response, record%problem)
+    if (allocated(record%problem)) return
+    call fill_coefficients(scene, bearing, response, point, record%problem)
+    if (.not. scene%sweep%present .and. .not. allocated(record%problem)) then
+      call show_coefficients(log, bearing%point%speed, point)
     end if
-    call log%heading('small vibrations')
-    call describe(scene, log)
-    call start_response(scene, bearing, response, error)
-    if (allocated(error)) return
-    associate (record => self%record, frequency => scene%dynamics%frequencies)
-      allocate (record%coefficient(shaft_coordinates, shaft_coordinates, size(frequency)))
-      do i = 1, size(frequency)
-        call find_coefficients(bearing, response, frequency(i), record%coefficient(:, :, i), made)
-        if (.not. made) call fail(error, 'the matrix of the vibration at '//text(frequency(i))// &
-                                  ' rad/s cannot be factorized', status_machine)
-        if (allocated(error)) exit
-      end do
-      record%frequency = frequency
-    end associate
-    if (.not. allocated(error)) then
-      call show_coefficients(log, bearing%point%speed, self%record)
+    if (.not. allocated(record%problem) .and. bearing%point%speed > 0.0_wp) then
       call add_whirl(log, bearing, response, found)
+      if (scene%rotor%present) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
+    record%point = [record%point, point]
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements
     call destroy_response(response)
+    call bearing%linearise(bearing%state)
   end subroutine find_dynamics
 
+  !> Stiffness and damping at the frequencies of the scene.
+  subroutine fill_coefficients(scene, bearing, response, point, problem)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(dynamics_point_type), intent(inout) :: point
+    character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
+    logical :: made
+    integer :: i
+
+    point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
+    allocate (point%coefficient(shaft_coordinates, shaft_coordinates, size(point%frequency)), source=(0.0_wp, 0.0_wp))
+    do i = 1, size(point%frequency)
+      call find_coefficients(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), point%coefficient(:, :, i), made)
+      if (made) cycle
+      problem = 'the matrix of the vibration at '//text(point%frequency(i))//' rad/s cannot be factorized'
+      return
+    end do
+  end subroutine fill_coefficients
+
+  !> Growth of the rotor's least damped mode at an answer.
+  subroutine find_growth_rate(scene, bearing, newton, build, growth, found)
+    type(scene_type), intent(in) :: scene !! with a rotor
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(newton_type), intent(inout) :: newton !! its factorizations are counted
+    procedure(opposite_builder) :: build !! of the bearing of tilts
+    real(wp), intent(out) :: growth !! [1/s]
+    logical, intent(out) :: found !! there is such a mode
+    type(dynamic_response_type) :: response
+    type(rotor_answer_type) :: answer
+    character(len=:), allocatable :: problem
+
+    growth = 0.0_wp
+    call start_response(scene, bearing, build, response, problem)
+    found = .not. allocated(problem)
+    if (.not. found) return
+    call find_rotor_modes(bearing, response, rotor_of(scene), answer)
+    newton%factorizations = newton%factorizations + response%factorizations
+    newton%enlargements = newton%enlargements + response%enlargements
+    call destroy_response(response)
+    call bearing%linearise(bearing%state)
+    found = answer%found .and. answer%decides > 0
+    if (found) growth = real(answer%mode(answer%decides)%rate, wp)
+  end subroutine find_growth_rate
+
+  !> The scene's rotor.
+  pure function rotor_of(scene) result(rotor)
+    type(scene_type), intent(in) :: scene
+    type(rotor_type) :: rotor
+    associate (given => scene%rotor)
+      rotor = rotor_type(given%mass, given%transverse_inertia, given%polar_inertia, given%bearing_distance)
+    end associate
+  end function rotor_of
+
   !> The bearing linearised at its answer, with that of tilts where shells are solved on half the width.
-  !>
-  !> Fails when the mesh cannot be cut.
-  subroutine start_response(scene, bearing, response, error)
+  subroutine start_response(scene, bearing, build, response, problem)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
+    procedure(opposite_builder) :: build
     type(dynamic_response_type), intent(out) :: response
-    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable, intent(inout) :: problem !! why there is none
     type(bearing_system_type), allocatable :: opposite
+    type(error_type), allocatable :: error
 
     if (scene%model%foil == foil_shell .and. bearing%pad(1)%whole%half) then
       allocate (opposite)
-      call build_opposite(scene, bearing, opposite, error)
-      if (allocated(error)) return
+      call build(scene, bearing, opposite, error)
+      if (allocated(error)) then
+        problem = error%message
+        return
+      end if
     end if
     call create_response(bearing, vibration_of(scene), response, opposite)
   end subroutine start_response
@@ -142,21 +193,21 @@ contains
   end subroutine describe
 
   !> A line a frequency.
-  subroutine show_coefficients(log, speed, record)
+  subroutine show_coefficients(log, speed, point)
     type(run_log_type), intent(in) :: log
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
-    type(dynamics_record_type), intent(in) :: record
+    type(dynamics_point_type), intent(in) :: point
     integer, parameter :: digits = 4
     character(len=:), allocatable :: line
     real(wp) :: k(shaft_coordinates, shaft_coordinates), c(shaft_coordinates, shaft_coordinates)
     integer :: i, row
 
     call log%line('frequency [rad/s] (over speed)   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]')
-    do i = 1, size(record%frequency)
-      k = stiffness_of(record, i)
-      c = damping_of(record, i)
-      line = text(record%frequency(i), digits)
-      if (speed > 0.0_wp) line = line//' ('//text(record%frequency(i)/speed, digits)//')'
+    do i = 1, size(point%frequency)
+      k = stiffness_of(point, i)
+      c = damping_of(point, i)
+      line = text(point%frequency(i), digits)
+      if (speed > 0.0_wp) line = line//' ('//text(point%frequency(i)/speed, digits)//')'
       line = line//'  '
       do row = 1, 2
         line = line//' '//text(k(row, 1), digits)//' '//text(k(row, 2), digits)
@@ -190,29 +241,4 @@ contains
       call log%line('no critical mass: a matrix of the search could not be factorized')
     end if
   end subroutine add_whirl
-
-  !> Puts the coefficients behind other arrays of the result file.
-  subroutine add_dynamics_arrays(self, arrays)
-    class(dynamics_type), intent(in) :: self !! the coefficients
-    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
-
-    call add_arrays(arrays, dynamics_arrays(self%record))
-  end subroutine add_dynamics_arrays
-
-  !> Writes the table of coefficients, `<case>.coefficients.csv`; nothing where there is no answer.
-  !>
-  !> Fails when the file cannot be written.
-  subroutine write_dynamics(self, scene, context, error)
-    class(dynamics_type), intent(in) :: self !! the coefficients
-    type(scene_type), intent(in) :: scene !! whose name the file has
-    type(run_context_type), intent(in) :: context !! of the run
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-
-    if (.not. allocated(self%record%frequency)) return
-    if (this_rank() == 0) then
-      call write_text_file(context%folder//'/'//scene%name//'.coefficients.csv', dynamics_table(self%record), error)
-    end if
-    call share_failure(error)
-    if (.not. allocated(error)) call context%log%line('table of coefficients: '//scene%name//'.coefficients.csv')
-  end subroutine write_dynamics
 end module gfb_dynamics

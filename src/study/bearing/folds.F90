@@ -15,11 +15,10 @@ module gfb_folds
   use gfb_arc, only: end_arc
   use gfb_arc_length, only: begin_arc, advance_arc
   use gfb_fold_way, only: fold_way_type
-  use gfb_tilt_response, only: measure_tilt
   use gfb_bearing_restart, only: keep_bearing, recall_way
-  use gfb_bearing_record, only: add_row, sweep_name, sweep_unit
+  use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
-  use gfb_answer_judgement, only: judge_answer
+  use gfb_answer_record, only: record_swept
   use gfb_sweep, only: sweep_type
   implicit none (type)
   private
@@ -175,9 +174,7 @@ contains
       end if
       branch%kept = number
       branch%kept_heading = branch%arc%heading
-      call measure_tilt(scene, scene%sweep%values(number), bearing, newton, record%tilted)
-      call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)
-      call add_row(scene, bearing, newton, .true., record, scene%sweep%values(number), .false.)
+      call record_swept(scene, scene, sweep%context%log, bearing, newton, sweep%build, record, scene%sweep%values(number), .false.)
       call sweep%context%log%line('on the branch: '//value_text(scene, branch%lambda(number)))
     end associate
     call sweep%watch()
@@ -188,17 +185,11 @@ contains
     type(sweep_type), target, intent(inout) :: sweep
     type(fold_way_type), intent(inout) :: branch
     real(wp) :: fold
-    integer :: i
 
     call branch%arc%to_turn()
     fold = branch%arc%lambda_before
     associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
-      call measure_tilt(scene, value_at(scene, fold), bearing, newton, record%tilted)
-      call judge_answer(scene, sweep%context%log, bearing, newton, record%judged)
-      do i = 1, size(record%judged)
-        if (record%judged(i)%name == 'determinant_sign') record%judged(i)%number = 0.0_wp ! it changes here
-      end do
-      call add_row(scene, bearing, newton, .true., record, value_at(scene, fold), .true.)
+      call record_swept(scene, scene, sweep%context%log, bearing, newton, sweep%build, record, value_at(scene, fold), .true.)
       branch%kept = 0
       call sweep%context%log%line('fold: the branch turns back at '//value_text(scene, fold))
     end associate

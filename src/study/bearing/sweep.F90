@@ -14,15 +14,15 @@ module gfb_sweep
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
-  use gfb_tilt_response, only: begin_tilt, measure_tilt
-  use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
+  use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
   use gfb_branch_watch, only: watch_branch, note_start
   use gfb_reasons, only: reason_type
   use gfb_missing_answer, only: explain_missing
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
-  use gfb_answer_judgement, only: judge_answer
+  use gfb_answer_record, only: record_single, record_swept, fix_shaft, opposite_builder
+  use gfb_onset, only: look_for_onset
   use gfb_last_answer, only: last_answer_type
   implicit none (type)
   private
@@ -30,6 +30,7 @@ module gfb_sweep
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, extends(walk_type), public :: sweep_type
     type(scene_type) :: scene
+    type(scene_type) :: here !! the same with the present value of the keys that it sweeps
     type(run_context_type) :: context
     type(path_settings_type) :: path
     type(newton_settings_type) :: tolerances
@@ -41,6 +42,7 @@ module gfb_sweep
     logical :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type) :: sides  !! of the bearing, then
     type(last_answer_type) :: last
+    procedure(opposite_builder), pointer, nopass :: build => null() !! of the bearing of tilts, for vibrations
   contains
     procedure :: begin => begin_sweep
     procedure :: reach => reach_value
@@ -52,7 +54,6 @@ module gfb_sweep
     procedure :: explain
     procedure :: watch
     procedure :: tell_end
-    procedure, private :: fix_shaft
   end type sweep_type
 
 contains
@@ -66,12 +67,9 @@ contains
     associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
       record%begun = wall_time()
       if (.not. scene%sweep%present) then
-        if (converged) call judge_answer(scene, self%context%log, bearing, newton, record%judged)
-        call add_row(scene, bearing, newton, converged, record)
+        call record_single(scene, self%context%log, bearing, newton, self%build, converged, record)
       else if (converged .and. scene%sweep%hold_position) then
-        if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
-        call self%fix_shaft()
-        call begin_tilt(scene, bearing, newton, record%tilted)
+        call fix_shaft(scene, self%context%log, bearing, newton, record)
       else if (converged) then
         call self%record_point(1)
       end if
@@ -99,13 +97,13 @@ contains
     integer, intent(in) :: point !! number of the sweep's value
 
     associate (scene => self%scene, bearing => self%bearing, newton => self%newton, record => self%record)
-      call measure_tilt(scene, scene%sweep%values(point), bearing, newton, record%tilted)
-      call judge_answer(scene, self%context%log, bearing, newton, record%judged)
       if (scene%sweep%turn_folds) then
-        call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point), .false.)
+        call record_swept(scene, self%here, self%context%log, bearing, newton, self%build, record, scene%sweep%values(point), .false.)
       else
-        call add_row(scene, bearing, newton, .true., record, scene%sweep%values(point))
+        call record_swept(scene, self%here, self%context%log, bearing, newton, self%build, record, scene%sweep%values(point))
       end if
+      call look_for_onset(scene, self%context%log, self%path, record%history, bearing, newton, self%build, &
+                          record%dynamics%onset)
       if (scene%sweep%parameter == sweep_keys) then
         call note_start(record%history, self%anew)
       end if
@@ -177,18 +175,6 @@ contains
     target = operating_point(operation_at(self%scene%operation, self%scene%sweep, point))
     if (self%scene%sweep%hold_position) target%eccentricity = self%bearing%point%eccentricity
   end function target_at
-
-  !> Fixes the shaft at its equilibrium from now on.
-  subroutine fix_shaft(self)
-    class(sweep_type), intent(inout) :: self !! the sweep
-
-    associate (bearing => self%bearing)
-      bearing%point%eccentricity = bearing%eccentricity()
-      bearing%shaft_fixed = .true.
-      call self%context%log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*1.0e6_wp, 5)//', '// &
-                                 text(bearing%point%eccentricity(2)*1.0e6_wp, 5)//') um')
-    end associate
-  end subroutine fix_shaft
 
   !> Ends a sweep before its last point; what was known of the last answer is not of the state now.
   subroutine stop_short(self, report, reason)

@@ -16,7 +16,7 @@ module gfb_sweep_stretch
   implicit none (type, external)
   private
   public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
-            place_text, add_origin
+            place_text, add_origin, first_onset
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -36,6 +36,7 @@ module gfb_sweep_stretch
     type(history_row_type), allocatable :: next(:)
     type(case_array_type), allocatable :: contacts(:)
     real(wp) :: first_slope(2, 2) = 0.0_wp     !! where it begins [N m/rad]
+    real(wp) :: onset = 0.0_wp !! speed at which a rotor begins to whirl; 0: none [rpm]
   end type stretch_type
 
 contains
@@ -47,6 +48,7 @@ contains
 
     call memory%visit('first', stretch%first)
     call memory%visit('last', stretch%last)
+    call memory%visit('onset', stretch%onset)
     call memory%visit('status', stretch%status)
     call memory%visit('iterations', stretch%iterations)
     call memory%visit('factorizations', stretch%factorizations)
@@ -187,6 +189,17 @@ contains
       end do
     end do
   end subroutine merge_arrays
+
+  !> The first onset of whirl that any stretch has seen; 0: none.
+  pure function first_onset(onsets) result(onset)
+    real(wp), intent(in) :: onsets(:) !! of the stretches, in the sweep's order [rpm]
+    real(wp) :: onset !! [rpm]
+    integer :: first
+
+    onset = 0.0_wp
+    first = findloc(onsets > 0.0_wp, .true., 1)
+    if (first > 0) onset = onsets(first)
+  end function first_onset
 
   !> Adds how the sweep was divided, and whether its stretches meet.
   subroutine add_origin(scene, groups, stretches, list)

@@ -1,0 +1,391 @@
+#include "gfb_petsc.h"
+!> Eigenvalues of film, foil and rotor together.
+!>
+!> With the film's and foil's unknowns u, the rotor's coordinates q and their rates v all motions
+!> \( e^{\lambda t} \) obey
+!>
+!> $$ (J + \lambda E) u + (r_q + \lambda c_q) T q = 0, \quad v = \lambda q, \quad
+!>    \lambda M v + \Omega G v + f(u, q) = 0, $$
+!>
+!> that is \( (A + \lambda B) x = 0 \) with a singular B. The eigenvalues next to a real shift
+!> \( \sigma \) are those of \( (A + \sigma B)^{-1} B \) with the largest modulus,
+!> \( 1/(\sigma - \lambda) \). Its product with a vector takes the factors of \( J + \sigma E \), which the
+!> coefficients \( Z(\sigma) \) have made, and the 2 x 2 matrix \( D(\sigma) \) of the rotor: film and foil are
+!> eliminated. On half the width a conical motion has an even and an odd share, each with a u of its own; that
+!> of shells is of another bearing.
+module gfb_rotor_pencil
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
+  use slepceps
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks, this_rank
+  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of, dissipates
+  use gfb_complex_pairs, only: keep_entries
+  use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, cylindrical
+  implicit none (type)
+  private
+  public :: find_pencil_modes, has_pencil
+
+  character(len=*), parameter :: prefix = 'rotor_' !! of PETSc's options
+  integer, parameter :: wanted = 12           !! eigenvalues next to the shift
+  integer, parameter :: krylov_room = 36      !! vectors kept beyond them
+  integer, parameter :: most_restarts = 50    !! of the iteration that finds them
+  real(wp), parameter :: tolerance = 1.0e-10_wp !! of the eigenvalues, relative
+
+  !> An eigenvalue and what moves with it.
+  type, public :: pencil_mode_type
+    complex(wp) :: rate = 0.0_wp        !! lambda, its imaginary part not negative [1/s]
+    complex(wp) :: motion(planar) = 0.0_wp !! of the rotor, of any size
+    real(wp) :: share = 0.0_wp          !! of the rotor in the mode, 0 .. 1 [1]
+  end type pencil_mode_type
+
+  !> A u of its own.
+  type :: share_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(dynamic_response_type), pointer :: response => null()
+    integer :: part = 1                 !! of the response
+    integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; its own
+    type(tVec) :: column(planar)        !! u that it takes to hold the rotor's coordinates still
+    type(tMat) :: rate                  !! E
+  end type share_type
+
+  !> What the product needs.
+  type :: pencil_type
+    type(share_type), allocatable :: share(:)
+    real(wp) :: motion(shaft_coordinates, planar) = 0.0_wp !! T
+    real(wp) :: shift = 0.0_wp                !! sigma [1/s]
+    real(wp) :: length = 1.0_wp               !! size of the rotor's coordinates [m], [rad]
+    real(wp) :: clock = 1.0_wp                !! size of rates [1/s]
+    real(wp) :: inertia = 0.0_wp              !! [kg], [kg m2]
+    real(wp) :: gyration(planar, planar) = 0.0_wp
+    real(wp) :: flexibility(planar, planar) = 0.0_wp !! inverse of D at the shift
+  end type pencil_type
+
+contains
+
+  !> Whether the equations are linear in lambda: not with a loss factor, nor with dampers beside springs
+  !> that have no unknowns of their own.
+  pure function has_pencil(response)
+    type(dynamic_response_type), intent(in) :: response !! of a bearing
+    logical :: has_pencil
+    has_pencil = .not. dissipates(response) .or. &
+                 (.not. response%local_springs .and. .not. response%vibration%loss_factor > 0.0_wp)
+  end function has_pencil
+
+  !> Modes next to a real shift, nearest first, one of each complex pair.
+  subroutine find_pencil_modes(bearing, response, rotor, kind, shift, modes, found)
+    type(bearing_system_type), target, intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), target, intent(inout) :: response !! of it, with a pencil
+    type(rotor_type), intent(in) :: rotor !! on the bearing
+    integer, intent(in) :: kind !! `cylindrical` or `conical`
+    real(wp), intent(in) :: shift !! sigma, no eigenvalue [1/s]
+    type(pencil_mode_type), allocatable, intent(out) :: modes(:) !! none where the iteration finds none
+    logical, intent(out) :: found !! the matrix could be factorized
+    type(pencil_type), target :: pencil
+    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
+
+    allocate (modes(0))
+    call find_coefficients(bearing, response, cmplx(shift, 0.0_wp, wp), coefficient, found, &
+                           only_translations=kind == cylindrical)
+    if (.not. found) return
+    pencil%shift = shift
+    pencil%clock = shift
+    pencil%length = bearing%pad(1)%film%clearance
+    if (kind /= cylindrical) pencil%length = 2.0_wp*pencil%length/rotor%bearing_distance
+    pencil%motion = motion_of(rotor, kind)
+    pencil%inertia = inertia_of(rotor, kind)
+    pencil%gyration = gyration_of(rotor, kind, bearing%point%speed)
+    pencil%flexibility = inverse(real(dynamic_matrix(rotor, kind, coefficient, cmplx(shift, 0.0_wp, wp), bearing%point%speed), wp))
+    allocate (pencil%share(merge(2, 1, kind /= cylindrical .and. (size(response%part) == 2 .or. allocated(response%opposite)))))
+    call create_share(pencil, bearing, response, 1, pencil%share(1))
+    if (size(pencil%share) == 2) then
+      pencil%share(2)%first = pencil%share(1)%entries
+      if (allocated(response%opposite)) then
+        call create_share(pencil, response%opposite_bearing, response%opposite, 1, pencil%share(2))
+      else
+        call create_share(pencil, bearing, response, 2, pencil%share(2))
+      end if
+    end if
+    call solve_pencil(pencil, modes)
+    call destroy_pencil(pencil)
+  end subroutine find_pencil_modes
+
+  !> Inverse of a 2 x 2 matrix.
+  pure function inverse(matrix)
+    real(wp), intent(in) :: matrix(planar, planar)
+    real(wp) :: inverse(planar, planar)
+
+    inverse = reshape([matrix(2, 2), -matrix(2, 1), -matrix(1, 2), matrix(1, 1)], [planar, planar])
+    inverse = inverse/(matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
+  end function inverse
+
+  !> E, and the film's answers to motions of the rotor at the shift.
+  subroutine create_share(pencil, bearing, response, number, share)
+    type(pencil_type), intent(in) :: pencil
+    type(bearing_system_type), target, intent(in) :: bearing
+    type(dynamic_response_type), target, intent(inout) :: response
+    integer, intent(in) :: number !! of the response's part
+    type(share_type), intent(inout) :: share
+    PetscInt :: entries
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    share%bearing => bearing
+    share%response => response
+    share%part = number
+    PetscCallA(VecGetLocalSize(bearing%state, entries, ierr))
+    share%entries = int(entries)
+    PetscCallA(MatDuplicate(response%squeeze, MAT_COPY_VALUES, share%rate, ierr))
+    if (dissipates(response)) then
+      PetscCallA(MatAXPY(share%rate, response%vibration%damping_time, response%springs, SAME_NONZERO_PATTERN, ierr))
+    end if
+    do i = 1, planar
+      PetscCallA(VecDuplicate(bearing%state, share%column(i), ierr))
+      PetscCallA(VecSet(response%one, 0.0_wp, ierr))
+      associate (coordinate => response%part(number)%coordinate)
+        do k = 1, size(coordinate)
+          associate (factor => pencil%motion(coordinate(k), i))
+            PetscCallA(VecAXPY(response%one, factor, response%steady_column(coordinate(k)), ierr))
+            PetscCallA(VecAXPY(response%one, factor*pencil%shift, response%squeeze_column(coordinate(k)), ierr))
+          end associate
+        end do
+      end associate
+      call solve_film(share, response%one, share%column(i))
+    end do
+  end subroutine create_share
+
+  !> Solves with J + sigma E of a part.
+  subroutine solve_film(share, right, answer)
+    type(share_type), intent(in) :: share
+    Vec, intent(in) :: right, answer !! scaled
+    Vec :: pairs, solved
+    PetscErrorCode :: ierr
+
+    associate (part => share%response%part(share%part))
+      call keep_entries(right, part%kept)
+      PetscCallA(MatCreateVecs(part%matrix, solved, pairs, ierr))
+      PetscCallA(VecSetBlockSize(pairs, 2_pint, ierr))
+      PetscCallA(VecSetBlockSize(solved, 2_pint, ierr))
+      PetscCallA(VecSet(pairs, 0.0_wp, ierr))
+      PetscCallA(VecStrideScatter(right, 0_pint, pairs, INSERT_VALUES, ierr))
+      PetscCallA(KSPSolve(part%linear, pairs, solved, ierr))
+      PetscCallA(VecStrideGather(solved, 0_pint, answer, INSERT_VALUES, ierr))
+      PetscCallA(VecDestroy(pairs, ierr))
+      PetscCallA(VecDestroy(solved, ierr))
+    end associate
+  end subroutine solve_film
+
+  !> Krylov-Schur's method for the eigenvalues of the product with the largest modulus.
+  subroutine solve_pencil(pencil, modes)
+    type(pencil_type), target, intent(inout) :: pencil
+    type(pencil_mode_type), allocatable, intent(out) :: modes(:)
+    Mat :: operator
+    EPS :: solver
+    Vec :: real_part, imaginary_part, left
+    PetscInt :: mine, all, columns, found, i
+    PetscScalar :: re, im
+    PetscErrorCode :: ierr
+    type(pencil_mode_type) :: one
+
+    mine = int(sum(pencil%share%entries) + merge(2*planar, 0, this_rank() == 0), pint)
+    PetscCallA(MatCreateShell(PETSC_COMM_WORLD, mine, mine, PETSC_DETERMINE, PETSC_DETERMINE, pencil, operator, ierr))
+    PetscCallA(MatShellSetOperation(operator, MATOP_MULT, apply_pencil, ierr))
+    PetscCallA(MatCreateVecs(operator, real_part, left, ierr))
+    PetscCallA(VecDuplicate(real_part, imaginary_part, ierr))
+    PetscCallA(MatGetSize(operator, all, columns, ierr))
+    PetscCallA(EPSCreate(PETSC_COMM_WORLD, solver, ierr))
+    PetscCallA(EPSSetOptionsPrefix(solver, prefix, ierr))
+    PetscCallA(EPSSetOperators(solver, operator, PETSC_NULL_MAT, ierr))
+    PetscCallA(EPSSetProblemType(solver, EPS_NHEP, ierr))
+    PetscCallA(EPSSetWhichEigenpairs(solver, EPS_LARGEST_MAGNITUDE, ierr))
+    PetscCallA(EPSSetTolerances(solver, tolerance, int(most_restarts, pint), ierr))
+    PetscCallA(EPSSetDimensions(solver, min(int(wanted, pint), all), min(int(wanted + krylov_room, pint), all), PETSC_DEFAULT_INTEGER, ierr))
+    PetscCallA(EPSSetFromOptions(solver, ierr))
+    ! A start of the rotor alone, so that a run does not depend on random numbers.
+    PetscCallA(VecSet(left, 0.0_wp, ierr))
+    call put_rotor(pencil, pencil%length*[1.0_wp, 0.5_wp], pencil%length*pencil%clock*[0.25_wp, 0.5_wp], left)
+    PetscCallA(EPSSetInitialSpace(solver, 1_pint, [left], ierr))
+    PetscCallA(EPSSolve(solver, ierr))
+    PetscCallA(EPSGetConverged(solver, found, ierr))
+    allocate (modes(0))
+    do i = 0, found - 1
+      PetscCallA(EPSGetEigenpair(solver, i, re, im, real_part, imaginary_part, ierr))
+      if (im < 0.0_wp .or. hypot(re, im) <= sqrt(tiny(1.0_wp))) cycle
+      one%rate = pencil%shift - 1.0_wp/cmplx(re, im, wp)
+      call weigh(pencil, real_part, imaginary_part, one)
+      modes = [modes, one]
+    end do
+    PetscCallA(EPSDestroy(solver, ierr))
+    PetscCallA(VecDestroy(real_part, ierr))
+    PetscCallA(VecDestroy(imaginary_part, ierr))
+    PetscCallA(VecDestroy(left, ierr))
+    PetscCallA(MatDestroy(operator, ierr))
+  end subroutine solve_pencil
+
+  !> PETSc callback: the product of (A + sigma B)^-1 B with a vector.
+  subroutine apply_pencil(operator, x, y, ierr)
+    Mat :: operator
+    Vec :: x, y
+    PetscErrorCode, intent(out) :: ierr
+    type(c_ptr) :: address
+    type(pencil_type), pointer :: pencil
+    real(wp) :: q(planar), v(planar), force(planar), new_q(planar)
+    integer :: i, k
+
+    call MatShellGetContext(operator, address, ierr)
+    call c_f_pointer(address, pencil)
+    call take_rotor(pencil, x, q, v)
+    force = pencil%inertia*v + matmul(pencil%gyration, q) + pencil%inertia*pencil%shift*q
+    do i = 1, size(pencil%share)
+      associate (share => pencil%share(i), response => pencil%share(i)%response)
+        associate (part => response%part(share%part))
+          call take_film(share, x, response%one)
+          PetscCallA(MatMult(share%rate, response%one, response%other, ierr))
+          do k = 1, size(part%coordinate)
+            PetscCallA(VecAXPY(response%other, dot_product(pencil%motion(part%coordinate(k), :), q), response%squeeze_column(part%coordinate(k)), ierr))
+          end do
+          call solve_film(share, response%other, response%one)
+          ! Forces of minus a change: the rotor's equation has them on the other side.
+          force = force + matmul(transpose(pencil%motion(part%coordinate, :)), &
+                                 forces_of(share%bearing, response, part, 1, 0.0_wp, response%one))
+          call put_film(share, response%one, y)
+        end associate
+      end associate
+    end do
+    new_q = matmul(pencil%flexibility, force)
+    do i = 1, size(pencil%share)
+      associate (share => pencil%share(i), one => pencil%share(i)%response%one)
+        call take_film(share, y, one)
+        do k = 1, planar
+          PetscCallA(VecAXPY(one, -new_q(k), share%column(k), ierr))
+        end do
+        call put_film(share, one, y)
+      end associate
+    end do
+    call put_rotor(pencil, new_q, pencil%shift*new_q - q, y)
+    ierr = 0
+  end subroutine apply_pencil
+
+  !> The rotor's coordinates and their rates out of a vector.
+  subroutine take_rotor(pencil, x, q, v)
+    type(pencil_type), intent(in) :: pencil
+    Vec, intent(in) :: x
+    real(wp), intent(out) :: q(planar), v(planar)
+    real(wp) :: both(2*planar)
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    both = 0.0_wp
+    if (this_rank() == 0) then
+      PetscCallA(GFB_VecGetArrayRead(x, values, ierr))
+      both = values(size(values) - 2*planar + 1:)
+      PetscCallA(GFB_VecRestoreArrayRead(x, values, ierr))
+    end if
+    both = sum_over_ranks(both)*pencil%length
+    q = both(:planar)
+    v = both(planar + 1:)*pencil%clock
+  end subroutine take_rotor
+
+  !> The reverse.
+  subroutine put_rotor(pencil, q, v, x)
+    type(pencil_type), intent(in) :: pencil
+    real(wp), intent(in) :: q(planar), v(planar)
+    Vec, intent(in) :: x
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    if (this_rank() /= 0) return
+    PetscCallA(GFB_VecGetArray(x, values, ierr))
+    values(size(values) - 2*planar + 1:) = [q, v/pencil%clock]/pencil%length
+    PetscCallA(GFB_VecRestoreArray(x, values, ierr))
+  end subroutine put_rotor
+
+  !> A part's film and foil out of a vector.
+  subroutine take_film(share, x, film)
+    type(share_type), intent(in) :: share
+    Vec, intent(in) :: x, film
+    PetscScalar, pointer :: values(:), own(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArrayRead(x, values, ierr))
+    PetscCallA(GFB_VecGetArray(film, own, ierr))
+    own = values(share%first + 1:share%first + share%entries)
+    PetscCallA(GFB_VecRestoreArray(film, own, ierr))
+    PetscCallA(GFB_VecRestoreArrayRead(x, values, ierr))
+  end subroutine take_film
+
+  !> The reverse.
+  subroutine put_film(share, film, x)
+    type(share_type), intent(in) :: share
+    Vec, intent(in) :: film, x
+    PetscScalar, pointer :: values(:), own(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(x, values, ierr))
+    PetscCallA(GFB_VecGetArrayRead(film, own, ierr))
+    values(share%first + 1:share%first + share%entries) = own
+    PetscCallA(GFB_VecRestoreArrayRead(film, own, ierr))
+    PetscCallA(GFB_VecRestoreArray(x, values, ierr))
+  end subroutine put_film
+
+  !> The rotor's motion in a mode, and its share: its displacement in the bearing over the clearance, squared,
+  !> against the mean square of the pressure over ambient pressure.
+  subroutine weigh(pencil, real_part, imaginary_part, mode)
+    type(pencil_type), intent(in) :: pencil
+    Vec, intent(in) :: real_part, imaginary_part
+    type(pencil_mode_type), intent(inout) :: mode
+    real(wp) :: re(planar), im(planar), v(planar), of_rotor, of_film
+    integer :: i
+
+    call take_rotor(pencil, real_part, re, v)
+    call take_rotor(pencil, imaginary_part, im, v)
+    if (aimag(mode%rate) <= 0.0_wp) im = 0.0_wp ! then not written
+    mode%motion = cmplx(re, im, wp)/pencil%length
+    of_rotor = sum(abs(mode%motion)**2)
+    of_film = 0.0_wp
+    do i = 1, size(pencil%share)
+      of_film = of_film + mean_square(pencil%share(i), real_part)
+      if (aimag(mode%rate) > 0.0_wp) of_film = of_film + mean_square(pencil%share(i), imaginary_part)
+    end do
+    mode%share = of_rotor/max(tiny(1.0_wp), of_rotor + of_film)
+  end subroutine weigh
+
+  !> Mean of the squared pressure of a part's film over the area, over ambient pressure.
+  function mean_square(share, x) result(mean)
+    type(share_type), intent(in) :: share
+    Vec, intent(in) :: x
+    real(wp) :: mean, sums(2)
+    real(wp) :: value(share%bearing%local_size())
+    integer :: element
+
+    call take_film(share, x, share%response%one)
+    call share%bearing%get_unknowns(value, share%response%one)
+    sums = 0.0_wp
+    associate (film => share%bearing%pad(1)%film)
+      do element = 1, size(film%element_nodes, 2)
+        associate (nodes => film%element_nodes(:, element), area => film%geometry(element)%area)
+          sums = sums + [dot_product(matmul(value(nodes), film%shape)**2, area), sum(area)]
+        end associate
+      end do
+      sums = sum_over_ranks(sums)
+      mean = sums(1)/sums(2)/film%ambient_pressure**2
+    end associate
+  end function mean_square
+
+  !> Frees what PETSc holds.
+  subroutine destroy_pencil(pencil)
+    type(pencil_type), intent(inout) :: pencil
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    do i = 1, size(pencil%share)
+      PetscCallA(MatDestroy(pencil%share(i)%rate, ierr))
+      do k = 1, planar
+        PetscCallA(VecDestroy(pencil%share(i)%column(k), ierr))
+      end do
+    end do
+  end subroutine destroy_pencil
+end module gfb_rotor_pencil

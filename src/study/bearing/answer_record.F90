@@ -1,0 +1,106 @@
+#include "gfb_petsc.h"
+!> An answer of a scene goes into the record, with all that is asked of it.
+module gfb_answer_record
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_tilt_response, only: begin_tilt, measure_tilt
+  use gfb_bearing_record, only: bearing_record_type, add_row
+  use gfb_answer_judgement, only: judge_answer
+  use gfb_rotor_modes, only: rotor_answer_type
+  use gfb_dynamics_record, only: dynamics_record_type
+  use gfb_dynamics, only: find_dynamics, opposite_builder
+  use gfb_rotor_report, only: report_rotor
+  implicit none (type, external)
+  private
+  public :: record_single, record_swept, fix_shaft, opposite_builder
+
+contains
+
+  !> Records the one answer of a scene without a sweep, or the state where the search for it has ended.
+  subroutine record_single(scene, log, bearing, newton, build, converged, record)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at the state
+    type(newton_type), intent(inout) :: newton !! its solver
+    procedure(opposite_builder) :: build !! of the bearing of tilts
+    logical, intent(in) :: converged !! the state is an answer
+    type(bearing_record_type), intent(inout) :: record !! gets the row
+    type(quantity_type), allocatable :: vibrations(:)
+
+    if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
+    call add_row(scene, bearing, newton, converged, record)
+    if (.not. scene%dynamics%present) return
+    if (converged) then
+      call vibrate(scene, log, bearing, newton, build, record%dynamics, vibrations)
+      call add_quantity(record%judged, vibrations)
+    else
+      call log%line('no stiffness and damping: they are those of an answer, and there is none')
+    end if
+  end subroutine record_single
+
+  !> Records the answer at a value of the sweep.
+  subroutine record_swept(scene, here, log, bearing, newton, build, record, value, fold)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(scene_type), intent(in) :: here  !! the same with the value in its keys, where the sweep changes keys
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at the answer
+    type(newton_type), intent(inout) :: newton !! its solver
+    procedure(opposite_builder) :: build !! of the bearing of tilts
+    type(bearing_record_type), intent(inout) :: record !! gets the row
+    real(wp), intent(in) :: value !! of the sweep, in its unit
+    logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
+    type(quantity_type), allocatable :: vibrations(:)
+    integer :: i
+
+    call measure_tilt(scene, value, bearing, newton, record%tilted)
+    if (scene%dynamics%present) call vibrate(here, log, bearing, newton, build, record%dynamics, vibrations)
+    ! The last of the factors, for the next answer.
+    call judge_answer(scene, log, bearing, newton, record%judged)
+    if (present(fold)) then
+      do i = 1, merge(size(record%judged), 0, fold)
+        if (record%judged(i)%name == 'determinant_sign') record%judged(i)%number = 0.0_wp ! it changes here
+      end do
+    end if
+    if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
+    call add_row(scene, bearing, newton, .true., record, value, fold)
+  end subroutine record_swept
+
+  !> Small vibrations about an answer.
+  subroutine vibrate(scene, log, bearing, newton, build, record, found)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    procedure(opposite_builder) :: build
+    type(dynamics_record_type), intent(inout) :: record
+    type(quantity_type), allocatable, intent(out) :: found(:) !! what the summary and the history say of them
+    type(rotor_answer_type) :: rotor
+
+    call find_dynamics(scene, log, bearing, newton, build, record, found, rotor)
+    if (.not. allocated(rotor%mode)) return
+    call report_rotor(log, bearing%point%speed, scene%sweep%present, scene%rotor%mass, rotor, found, &
+                      record%point(size(record%point))%mode)
+  end subroutine vibrate
+
+  !> Fixes the shaft at its equilibrium for the points of a sweep, and measures what they are compared with.
+  subroutine fix_shaft(scene, log, bearing, newton, record)
+    type(scene_type), intent(in) :: scene !! whose sweep asks for it
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at its equilibrium
+    type(newton_type), intent(inout) :: newton !! its solver
+    type(bearing_record_type), intent(inout) :: record !! gets the torque without tilt
+    real(wp), parameter :: micrometres = 1.0e6_wp ! in a metre
+
+    if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
+    bearing%point%eccentricity = bearing%eccentricity()
+    bearing%shaft_fixed = .true.
+    call log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*micrometres, 5)//', '// &
+                  text(bearing%point%eccentricity(2)*micrometres, 5)//') um')
+    call begin_tilt(scene, bearing, newton, record%tilted)
+  end subroutine fix_shaft
+end module gfb_answer_record

@@ -1,0 +1,126 @@
+#include "gfb_petsc.h"
+!> The speed at which a rotor begins to whirl, between two points of a sweep over the speed.
+module gfb_onset
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_sweep_case, only: sweep_speed
+  use gfb_operation_case, only: angular_speed
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_operating_point, only: operating_point_type
+  use gfb_case_file, only: history_row_type
+  use gfb_last_answer, only: last_answer_type
+  use gfb_dynamics, only: find_growth_rate, opposite_builder
+  implicit none (type, external)
+  private
+  public :: look_for_onset
+
+  real(wp), parameter :: tolerance = 1.0e-7_wp !! of the speed, relative [1]
+  integer, parameter :: most_trials = 20       !! of equilibria between the points
+
+contains
+
+  !> Finds the speed where the growth of the rotor's least damped mode changes its sign, where it does so
+  !> between the last two rows of the history. The bearing comes back to its present answer.
+  !>
+  !> Every trial has an equilibrium of its own, on the path from the present answer.
+  subroutine look_for_onset(scene, log, path, history, bearing, newton, build, onset)
+    type(scene_type), intent(in) :: scene !! with the sweep
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(path_settings_type), intent(in) :: path !! limits of paths
+    type(history_row_type), intent(in) :: history(:) !! of the points so far, the last one present
+    type(bearing_system_type), intent(inout) :: bearing !! at the last point's answer
+    type(newton_type), intent(inout) :: newton !! its solver
+    procedure(opposite_builder) :: build !! of the bearing of tilts
+    real(wp), intent(inout) :: onset !! set where it is 0, and a change is found [rpm]
+    type(last_answer_type) :: kept
+    real(wp) :: speed(2), growth(2)
+    logical :: known(2), found
+
+    if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present) return
+    if (onset > 0.0_wp .or. size(history) < 2) return
+    associate (last => history(size(history) - 1:))
+      call look_up(last(1), 'speed_rpm', speed(1), known(1))
+      call look_up(last(2), 'speed_rpm', speed(2), known(2))
+      if (.not. all(known)) return
+      call look_up(last(1), 'growth_rate', growth(1), known(1))
+      call look_up(last(2), 'growth_rate', growth(2), known(2))
+    end associate
+    if (.not. all(known) .or. growth(1)*growth(2) > 0.0_wp) return
+    call kept%keep(bearing, newton)
+    call close_in(scene, path, speed, growth, bearing, newton, build, onset, found)
+    call kept%put_back(bearing, newton)
+    call bearing%linearise(bearing%state)
+    call kept%destroy()
+    if (found) then
+      call log%line('onset: the rotor''s least damped mode changes from '//trim(merge('growth to decay', &
+                    'decay to growth', growth(1) > 0.0_wp))//' at '//text(onset, 8)//' rpm')
+    else
+      call log%line('onset: between '//text(speed(1))//' and '//text(speed(2))//' rpm; no closer, for an '// &
+                    'equilibrium or its modes were not found')
+    end if
+  end subroutine look_for_onset
+
+  !> A number of a row.
+  pure subroutine look_up(row, name, value, known)
+    type(history_row_type), intent(in) :: row
+    character(len=*), intent(in) :: name
+    real(wp), intent(out) :: value !! [its unit]
+    logical, intent(out) :: known
+    integer :: i
+
+    value = 0.0_wp
+    known = .false.
+    do i = 1, size(row%quantity)
+      if (row%quantity(i)%name /= name) cycle
+      value = row%quantity(i)%number
+      known = .true.
+    end do
+  end subroutine look_up
+
+  !> False position with halved weights (Illinois) between two speeds, from the second one's answer.
+  subroutine close_in(scene, path, speed, growth, bearing, newton, build, onset, found)
+    type(scene_type), intent(in) :: scene
+    type(path_settings_type), intent(in) :: path
+    real(wp), intent(in) :: speed(2), growth(2) !! of both ends [rpm], [1/s]
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    procedure(opposite_builder) :: build
+    real(wp), intent(inout) :: onset !! [rpm]
+    logical, intent(out) :: found
+    type(operating_point_type) :: target
+    type(path_report_type) :: report
+    real(wp) :: low, high, at_low, at_high, trial, here
+    integer :: i
+
+    low = speed(1)
+    high = speed(2)
+    at_low = growth(1)
+    at_high = growth(2)
+    trial = high
+    do i = 1, most_trials
+      if (abs(at_high) <= 0.0_wp .or. abs(high - low) <= tolerance*abs(high)) exit
+      trial = (low*at_high - high*at_low)/(at_high - at_low)
+      target = bearing%point
+      target%speed = angular_speed(trial)
+      call follow_path(bearing, newton, target, 1.0_wp, path, report)
+      found = report%converged
+      if (found) call find_growth_rate(scene, bearing, newton, build, here, found)
+      if (.not. found) return
+      if (abs(trial - high) <= tolerance*abs(high)) exit
+      if (here*at_high < 0.0_wp) then
+        low = high
+        at_low = at_high
+      else
+        at_low = 0.5_wp*at_low
+      end if
+      high = trial
+      at_high = here
+    end do
+    found = .true.
+    onset = trial
+  end subroutine close_in
+end module gfb_onset
