@@ -22,6 +22,7 @@ sys.path.insert(0, str(PROJECT/"tools"))
 
 from gfb.plot import foil as plot_foil  # noqa: E402 (found only now)
 from gfb.plot import main as plot_main  # noqa: E402
+from gfb.plot import rotor as plot_rotor  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
@@ -205,6 +206,66 @@ class BearingTest(unittest.TestCase):
             self.assertEqual(call(self.folder, *words), (0, "drawn: b.h5.png\n"))
         for words, text in ((("b.h5", "--step", "3"), "no step 3; there are 1 to 2"),
                             (("b.h5", "--show", "bumps"), "not a strip under loads")):
+            status, said = call(self.folder, *words)
+            self.assertEqual((status, text in said), (1, True), said)
+
+
+class RotorTest(unittest.TestCase):
+    """Made-up sweeps with a rotor: its modes over the speed, its critical mass over load and speed."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(plot_rotor.pyplot.close, "all")
+        self.folder = pathlib.Path(folder.name)
+
+    def sweep(self, name, parameter, values, operation, modes=None, **columns):
+        """A case file of gfb's shape; modes has a row a point of (growth, frequency, share)."""
+        path = self.folder/name
+        with h5py.File(path, "w") as file:
+            file["scene/used"] = f"&operation\n  {operation}\n/\n&sweep\n  parameter = '{parameter}'\n/\n"
+            file["history/converged"] = numpy.ones(len(values))
+            file[f"history/{parameter}"] = numpy.array(values)
+            file.create_group("summary")
+            file.create_group("dynamics")
+            for column, numbers in columns.items():
+                file[f"history/{column}"] = numpy.array(numbers)
+            if modes is not None:
+                growth, frequency, share = numpy.moveaxis(numpy.array(modes), -1, 0)
+                kind = numpy.ones(growth.shape)
+                for key, field in (("frequency", frequency), ("shaft_share", share), ("kind", kind), ("sense", kind),
+                                   ("damping_ratio", -growth/numpy.hypot(growth, frequency))):
+                    file[f"dynamics/mode_{key}"] = field
+                file["summary/onset_speed_rpm"] = 1500.0
+        return path
+
+    def test_modes_of_the_rotor_over_the_speed(self):
+        path = self.sweep("a.h5", "speed_rpm", (1000.0, 2000.0), "load = -10.0, 0.0",
+                          [[(-3.0, 40.0, 0.9), (-1.0, 50.0, 1.0e-5)], [(6.0, 80.0, 0.9), (-1.0, 50.0, 1.0e-5)]])
+        with h5py.File(path) as file:
+            above, below = plot_rotor.draw([path], [file], "campbell").axes
+        shown = [line for line in below.lines if len(line.get_xdata()) == 2 and line.get_marker() == "o"]
+        self.assertEqual(len(shown), 1)
+        numpy.testing.assert_allclose(shown[0].get_ydata(), (3.0/numpy.hypot(3.0, 40.0), -6.0/numpy.hypot(6.0, 80.0)))
+        self.assertEqual(above.get_ylabel(), "frequency [Hz]")
+
+    def test_map_takes_load_or_speed_from_sweep_or_case(self):
+        paths = [self.sweep(f"{speed}.h5", "load", (10.0, 20.0, 30.0), f"speed_rpm = {speed}.0",
+                            critical_mass=(1.0, 2.0, numpy.nan), whirl_ratio=(0.5, 0.4, numpy.nan))
+                 for speed in (1000, 2000)]
+        files = [h5py.File(path) for path in paths]
+        chart = plot_rotor.draw(paths, files, "map").axes[0]
+        points, crosses = (line.get_xydata() for line in chart.lines if line.get_marker() in (".", "x"))
+        numpy.testing.assert_allclose(sorted(map(tuple, points)), [(1000, 10), (1000, 20), (2000, 10), (2000, 20)])
+        numpy.testing.assert_allclose(sorted(map(tuple, crosses)), [(1000, 30), (2000, 30)])
+        for file in files:
+            file.close()
+
+    def test_calls(self):
+        self.sweep("load.h5", "load", (10.0, 20.0), "speed_rpm = 1000.0", critical_mass=(1.0, 2.0),
+                   whirl_ratio=(0.5, 0.4))
+        for words, text in ((("load.h5", "--show", "campbell"), "needs a sweep over speed_rpm with &rotor"),
+                            (("load.h5", "--show", "map"), "needs two loads, two speeds")):
             status, said = call(self.folder, *words)
             self.assertEqual((status, text in said), (1, True), said)
 

@@ -50,6 +50,14 @@ def bearing(foil, sweep, every=1, **groups):
     return content
 
 
+def vibrating():
+    """A rotor over the speed, beyond its onset."""
+    speeds = {"parameter": "speed_rpm", "values": (11000.0, 12000.0, 14000.0, 15000.0, 16000.0, 17000.0)}
+    return bearing("elastic_foundation", speeds, scene={"analysis": "linear_dynamics"}, operation={"load": (-19.62, 0.0)},
+                   bump_foil={**SHEET, **BUMPS}, mesh={"axial_elements": 12}, rotor={"mass": 2.0},
+                   dynamics={"frequency_ratios": (0.5, 1.0), "foundation_damping": 3.0e5})
+
+
 def strip(kind, every=1):
     """A strip up and down, its crests under forces or between plates."""
     load = {"kind": kind, "steps_up": 8, "steps_down": 8}
@@ -317,6 +325,7 @@ def main():
         check_kills(checks, folder, "beams_tilted", bearing("beam", tilts | remembers, every=2), chance)
         check_kills(checks, folder, "beams_folded",
                     bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
+        check_kills(checks, folder, "rotor", vibrating(), chance)
         check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)
         loop = check_kills(checks, folder, "strip_squeezed", strip("plates"), chance)
         if "--long" in sys.argv:

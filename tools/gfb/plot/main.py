@@ -12,6 +12,8 @@
       --show loop                         force against travel of the plate or largest crest deflection
       --show contact                      where contacts are open, stick or slip (one file; also a bearing's)
                                         without --show: loops where the load goes back, otherwise bumps
+  tools/plot CASE.h5 --show campbell    frequency and damping of a rotor's modes, of a sweep over the speed
+  tools/plot CASE.h5 ... --show map     critical mass over load and speed, of several sweeps
 
 Where no columns are named, the ones most asked for are drawn; --list prints the names there are.
 Several strips are told apart by the keys in which they differ.
@@ -28,7 +30,7 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-from gfb.plot import foil, strip  # noqa: E402
+from gfb.plot import foil, rotor, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.results import attribute, open_results, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
@@ -47,7 +49,7 @@ def main():
                         help="the picture; default: the file's name with .png, here")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=strip.KINDS, help="what of a strip's or bearing's CASE.h5")
+    parser.add_argument("--show", choices=(*strip.KINDS, *rotor.KINDS), help="what of a strip's or bearing's CASE.h5")
     parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",
                         help="load steps of --show bumps and contact, or sweep points of a bearing; default: the one "
                              "of the largest force, or the last point")
@@ -96,6 +98,8 @@ def draw(options, paths, files):
     of_strips = options.show or options.step or len(files) > 1
     if of_strips and options.columns:
         stop("columns are drawn of one file, without --show and --step")
+    if options.show in rotor.KINDS:
+        return rotor.draw(paths, files, options.show)
     if of_strips or (not options.columns and strip.is_strip(file)):
         return strip.draw(paths, files, options.show, options.step)
     if foil.is_foil(file):

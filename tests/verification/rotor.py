@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""Modes of a rigid rotor on gas bearings: an independent program, a closed form, what must not matter."""
+
+import json
+import math
+import pathlib
+import tempfile
+
+import h5py
+import numpy
+
+from dynamics import FOIL_BEARING, REFERENCE, RING, SPRINGS, beams, concentric
+from dynamics_foils import shells
+from gfb_run import Bearing, Checks, case_groups, run_file, solve, write_case
+
+MESH = (60, 8)
+
+
+def rotor_case(one, mass, frequencies=(1000.0,), mesh=MESH, **groups):
+    """Groups of a case file for one of the reference's cases with a rotor."""
+    case = one["case"]
+    bearing = Bearing(*(case[key] for key in ("radius", "length", "clearance", "viscosity", "ambient_pressure",
+                                              "leading_edge_condition")))
+    model = {"film_order": 2} | {key: case[key] for key in ("foundation_stiffness", "foundation_pressure")
+                                 if key in case}
+    losses = {key: case[key] for key in ("loss_factor", "foundation_damping") if key in case}
+    content = case_groups(bearing, mesh=mesh, foil=case["foil"], groups={"model": model},
+                          speed_rpm=case.get("speed_rpm", 1.0), **one["operation"])
+    content["scene"]["analysis"] = "linear_dynamics"
+    content["dynamics"] = {"frequencies": frequencies, **losses}
+    content["rotor"] = {"mass": mass}
+    return content | groups
+
+
+def speed_of(content):
+    """Speed of the shaft [rad/s]."""
+    return content["operation"]["speed_rpm"]*math.pi/30.0
+
+
+def modes_of(answer):
+    """lambda, share, kind and sense of the modes."""
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        group = file["dynamics"]
+        return [group[f"mode_{name}"][...] for name in ("growth_rate", "frequency", "shaft_share", "kind", "sense")]
+
+
+def check_growth(checks, folder):
+    """Growth and frequency beside the critical mass; none at it."""
+    for one in REFERENCE["growth"]:
+        for mass, growth, frequency in one["rows"]:
+            content = rotor_case(one, mass)
+            answer = solve(folder, "growth", content)
+            omega = speed_of(content)
+            checks.below(f"{one['name']}, {mass:.3f} kg: growth over the speed",
+                         answer["growth_rate"]/omega - growth, 1.0e-4)
+            checks.below(f"{one['name']}, {mass:.3f} kg: frequency over the speed",
+                         answer["whirl_frequency"]/omega - frequency, 1.0e-4)
+        content["rotor"]["mass"] = answer["critical_mass"]
+        answer = solve(folder, "growth", content)
+        checks.below(f"{one['name']}: no growth at the critical mass", answer["growth_rate"]/omega, 1.0e-9)
+        checks.below(f"{one['name']}: whirl frequency there",
+                     answer["whirl_frequency"]/omega/answer["whirl_ratio"] - 1.0, 1.0e-8)
+
+
+def check_onset(checks, folder):
+    """Rotors under their weight in a sweep over speed."""
+    for one in REFERENCE["onset"]:
+        known = one["onset_speed_rpm"]
+        content = rotor_case(one, one["mass"])
+        content["operation"]["speed_rpm"] = 0.93*known
+        content["sweep"] = {"parameter": "speed_rpm", "values": (0.93*known, 1.04*known)}
+        answer = solve(folder, "onset", content)
+        checks.below(f"{one['name']}: onset speed", answer["onset_speed_rpm"]/known - 1.0, 2.0e-4)
+        with h5py.File(f"{answer.stem}.h5", "r") as file:
+            growth = file["history/growth_rate"][...]
+            mass = file["history/critical_mass"][...]
+            checks.that(f"{one['name']}: growth and critical mass change there", growth[0] < 0.0 < growth[1] and
+                        mass[0] > one["mass"] > mass[1])
+            checks.that(f"{one['name']}: points first in arrays", file["dynamics/stiffness"].shape == (2, 1, 4, 4) and
+                        file["dynamics/frequency"].shape[0] == 2 and file["dynamics/mode_frequency"].shape[0] == 2)
+
+
+def ring_matrix(rotor, omega, rate, stiffness, dampers):
+    """D of both kinds on a concentric full ring."""
+    whole = concentric(RING, omega, -1j*rate, stiffness + rate*dampers, 0.0)
+    arm = 0.5*rotor["bearing_distance"]
+    motion = numpy.array([[0.0, arm], [-arm, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    cylindrical = whole[:2, :2] + rate**2*rotor["mass"]*numpy.eye(2)
+    conical = motion.T@whole@motion + 0.5*rate**2*rotor["transverse_inertia"]*numpy.eye(2)
+    conical = conical + 0.5*rate*omega*rotor["polar_inertia"]*numpy.array([[0.0, 1.0], [-1.0, 0.0]])
+    return {1: cylindrical, 2: conical}
+
+
+def nearest_root(function, start):
+    """Root of a function of a complex number by the secant method."""
+    before, here = start, start*(1.0 + 1.0e-4)
+    at_before = function(before)
+    for _ in range(50):
+        at_here = function(here)
+        if abs(here - before) < 1.0e-13*abs(here) or at_here == at_before:
+            break
+        before, here, at_before = here, here - at_here*(here - before)/(at_here - at_before), at_here
+    return here
+
+
+def check_ring(checks, folder):
+    """All modes of a rotor on concentric rings, rigid and on damped springs, with gyroscopic torque."""
+    omega = RING.speed_rpm(3.0)*math.pi/30.0
+    rotor = {"mass": 0.2, "transverse_inertia": 6.0e-4, "polar_inertia": 1.0e-4, "bearing_distance": 0.12}
+    foundation = {"model": {"film_order": 2, "foundation_pressure": "local", **SPRINGS}}
+    spring = SPRINGS["foundation_stiffness"]
+    cases = {"rigid": ("rigid", {"model": {"film_order": 2}}, 1.0e30, 0.0),
+             "springs": ("elastic_foundation", foundation, spring, 0.0),
+             "dampers": ("elastic_foundation", foundation, spring, 0.3*spring/omega)}
+    for name, (foil, groups, stiffness, damping) in cases.items():
+        content = case_groups(RING, mesh=(48, 16), foil=foil, groups=groups, number=3.0, eccentricity=(0.0, 0.0))
+        content["scene"]["analysis"] = "linear_dynamics"
+        content["dynamics"] = {"frequency_ratios": (0.5,)} | ({"foundation_damping": damping} if damping > 0.0 else {})
+        content["rotor"] = rotor
+        answer = solve(folder, "ring", content)
+        growth, frequency, share, kind, sense = modes_of(answer)
+        worst, count, ways = 0.0, {1: 0, 2: 0}, True
+        for one in numpy.flatnonzero((share > 0.02) & (frequency > 0.0) & (growth > -omega)):
+            found = growth[one] + 1j*frequency[one]
+            wanted = nearest_root(lambda rate, k=int(kind[one]): numpy.linalg.det(
+                ring_matrix(rotor, omega, rate, stiffness, damping)[k]), found)
+            worst = max(worst, abs(found - wanted)/abs(wanted))
+            count[int(kind[one])] += 1
+            ways = ways and abs(abs(sense[one]) - 1.0) < 1.0e-4
+        checks.below(f"ring, {name}: {count[1]} cylindrical and {count[2]} conical modes, closed form", worst, 3.0e-4)
+        checks.that(f"ring, {name}: modes of both kinds, in circles", min(count.values()) >= 1 and ways)
+
+
+def constant_threshold(stiffness, damping):
+    """Mass above which a shaft on constant K and C is unstable; None where every mass is stable."""
+    (kxx, kxy), (kyx, kyy) = stiffness
+    (cxx, cxy), (cyx, cyy) = damping
+    kappa = (kxx*cyy + kyy*cxx - kxy*cyx - kyx*cxy)/(cxx + cyy)
+    square = ((kxx - kappa)*(kyy - kappa) - kxy*kyx)/(cxx*cyy - cxy*cyx)
+    return kappa/square if square > 0.0 else None
+
+
+def check_constants(checks, folder):
+    """Thresholds of coefficients that are taken for constants: right at the whirl's frequency, else wrong."""
+    heavy = REFERENCE["growth"][2]
+    heavy = heavy | {"case": {key: value for key, value in heavy["case"].items() if key != "foundation_damping"}}
+    for name, one in (("axial mean, 60 N", heavy), ("local springs, 20 N", REFERENCE["growth"][1])):
+        content = rotor_case(one, 1.0)
+        omega = speed_of(content)
+        first = solve(folder, "constants", content)
+        content["dynamics"] = {"frequency_ratios": (first["whirl_ratio"], 1.0, 0.5, 0.1)}
+        answer = solve(folder, "constants", content)
+        with h5py.File(f"{answer.stem}.h5", "r") as file:
+            masses = [constant_threshold(k[:2, :2], c[:2, :2])
+                      for k, c in zip(file["dynamics/stiffness"][...], file["dynamics/damping"][...])]
+        known = answer["critical_mass"]
+        print(f"       {name}: {known:.4f} kg; of constants at the whirl, 1, 0.5, 0.1 of the speed {omega:.0f} rad/s: "
+              + ", ".join("any" if mass is None else f"{mass:.4f}" for mass in masses))
+        checks.below(f"{name}: constants of the whirl's frequency", masses[0]/known - 1.0, 1.0e-6)
+        checks.that(f"{name}: constants of the speed say that every mass is stable" if name.startswith("axial") else
+                    f"{name}: constants of the speed are off by more than a fifth",
+                    masses[1] is None if name.startswith("axial") else
+                    masses[1] is None or abs(masses[1]/known - 1.0) > 0.2)
+
+
+def check_same(checks, folder):
+    """A sweep over the mass, ranks, groups, half and whole width, loss factor."""
+    one = REFERENCE["growth"][0]
+    rotor = {"mass": 0.3, "transverse_inertia": 1.0e-3, "polar_inertia": 4.0e-4, "bearing_distance": 0.1}
+    content = rotor_case(one, 0.3, mesh=(32, 8))
+    content["rotor"] = rotor
+    shares = {}
+    for name, width, ranks in (("half", "yes", 1), ("whole", "no", 1), ("three ranks", "yes", 3)):
+        content["model"]["half_width"] = width
+        growth, frequency, share, _, _ = modes_of(solve(folder, "same", content, ranks))
+        kept = (share > 0.02) & (growth > -3000.0)
+        shares[name] = numpy.array([growth[kept], frequency[kept], share[kept]])
+    for name in ("whole", "three ranks"):
+        checks.that(f"{name}: as many modes", shares[name].shape == shares["half"].shape)
+        checks.below(f"half and {name}: modes", numpy.abs(shares[name]/shares["half"] - 1.0).max(), 1.0e-6)
+
+    content = rotor_case(one, 1.0, mesh=(32, 8))
+    mass = solve(folder, "sweep", content)["critical_mass"]
+    content["sweep"] = {"parameter": "rotor%mass", "values": (0.9*mass, mass, 1.1*mass)}
+    with h5py.File(f"{solve(folder, 'sweep', content).stem}.h5", "r") as file:
+        growth = file["history/growth_rate"][...]
+    checks.that("sweep over the mass: growth begins at the critical mass",
+                growth[0] < -1.0 and abs(growth[1]) < 1.0e-4 and growth[2] > 1.0)
+
+    one = REFERENCE["onset"][0]
+    content = rotor_case(one, one["mass"], mesh=(32, 8))
+    content["operation"]["speed_rpm"] = 9000.0
+    content["sweep"] = {"parameter": "speed_rpm", "values": (9000.0, 9500.0, 10500.0, 11000.0)}
+    path = write_case(folder, "groups", content)
+    answers = [run_file(path, folder, ranks, options) for ranks, options in ((1, ()), (2, ("--groups", "2")))]
+    onsets = [answer["onset_speed_rpm"] for answer in answers]
+    checks.below("onset in two groups of ranks", onsets[1]/onsets[0] - 1.0, 1.0e-6)
+
+    content = rotor_case(REFERENCE["growth"][2], 3.0, mesh=(32, 8))
+    content["dynamics"] = {"frequencies": (1000.0,), "loss_factor": 0.2}
+    answer = solve(folder, "loss", content, options=())
+    checks.that("loss factor: no growth rate, and why", "growth_rate" not in answer.summary and
+                "no growth rates" in answer.log)
+
+
+def check_foils(checks, folder):
+    """Modes of both kinds on beams and shells, half and whole width."""
+    for name, case in (("beams", beams(0.1)), ("shells", shells(0.1))):
+        found = {}
+        for width in ("yes", "no"):
+            case["groups"]["model"]["half_width"] = width
+            content = case_groups(FOIL_BEARING, **(case | {"tilt": (0.0, 0.0)}))
+            content["scene"]["analysis"] = "linear_dynamics"
+            content["dynamics"] = {"frequency_ratios": (0.5,)}
+            content["rotor"] = {"mass": 5.0, "transverse_inertia": 0.02, "polar_inertia": 2.0e-3,
+                                "bearing_distance": 0.1}
+            growth, frequency, share, kind, _ = modes_of(solve(folder, "foils", content))
+            kept = (share > 0.05) & (growth > -0.5*frequency)
+            found[width] = numpy.array([growth[kept]/frequency[kept], frequency[kept], kind[kept]])
+        checks.that(f"{name}: modes of both kinds, as many on half and whole width",
+                    found["yes"].shape == found["no"].shape and set(found["no"][2]) == {1.0, 2.0})
+        checks.below(f"{name}: half and whole width",
+                     max(numpy.abs(found["yes"][0] - found["no"][0]).max(),
+                         numpy.abs(found["yes"][1]/found["no"][1] - 1.0).max()), 1.0e-7)
+
+
+def check_unstable_foil(checks, folder):
+    """Where a foil grows by itself, as the stability at a fixed shaft says, the rotor's growth is not taken for it."""
+    for lift, steady in ((1.5e-5, True), (2.1e-5, False)):
+        case = beams(0.1) | {"mesh": (104, 8), "tilt": (0.0, 0.0), "eccentricity": None, "load": (-100.0, 0.0),
+                             "leading_edge_lift": lift}
+        case["groups"] = case["groups"] | {
+            "model": {}, "solver": {"stability": True},
+            "contact": {"friction_top": 0.1, "friction_sleeve": 0.1, "normal_stiffness": 5.0e10, "stick_length": 1.0e-7}}
+        content = case_groups(FOIL_BEARING, **case)
+        content["scene"]["analysis"] = "linear_dynamics"
+        content["dynamics"] = {"frequency_ratios": (0.5,)}
+        content["rotor"] = {"mass": 10.0}
+        answer = solve(folder, "lifted", content, options=())
+        growth, frequency, share, _, _ = modes_of(answer)
+        grows = (growth > 0.0) & (share < 0.02)
+        checks.that(f"edge lifted {lift*1.0e6:.0f} um: growing modes of the foil as with a fixed shaft",
+                    answer["growing_modes"] == sum(1 if steady else 2 for _ in frequency[grows]) > 0)
+        checks.that("the log says so, and the rotor's number is the rotor's",
+                    "film or foil move by themselves" in answer.log and answer["growth_rate"] < 0.0)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_growth(checks, folder)
+        check_onset(checks, folder)
+        check_ring(checks, folder)
+        check_constants(checks, folder)
+        check_same(checks, folder)
+        check_foils(checks, folder)
+        check_unstable_foil(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
