@@ -226,7 +226,7 @@ contains
     PetscCallA(EPSSetOptionsPrefix(solver, prefix, ierr))
     PetscCallA(EPSSetOperators(solver, operator, PETSC_NULL_MAT, ierr))
     PetscCallA(EPSSetProblemType(solver, EPS_NHEP, ierr))
-    PetscCallA(EPSSetEigenvalueComparison(solver, compare_values, PETSC_NULL_INTEGER, ierr))
+    PetscCallA(EPSSetEigenvalueComparison(solver, compare_values, operator, ierr)) ! any object, as long as a pointer
     PetscCallA(EPSSetConvergenceTest(solver, EPS_CONV_ABS, ierr)) ! the others are next to nothing
     PetscCallA(EPSSetTolerances(solver, tolerance/shift, int(most_restarts, pint), ierr))
     PetscCallA(EPSSetFromOptions(solver, ierr))
@@ -255,7 +255,7 @@ contains
   subroutine compare_values(first_real, first_imaginary, second_real, second_imaginary, order, context, ierr)
     PetscScalar, intent(in) :: first_real, first_imaginary, second_real, second_imaginary
     PetscInt, intent(out) :: order !! -1: the first
-    PetscInt, intent(in) :: context
+    Mat, intent(in) :: context !! not needed
     PetscErrorCode, intent(out) :: ierr
     real(wp) :: first, second
 

@@ -63,7 +63,8 @@ contains
     PetscCallA(MatGetSize(mass, unknowns, columns, ierr))
     most = min(int(unknowns) - size(locked), steps_a_mode*wanted + steps_more)
     allocate (basis%vector(size(locked) + most + 1), basis%momentum(size(locked) + most + 1))
-    allocate (diagonal(most), beside(most))
+    allocate (diagonal(most), beside(most), eigenvalue(0), vectors(0, 0))
+    found = 0
     PetscCallA(PetscObjectGetComm(mass, communicator, ierr))
     PetscCallA(PetscRandomCreate(communicator, random, ierr)) ! other numbers on each rank
     PetscCallA(PetscRandomSetFromOptions(random, ierr))

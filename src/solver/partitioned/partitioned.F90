@@ -134,7 +134,7 @@ contains
     reason = 'film and foil still change after '//text(most_loops)//' loops'
     do loop = 1, most_loops
       sides%loops = sides%loops + 1
-      call solve_film(bearing, sides, loop > 1, solved)
+      call solve_film(sides, loop > 1, solved)
       if (.not. solved%converged) then
         reason = 'the film above the fixed foil in loop '//text(loop)//': '//solved%reason
         exit
@@ -161,8 +161,7 @@ contains
   end subroutine repeat_loops
 
   !> Film and shaft above the fixed foil; where they have no answer, the foil is displaced by less.
-  subroutine solve_film(bearing, sides, may_shorten, solved)
-    type(bearing_system_type), target, intent(inout) :: bearing
+  subroutine solve_film(sides, may_shorten, solved)
     type(partitioned_type), target, intent(inout) :: sides
     logical, intent(in) :: may_shorten !! there is a film above the foil of one loop ago
     type(newton_report_type), intent(out) :: solved
