@@ -11,15 +11,20 @@ module gfb_petsc_session
   use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
+  public :: gfb_watch_start, gfb_started
   public :: start_petsc, stop_petsc, this_rank, rank_count, ranks_on_node, petsc_version_text, wall_time, &
             sum_over_ranks, largest_over_ranks, largest_number, any_rank, share_failure, fetch_entries, stop_is_asked
 
   interface
-    !> Before MPI starts: a process that no launcher has started does without Open MPI's helper daemon.
+    !> Before MPI starts: where it cannot, a sentence and status 3.
+    subroutine gfb_watch_start() bind(c)
+    end subroutine gfb_watch_start
+
+    !> The same; a process that no launcher has started does without Open MPI's helper daemon.
     subroutine gfb_start_alone() bind(c)
     end subroutine gfb_start_alone
 
-    !> Afterwards: takes back what that set in the environment.
+    !> Afterwards: takes back what these two have set.
     subroutine gfb_started() bind(c)
     end subroutine gfb_started
 
@@ -39,8 +44,8 @@ contains
 
     call gfb_start_alone()
     call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
-    call gfb_started()
     if (ierr /= 0) error stop 'PETSc could not be started'
+    call gfb_started()
     if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
     ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-options_left', given, ierr))

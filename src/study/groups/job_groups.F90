@@ -10,6 +10,7 @@ module gfb_job_groups
   use gfb_kinds, only: wp, long
   use gfb_memory, only: memory_type, open_memory
   use gfb_text, only: text
+  use gfb_petsc_session, only: gfb_started, gfb_watch_start
   use gfb_division, only: stretch_of, owner_of
   use gfb_run_context, only: run_listener_type
   implicit none (type)
@@ -55,7 +56,9 @@ contains
 
     job%groups = groups
     if (groups == 0) return
+    call gfb_watch_start()
     call MPI_Init_thread(MPI_THREAD_FUNNELED, provided, ierr)
+    call gfb_started()
     call MPI_Comm_size(MPI_COMM_WORLD, job%ranks, ierr)
     call MPI_Comm_rank(MPI_COMM_WORLD, job%rank, ierr)
     job%split = job%ranks >= groups

@@ -1,0 +1,123 @@
+/* MPI's start: without Open MPI's helper where a process is alone, and with a sentence and a status where it fails. */
+#define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
+#include "gfb_shim.h"
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const int status_machine = 3;
+
+/* Settings of a process that is alone. Two isolated ones would take the same session folder and the same names in shared
+   memory: each gets a folder of its own, and messages to itself need no shared memory. */
+static char        session[4096]; /* the folder */
+static const char *const alone[][2] = {
+  {"OMPI_MCA_orte_tmpdir_base", session},
+  {"OMPI_MCA_ess_singleton_isolated", "1"},
+  {"OMPI_MCA_pml", "ob1"},
+  {"OMPI_MCA_btl", "self"},
+};
+static const size_t alone_settings = sizeof alone/sizeof *alone;
+static int          is_alone       = 0;
+
+/* What begins so was set by a launcher; a setting that is there, by a user who wants something of Open MPI. */
+static int is_launched(void)
+{
+  static const char *const signs[] = {"PMIX_", "PMI_", "OMPI_COMM_", "OMPI_MCA_ess_", "SLURM_STEP", "ALPS_", "PALS_", "FLUX_",
+                                      "JSM_"};
+  extern char **environ;
+
+  for (char **word = environ; word && *word; word++)
+    for (size_t i = 0; i < sizeof signs/sizeof *signs; i++)
+      if (strncmp(*word, signs[i], strlen(signs[i])) == 0) return 1;
+  for (size_t i = 0; i < alone_settings; i++)
+    if (getenv(alone[i][0])) return 1;
+  return 0;
+}
+
+static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
+{
+  (void)status, (void)kind, (void)place;
+  (void)!remove(path);
+  return 0;
+}
+
+static void remove_session(void)
+{
+  if (is_alone) nftw(session, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+/* The process that is starting MPI, 0 before and afterwards; a child of Open MPI's is none. */
+static pid_t starting = 0;
+
+static const char *temporary_folder(void)
+{
+  const char *folder = getenv("TMPDIR");
+
+  return folder && *folder ? folder : "/tmp";
+}
+
+/* Makes a folder of our own in another; 0 where that cannot be. */
+static int make_session(const char *folder)
+{
+  return snprintf(session, sizeof session, "%s/gfb-XXXXXX", folder) < (int)sizeof session && mkdtemp(session) != NULL;
+}
+
+static void say_not_started(void)
+{
+  const char *folder = temporary_folder();
+
+  fflush(NULL);
+  if (!is_alone && !make_session(folder)) {
+    fprintf(stderr, "gfb: MPI could not start: nothing can be written in %s; TMPDIR names a folder for it\n", folder);
+    return;
+  }
+  is_alone = 1; /* the folder is removed */
+  fprintf(stderr, "gfb: MPI could not start: its settings, such as variables OMPI_MCA_..., or its folder for temporary files do "
+                  "not serve; with OMPI_MCA_orte_execute_quiet=0 it says more\n");
+}
+
+static void end_of_start(void)
+{
+  if (starting != getpid()) return;
+  starting = 0;
+  say_not_started();
+  remove_session();
+  _Exit(status_machine);
+}
+
+/* MPI has no handler of errors before it has started: where it fails, libmpi ends the process by exit or _exit with status 1.
+   This _exit takes the place of the C library's for all libraries, and differs from it during the start only. */
+void _exit(int status)
+{
+  end_of_start();
+  _Exit(status);
+}
+
+void gfb_watch_start(void)
+{
+  if (!starting) atexit(end_of_start);
+  starting = getpid();
+}
+
+void gfb_start_alone(void)
+{
+  gfb_watch_start();
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
+  const char *const folders[] = {temporary_folder(), "/tmp"};
+
+  if (is_launched()) return;
+  for (size_t i = 0; !is_alone && i < sizeof folders/sizeof *folders; i++)
+    is_alone = make_session(folders[i]);
+  if (!is_alone) return;
+  atexit(remove_session);
+  for (size_t i = 0; i < alone_settings; i++) setenv(alone[i][0], alone[i][1], 1);
+#endif
+}
+
+void gfb_started(void)
+{
+  starting = 0;
+  for (size_t i = 0; is_alone && i < alone_settings; i++) unsetenv(alone[i][0]);
+}

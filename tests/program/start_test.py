@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""MPI that cannot start ends in a sentence and status 3; a rank that does not answer any more does not outlive its job."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
+from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
+from gfb.run import ENVIRONMENT, case_text  # noqa: E402
+
+SECONDS = 60
+SAID = "gfb: MPI could not start: "
+NOWHERE = "/proc"  # where not even root makes a folder
+SWEEP = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(1500))}}
+
+
+def call(folder, *words, ranks=1, **settings):
+    """Status and complaints of a run under settings of the environment."""
+    command = [GFB, "--quiet", *words]
+    if ranks > 1:
+        command = [MPIEXEC, "-n", str(ranks), *command]
+    done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False,
+                          timeout=SECONDS, env={**ENVIRONMENT, **os.environ, **settings})
+    return done.returncode, done.stderr
+
+
+def check_start(checks, folder):
+    """Settings of Open MPI's that name what is not there, and no folder for its session."""
+    (folder/"case.nml").write_text(case_text(CASE), encoding="utf-8")
+    (folder/"sweep.nml").write_text(case_text(CASE | {"sweep": {"parameter": "load", "values": (20.0, 30.0)}}), encoding="utf-8")
+    faults = [{f"OMPI_MCA_{name}": "nonsense"} for name in ("pml", "btl")]
+    faults += [{"OMPI_MCA_orte_tmpdir_base": NOWHERE, "TMPDIR": NOWHERE}]
+    for settings in faults:
+        for words in (("case.nml",), ("--version",), ("--groups", "1", "sweep.nml")):
+            status, wrong = call(folder, *words, **settings)
+            checks.that(f"{settings} {' '.join(words)}: status {status}", status == 3)
+            checks.that("  one sentence says so", wrong.count(SAID) == 1 and wrong.rstrip().splitlines()[-1].startswith(SAID))
+    for settings in faults[:2]:
+        status, wrong = call(folder, "case.nml", ranks=2, **settings)
+        checks.that(f"{settings}, 2 ranks: status {status}", status != 0 and SAID in wrong)
+    status, wrong = call(folder, "--groups", "1", "sweep.nml", TMPDIR=NOWHERE)
+    checks.that(f"groups, TMPDIR={NOWHERE}: status {status}", status == 3 and f"nothing can be written in {NOWHERE}" in wrong)
+    checks.that("no results of these", not list(folder.glob("*.summary")))
+
+
+def check_folder(checks, folder):
+    """A run that is alone finds another folder than that of TMPDIR, and leaves nothing in it."""
+    for place in (NOWHERE, str(folder/"none")):
+        status, wrong = call(folder, "case.nml", TMPDIR=place)
+        checks.that(f"TMPDIR={place}: status {status} {wrong.strip()}", status == 0 and not wrong)
+    place = folder/"temporary"
+    place.mkdir()
+    checks.that("an input that is wrong keeps its status", call(folder, "none.nml", TMPDIR=str(place))[0] == 1)
+    checks.that("a start that fails, too", call(folder, "case.nml", TMPDIR=str(place), OMPI_MCA_pml="nonsense")[0] == 3)
+    call(folder, "case.nml", TMPDIR=str(place))
+    checks.that("nothing is left of a session", not list(place.glob("gfb-*")))
+
+
+def check_stopped_rank(checks, folder):
+    """MPI sees no rank that is stopped: the job waits for it, and a signal to the job ends it all the same."""
+    (folder/"long.nml").write_text(case_text(SWEEP), encoding="utf-8")
+    with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "--quiet", "long.nml"], cwd=folder, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8",
+                          env={**ENVIRONMENT, **os.environ}) as process:
+        for line in process.stdout:
+            if line.startswith("point 2 of"):
+                break
+        ranks = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()[-2:]
+        os.kill(int(ranks[-1]), signal.SIGSTOP)
+        process.send_signal(signal.SIGTERM)
+        try:
+            process.communicate(timeout=SECONDS)
+            status = process.returncode
+        except subprocess.TimeoutExpired:
+            process.kill()
+            status = 0
+    checks.that(f"a stopped rank, SIGTERM: status {status}", status != 0)
+    checks.that("no rank is left", not any(pathlib.Path(f"/proc/{rank}/exe").exists() for rank in ranks))
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as name:
+        for check in (check_start, check_folder, check_stopped_rank):
+            check(checks, pathlib.Path(name))
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
