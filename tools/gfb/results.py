@@ -1,5 +1,6 @@
 """What gfb leaves behind: summaries, histories, films, and PETSc's log."""
 
+import contextlib
 import csv
 import dataclasses
 import pathlib
@@ -16,6 +17,24 @@ COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_fines
 # What gfb writes behind the bytes of an HDF5 file: their checksum and their number.
 SEAL = re.compile(rb"gfb crc32 ([0-9a-f]{8}) ([0-9a-f]{16})\n$")
 SEAL_LENGTH = 36
+PLAIN = b"gfb crc32 ******** ****************\n"  # what of it is always there
+BROKEN = (OSError, KeyError, IndexError, ValueError, TypeError, RuntimeError)  # what reading a file of another kind ends in
+
+
+class Unreadable(OSError):
+    """A result file that is damaged, cut or none of this gfb; says so in one line."""
+
+
+@contextlib.contextmanager
+def reading(path):
+    """What goes wrong inside is the file's fault; one that is not there is told apart, by FileNotFoundError."""
+    try:
+        yield
+    except (Unreadable, FileNotFoundError):
+        raise
+    except BROKEN as error:
+        words = " ".join(str(error).split()) or type(error).__name__
+        raise Unreadable(f"{path}: not a whole file of this gfb: {words}") from error
 
 
 def open_results(path):
@@ -27,8 +46,16 @@ def open_results(path):
         body = memoryview(content)[:-SEAL_LENGTH]
         if (int(seal[1], 16), int(seal[2], 16)) != (zlib.crc32(body), len(body)):
             raise OSError("damaged: its contents do not fit its checksum")
+    elif is_broken_seal(content[-SEAL_LENGTH:]):
+        raise OSError("damaged: its checksum is cut or changed")
     del content
     return h5py.File(path, "r")
+
+
+def is_broken_seal(tail):
+    """Whether a file's end was a checksum: its beginning, cut, or most of its fixed characters."""
+    kept = sum(one == other for one, other in zip(tail, PLAIN) if other != PLAIN[10])
+    return kept > 6 or PLAIN[:10] in tail
 
 
 def seal(path):
@@ -42,31 +69,32 @@ def seal(path):
 def read_summary(path):
     """{name: number or word} and {name: unit} of a summary file."""
     values, units = {}, {}
-    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
-        name, rest = line.split(" = ", 1)
-        word, _, unit = rest.partition(" [")
-        units[name] = unit.rstrip("]")
-        try:
-            values[name] = float(word)
-        except ValueError:
-            values[name] = word
+    with reading(path):
+        for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+            name, rest = line.split(" = ", 1)
+            word, _, unit = rest.partition(" [")
+            units[name] = unit.rstrip("]")
+            try:
+                values[name] = float(word)
+            except ValueError:
+                values[name] = word
     return values, units
 
 
 def read_history(path):
     """{column: values, a row each} of the history in a case's HDF5 file."""
-    with open_results(path) as file:
+    with reading(path), open_results(path) as file:
         return {name: data[...] for name, data in file["history"].items()}
 
 
 def read_film(path):
     """{field: values on (station, row)} of a film file: x, z, theta, pressure, gap, ..."""
-    with open_results(path) as file:
+    with reading(path), open_results(path) as file:
         points = file["VTKHDF/Points"][...]
         fields = {name: data[...] for name, data in file["VTKHDF/PointData"].items()}
-    rows = int((points[:, 0] == points[0, 0]).sum())
-    fields |= {"x": points[:, 0], "z": points[:, 2]}
-    return {name: data.reshape(len(points)//rows, rows) for name, data in fields.items()}
+        rows = int((points[:, 0] == points[0, 0]).sum())
+        fields |= {"x": points[:, 0], "z": points[:, 2]}
+        return {name: data.reshape(len(points)//rows, rows) for name, data in fields.items()}
 
 
 def text_of(value):

@@ -7,7 +7,7 @@ import pathlib
 import h5py
 import numpy
 
-from gfb.results import open_results
+from gfb.results import Unreadable, open_results, reading
 
 # What two runs of one program on one case need not have alike; nothing else is left out. A name without a folder holds
 # in summaries and in every group of every file.
@@ -64,10 +64,18 @@ def one_sided(ones, others, kind, place=""):
 
 
 def file_differences(before, after, name):
-    """All differences of two files."""
+    """All differences of two files; one that cannot be read differs."""
+    try:
+        return read_differences(before, after, name)
+    except Unreadable as error:
+        return [Difference(name, f"cannot be read: {error}")]
+
+
+def read_differences(before, after, name):
+    """The same of files that can be read."""
     if name.endswith(HDF5):
         return dataset_differences(before, after, name)
-    one, other = (path.read_text(encoding="utf-8").splitlines() for path in (before, after))
+    one, other = lines_of(before), lines_of(after)
     if name.endswith(".summary"):
         return summary_differences(one, other, name)
     return text_differences(one, other, name)
@@ -77,10 +85,7 @@ def file_differences(before, after, name):
 
 def dataset_differences(before, after, name):
     """The same of two HDF5 files: groups, datasets, and the attributes of both."""
-    try:
-        one, other = contents_of(before), contents_of(after)
-    except OSError as error:
-        return [Difference(name, f"cannot be read: {error}")]
+    one, other = contents_of(before), contents_of(after)
     found = one_sided(one, other, "name", name + ":")
     for key in sorted(set(one) & set(other)):
         words, relative = value_difference(one[key], other[key])
@@ -100,7 +105,7 @@ def contents_of(path):
         for attribute, value in item.attrs.items():
             contents[f"{name}@{attribute}"] = value
 
-    with open_results(path) as file:
+    with reading(path), open_results(path) as file:
         add("", file)
         file.visititems(add)
     return contents
@@ -145,6 +150,12 @@ def relative_difference(one, other):
 
 
 # --- text ---
+
+def lines_of(path):
+    """Lines of a text file."""
+    with reading(path):
+        return path.read_text(encoding="utf-8").splitlines()
+
 
 def summary_differences(one, other, place):
     """Lines of two summaries, by name."""

@@ -62,8 +62,11 @@ def main():
             stop(f"{folder}: {error.strerror}", 3)
     for name in options.only:
         print(f"{name}:", flush=True)
-        made = PAGES[name](runs, options.output)
-        path = made.write() if isinstance(made, Page) else made
+        try:
+            made = PAGES[name](runs, options.output)
+            path = made.write() if isinstance(made, Page) else made
+        except OSError as error:  # a run that --reuse has found among them
+            stop(str(error))
         print(f"  written: {path}", flush=True)
     write_index(options.output, PAGES)
     return 0

@@ -11,7 +11,7 @@ import re
 
 from gfb.plot.film import draw_film, read_film
 from gfb.plot.strip import used_keys
-from gfb.results import open_results, read_history, read_summary, text_of
+from gfb.results import open_results, read_history, reading, read_summary, text_of
 from gfb.run import DONE, NOT_CONVERGED, call, command_of, namelist_value, stem_of
 from gfb.tool import ROOT, stop
 
@@ -65,19 +65,19 @@ class Result:
         path = pathlib.Path(f"{self.stem}.film.vtkhdf")
         if not path.exists():  # of several branches the first one's
             path = pathlib.Path(f"{self.stem}.1.film.vtkhdf")
-        with open_results(path) as file:
+        with reading(path), open_results(path) as file:
             return what(path, file)
 
     @functools.cached_property
     def used(self):
         """{(group, key): (value, whether it is a default)}."""
-        with self.open() as file:
+        with reading(self.path), open_results(self.path) as file:
             return used_keys(file)
 
     @functools.cached_property
     def provenance(self):
         """{name: words or number}."""
-        with self.open() as file:
+        with reading(self.path), open_results(self.path) as file:
             values = {name: data[()] for name, data in file["provenance"].items()}
         return {name: text_of(value) if isinstance(value, bytes) else value for name, value in values.items()}
 
@@ -86,7 +86,8 @@ class Result:
         return pathlib.Path(f"{self.stem}.h5")
 
     def open(self):
-        return open_results(self.path)
+        with reading(self.path):
+            return open_results(self.path)
 
 
 class Runs:
@@ -145,7 +146,8 @@ class Runs:
         """What an earlier call noted of the same case, if it may be taken."""
         if not self.reuse or not note.exists() or path.read_text(encoding="utf-8") != text:
             return None
-        return json.loads(note.read_text(encoding="utf-8"))
+        with reading(note):
+            return json.loads(note.read_text(encoding="utf-8"))
 
     def run_all(self, cases, may_stop=False):
         """Results of several (case, changes), some at a time."""

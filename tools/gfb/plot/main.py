@@ -32,7 +32,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb.plot import foil, rotor, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
-from gfb.results import attribute, open_results, text_of  # noqa: E402
+from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
@@ -59,13 +59,14 @@ def main():
     picture = options.output or pathlib.Path(options.file.name + ".png")
     with contextlib.ExitStack() as opened:
         files = [open_file(path, opened) for path in [options.file, *more]]
-        if options.list:
-            print(list_names(options.file, files[0]), end="")
-            return 0
         try:
-            figure = draw(options, [options.file, *more], files)
-        except (KeyError, IndexError, ValueError, OSError, RuntimeError) as error:
-            stop(f"{options.file}: cannot be drawn, not a whole file of this gfb: {error}")
+            with reading(options.file):
+                if options.list:
+                    print(list_names(options.file, files[0]), end="")
+                    return 0
+                figure = draw(options, [options.file, *more], files)
+        except Unreadable as error:
+            stop(str(error))
     try:
         figure.savefig(picture, dpi=100)
     except (OSError, ValueError) as error:
@@ -89,7 +90,7 @@ def open_file(path, opened):
     except FileNotFoundError:
         stop(f"{path}: there is no such file")
     except OSError as error:
-        stop(f"{path}: cannot be read as HDF5: {error}")
+        stop(f"{path}: cannot be read as HDF5: {' '.join(str(error).split())}")
 
 
 def draw(options, paths, files):
