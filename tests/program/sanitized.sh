@@ -4,7 +4,7 @@
 set -euo pipefail
 # shellcheck source=tools/setup.sh
 source "$GFB_SOURCE/tools/setup.sh"
-export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0} # MPI and PETSc keep memory until the end
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0} # as tools/test
 lock_build
 build_program sanitize few_tests
 unlock_build
