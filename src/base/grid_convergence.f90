@@ -9,8 +9,10 @@
 !> where p is within a tenth of the elements' order, otherwise 3; q is p, but not above the
 !> elements' order. On two meshes q is that order, and F_s = 3. Where the values do not approach a
 !> limit like that three times the differences themselves stand for the error. The largest or
-!> smallest of nodal values always has F_s = 3: the place of the extreme lies between nodes, now
-!> nearer to one and now farther, so three values can show the elements' order by chance.
+!> smallest of nodal values is not extrapolated: the place of the extreme lies between nodes, now
+!> nearer to one and now farther, so that values show an order, or a small difference, by chance.
+!> Twice the last difference, or what the one before lets expect, \( |f_2 - f_1| / 2^q \) with the
+!> elements' order, stands for its error, whichever is larger.
 module gfb_grid_convergence
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -19,6 +21,7 @@ module gfb_grid_convergence
 
   real(wp), parameter :: trusted_factor = 1.25_wp !! F_s where the order is as it should be [1]
   real(wp), parameter :: doubtful_factor = 3.0_wp !! where it is not, or is not known [1]
+  real(wp), parameter :: nodal_factor = 2.0_wp    !! of the largest or smallest nodal value [1]
   real(wp), parameter :: tolerance = 0.1_wp       !! of an order that is as it should be, relative
   real(wp), parameter :: lowest_order = 0.5_wp    !! an order below that is not believed [1]
   real(wp), parameter :: rounding = 1.0e-12_wp    !! differences that mean nothing, relative
@@ -58,10 +61,12 @@ contains
     end if
     if (last*before > 0.0_wp) found%order = log(before/last)/log(2.0_wp)
     found%trusted = found%order >= lowest_order
-    if (found%trusted) then
+    if (found%trusted .and. nodal) then
+      found%error = nodal_factor*max(abs(last), abs(before)/2.0_wp**formal_order)
+    else if (found%trusted) then
       ! A number that happens to converge faster will not go on so.
       found%error = abs(last)/(2.0_wp**min(found%order, formal_order) - 1.0_wp)
-      if (abs(found%order - formal_order) <= tolerance*formal_order .and. .not. nodal) then
+      if (abs(found%order - formal_order) <= tolerance*formal_order) then
         found%error = trusted_factor*found%error
       else
         found%error = doubtful_factor*found%error

@@ -1,6 +1,6 @@
 """What a run says of its own error (&accuracy), against answers on meshes far finer.
 
-More than forty scenes: rigid bearings and bearings on springs of several eccentricities, speeds, clearances, widths and
+Sixty scenes: rigid bearings and bearings on springs of several eccentricities, speeds, clearances, widths and
 tilts, with a slit or periodic, position or load given, bilinear and biquadratic films, and planar beams. Each names
 a quantity and a target. Told are the share of scenes whose true error is no larger than the estimate, and the
 median of estimate over true error. The answers stand in docs/measured/accuracy_fine_meshes.json; --reference
@@ -24,7 +24,7 @@ RADIUS, VISCOSITY, AMBIENT = 19.05e-3, 1.95e-5, 1.0135e5
 MESHES = {1: (208, 64), 2: (104, 32)}  # of the case, by film order; runs begin with a quarter
 FINE = ((104, 32), (208, 64))          # biquadratic; the second is the answer
 BEAM_MESH, BEAM_FINE = (104, 8, 12, 3), ((416, 16, 48, 12), (832, 32, 96, 24))
-FINER = {"rigid_03", "rigid_19", "beams_01", "beams_02"}  # whose runs come near to that: twice as fine
+FINER = {"rigid_03", "rigid_19", "rigid_30", "rigid_34", "beams_01", "beams_02"}  # whose runs come near to that: twice as fine
 CRESTS = {"half_length": 1.778e-3, "height": 0.508e-3, "pitch": 4.572e-3, "bumps": 26, "fixed_edge": "trailing",
           "fixed_line": "half_flat"}
 STEEL = {"thickness": 0.102e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29}
@@ -61,6 +61,13 @@ SCENES = {
     "rigid_27": ("minimum_pressure", 1e-3, 1, "rigid", "slit", ("held", 0.3, 0.2), 3.46e5, 31.8, 0.5, (0, 8e-4)),
     "rigid_28": ("maximum_pressure", 1e-3, 1, "rigid", "periodic", ("held", 0.4, 0.0), 3.46e5, 31.8, 0.5, (8e-4, 0)),
     "rigid_29": ("minimum_pressure", 1e-3, 1, "rigid", "periodic", ("held", 0.4, 0.0), 3.46e5, 31.8, 0.5, (8e-4, 0)),
+    # Fast, long, short, periodic and tilted.
+    "rigid_30": ("force_y", 1e-3, 1, "rigid", "slit", ("held", 0.85, 0.1), 3.46e5, 31.8, 2.0, (0, 0)),
+    "rigid_31": ("friction_torque", 1e-3, 1, "rigid", "periodic", ("held", 0.6, 0.0), 3.46e5, 31.8, 0.5, (0, 0)),
+    "rigid_32": ("minimum_gap", 1e-2, 1, "rigid", "periodic", ("load", 0.0, -150.0), 6e4, 25.0, 1.0, (0, 0)),
+    "rigid_33": ("eccentricity_x", 1e-3, 1, "rigid", "periodic", ("load", -80.0, -40.0), 2e4, 31.8, 2.0, (0, 0)),
+    "rigid_34": ("maximum_pressure", 1e-2, 1, "rigid", "slit", ("held", 0.7, 0.0), 3e4, 31.8, 2.0, (2e-4, 2e-4)),
+    "rigid_35": ("torque_y", 1e-2, 1, "rigid", "periodic", ("held", 0.4, 0.1), 6e4, 40.0, 0.5, (0, 8e-4)),
     "springs_01": ("force_x", 1e-3, 1, "springs", "slit", ("held", 0.6, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "springs_02": ("force_y", 1e-2, 1, "springs", "slit", ("held", 0.9, 0.2), 3e4, 31.8, 1.0, (0, 0)),
     "springs_03": ("eccentricity_x", 1e-2, 1, "springs", "slit", ("load", -100.0, 0.0), 3e4, 31.8, 1.0, (0, 0)),
@@ -75,10 +82,17 @@ SCENES = {
     "springs_12": ("minimum_pressure", 1e-3, 2, "springs", "periodic", ("held", 0.7, 0.2), 3e4, 31.8, 1.0, (0, 0)),
     "springs_13": ("friction_torque", 1e-4, 2, "springs", "slit", ("held", 0.5, 0.5), 3e4, 31.8, 1.0, (2e-4, 0)),
     "springs_14": ("maximum_pressure", 1e-3, 1, "springs", "slit", ("held", 0.5, 0.0), 3.46e5, 31.8, 0.5, (6e-4, 3e-4)),
+    "springs_15": ("eccentricity_y", 1e-3, 1, "springs", "periodic", ("load", -120.0, 0.0), 1.5e5, 31.8, 1.0, (0, 0)),
+    "springs_16": ("maximum_pressure", 1e-3, 2, "springs", "slit", ("load", -200.0, 0.0), 3e4, 31.8, 2.0, (0, 0)),
+    "local_01": ("force_x", 1e-3, 1, "local", "slit", ("held", 0.6, 0.0), 3e4, 31.8, 1.0, (0, 0)),
+    "local_02": ("minimum_gap", 1e-2, 1, "local", "slit", ("load", -15.0, 0.0), 6e4, 31.8, 0.5, (0, 0)),
+    "local_03": ("maximum_pressure", 1e-2, 1, "local", "periodic", ("held", 0.7, 0.1), 6e4, 31.8, 1.0, (2e-4, 0)),
     "beams_01": ("force_x", 1e-2, 1, "beam", "slit", ("held", 0.5, 0.0), 3e4, 31.8, 1.0, (0, 0)),
     "beams_02": ("force_y", 1e-2, 1, "beam", "slit", ("held", 0.6, 0.1), 3e4, 31.8, 1.0, (0, 0)),
     "beams_03": ("friction_torque", 1e-2, 1, "beam", "slit", ("held", 0.9, 0.2), 3e4, 31.8, 1.0, (0, 0)),
     "beams_04": ("minimum_gap", 1e-2, 1, "beam", "slit", ("held", 0.8, 0.0), 4.5e4, 31.8, 1.0, (0, 0)),
+    "beams_05": ("maximum_pressure", 1e-2, 1, "beam", "slit", ("held", 0.7, 0.0), 3e4, 31.8, 0.5, (0, 0)),
+    "beams_06": ("eccentricity_x", 1e-2, 1, "beam", "slit", ("load", -60.0, 0.0), 4.5e4, 31.8, 1.0, (0, 0)),
 }
 
 
@@ -107,9 +121,9 @@ def case_of(name):
         "model": {"foil": foil, "film_order": order},
         "output": {"fields": "none"},
     }
-    if foil == "springs":
+    if foil in ("springs", "local"):
         groups["model"] |= {"foil": "elastic_foundation", "foundation_stiffness": 1.0e10,
-                            "foundation_pressure": "axial_mean"}
+                            "foundation_pressure": "local" if foil == "local" else "axial_mean"}
     elif foil == "beam":
         groups |= {"top_foil": {**STEEL, "fixed_edge": "trailing"}, "bump_foil": {**STEEL, **CRESTS},
                    "contact": {"friction_top": 0.0, "friction_sleeve": 0.0, "normal_stiffness": 5.0e10}}
@@ -139,11 +153,11 @@ def compute_reference(gfb, folder, names):
             groups["mesh"] = mesh_keys(mesh)
             values.append(run_case(gfb, groups, folder, name).summary[quantity])
         scenes[name] = {"quantity": quantity, "value": values[1], "coarser": values[0],
-                        "elements": list(meshes[1])}
+                        "elements": list(meshes[1]), "program": version}
         print(f"{name}: {quantity} {values[1]!r}, differs by {abs(values[1] - values[0])/abs(values[1]):.1e}", flush=True)
-    content = {"what": "answers on fine meshes of the scenes of tools/bench_accuracy.py; `coarser` is the value on half "
-                       "as many elements each way; films of biquadratic elements, beams with bilinear ones",
-               "made_by": "tools/bench accuracy --reference", "program": version, "scenes": dict(sorted(scenes.items()))}
+    content = {"what": "answers on fine meshes of the scenes of tools/gfb/bench/accuracy.py; `coarser` is the value on "
+                       "half as many elements each way; films of biquadratic elements, beams with bilinear ones",
+               "made_by": "tools/bench accuracy --reference", "scenes": dict(sorted(scenes.items()))}
     REFERENCE.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
