@@ -14,6 +14,7 @@ import tempfile
 SKIPPED = 77
 BUILT = pathlib.Path(__file__).resolve().parents[2]/"build/ross"
 PINS = pathlib.Path(__file__).resolve().parents[1]/"requirements-ross.txt"
+TOOL = pathlib.Path(__file__).resolve().parents[2]/"tools/coefficients"
 RPM = 60000.0
 CASE = {
     "scene": {"analysis": "linear_dynamics"},
@@ -45,11 +46,21 @@ def least_damped(ross, table, mass, speed):
     return found
 
 
+def same_file(path, table):
+    """Whether a file of tools/coefficients is the bearing that the table makes."""
+    import numpy
+    import ross
+    bearing = ross.BearingElement.load(path)
+    return all(numpy.allclose(getattr(bearing, kind + row + column), table[kind + row + column], rtol=1.0e-14, atol=0.0)
+               for kind in "kc" for row in "xy" for column in "xy") and numpy.allclose(bearing.frequency, table["frequency"])
+
+
 def critical_mass(path, speed, low, high):
     """The mass between two at which the mode neither grows nor decays, and the frequency there."""
     import pandas
     import ross
     table = pandas.read_csv(path)
+    print("file:", same_file(path.replace(".coefficients.csv", ".toml"), table))
     while high - low > 1.0e-4*low:
         middle = 0.5*(low + high)
         found = least_damped(ross, table, middle, speed)
@@ -91,10 +102,13 @@ def main():
         answer = run_file(GFB, write_case(folder, "rotor", CASE), folder, options=("--quiet",))
         checks.that(f"gfb: status {answer.status}", answer.status == 0)
         mass, ratio = answer["critical_mass"], answer["whirl_ratio"]
+        written = subprocess.run([sys.executable, TOOL, f"{answer.stem}.h5", "--ross", f"{answer.stem}.toml"], check=False)
+        checks.that("tools/coefficients writes ROSS's file", written.returncode == 0)
         done = subprocess.run([python, __file__, "--mass", f"{answer.stem}.coefficients.csv", repr(speed), repr(0.5*mass),
                                repr(2.0*mass)], capture_output=True, encoding="utf-8", check=False, cwd=folder,
                               env={**os.environ, "PYTHONPATH": ""})
         words = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("critical:")]
+        checks.that("ROSS reads its file, with the table's numbers", "file: True" in done.stdout)
         checks.that(f"ROSS reads the table {'' if words else done.stderr[-500:]}", len(words) == 1)
         if words:
             found, frequency = map(float, words[0])

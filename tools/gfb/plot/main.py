@@ -7,6 +7,7 @@
   tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
   tools/plot CASE.h5 [COLUMN ...]       columns of the history against what the sweep changes, or load steps
       --together                          columns of one unit in one chart
+  tools/plot CASE.h5 --show dynamics    stiffness and damping over the frequency of vibration
   tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
       --show bumps                        mean deflection of every crest line
       --show loop                         force against travel of the plate or largest crest deflection
@@ -30,7 +31,7 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-from gfb.plot import foil, rotor, strip  # noqa: E402
+from gfb.plot import dynamics, foil, rotor, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
@@ -49,7 +50,8 @@ def main():
                         help="the picture; default: the file's name with .png, here")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=(*strip.KINDS, *rotor.KINDS), help="what of a strip's or bearing's CASE.h5")
+    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, *rotor.KINDS),
+                        help="what of a strip's or bearing's CASE.h5")
     parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",
                         help="load steps of --show bumps and contact, or sweep points of a bearing; default: the one "
                              "of the largest force, or the last point")
@@ -101,6 +103,10 @@ def draw(options, paths, files):
         stop("columns are drawn of one file, without --show and --step")
     if options.show in rotor.KINDS:
         return rotor.draw(paths, files, options.show)
+    if options.show == dynamics.KIND:
+        if len(files) > 1 or options.step:
+            stop("stiffness and damping are drawn of one file, without --step")
+        return dynamics.draw(path, file)
     if of_strips or (not options.columns and strip.is_strip(file)):
         return strip.draw(paths, files, options.show, options.step)
     if foil.is_foil(file):

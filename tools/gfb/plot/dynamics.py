@@ -1,0 +1,34 @@
+"""The picture of a bearing's stiffness and damping over the frequency of vibration."""
+
+from matplotlib import pyplot
+
+from gfb.tool import stop
+
+KIND = "dynamics"
+ENTRIES = (("xx", 0, 0, "C0", "-"), ("xy", 0, 1, "C1", "-"), ("yx", 1, 0, "C1", "--"), ("yy", 1, 1, "C0", "--"))
+ANGLES = (("phi_x phi_x", 2, 2, "C0", "-"), ("phi_x phi_y", 2, 3, "C1", "-"), ("phi_y phi_x", 3, 2, "C1", "--"),
+          ("phi_y phi_y", 3, 3, "C0", "--"))
+CHARTS = (("stiffness", ENTRIES, 1.0e-6, "K [MN/m]"), ("damping", ENTRIES, 1.0e-3, "C [kN s/m]"),
+          ("stiffness", ANGLES, 1.0, "K [N m/rad]"), ("damping", ANGLES, 1.0, "C [N m s/rad]"))
+
+
+def draw(path, file):
+    """Displacements above, tilts below; stiffness at the left, damping at the right."""
+    if "dynamics" not in file:
+        stop(f"{path}: no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
+    group = file["dynamics"]
+    frequency = group["frequency"][...]
+    figure, axes = pyplot.subplots(2, 2, figsize=(10.0, 6.6), layout="constrained", sharex=True)
+    for chart, (name, entries, scale, label) in zip(axes.flat, CHARTS):
+        values = group[name][...]*scale
+        for words, row, column, colour, style in entries:
+            chart.plot(frequency, values[:, row, column], style, color=colour, marker="o", markersize=3.0, label=words)
+        chart.axhline(0.0, color="0.6", linewidth=0.8)
+        chart.set_ylabel(label)
+        chart.grid(alpha=0.3)
+    for chart in axes[:, 1]:
+        chart.legend(fontsize=8)  # of its row
+    for chart in axes[1]:
+        chart.set_xlabel("frequency of vibration [rad/s]")
+    figure.suptitle(path.name.removesuffix(".h5"), fontsize=11)
+    return figure
