@@ -14,7 +14,7 @@ import signal
 import subprocess
 import tempfile
 
-from gfb.results import open_results, read_summary
+from gfb.results import SEAL_LENGTH, open_results, read_summary
 from gfb.run import ENVIRONMENT, MPIEXEC, case_text
 from gfb.tables import markdown_table
 from gfb.tool import ROOT
@@ -247,6 +247,38 @@ class Faults:
         file.write_bytes(whole)
         return Row("a bit of a restart file changed, or its end is missing", flips + len(cuts), survived, refused, wrong)
 
+    def damaged_results(self, flips):
+        """Bits of a result file that have changed, its end missing: as tools/plot and the other tools open it."""
+        whole, place = (self.kept/"case.h5").read_bytes(), self.folder/"damaged.h5"
+        chance, refused, wrong = random.Random(2), 0, []
+        spoiled = [(f"cut at {cut}", whole[:cut]) for cut in range(0, len(whole) - SEAL_LENGTH, len(whole)//9)]
+        for bit in (chance.randrange(8*len(whole)) for _ in range(flips)):
+            content = bytearray(whole)
+            content[bit//8] ^= 1 << bit % 8
+            spoiled.append((f"bit {bit}", bytes(content)))
+        for words, content in spoiled:
+            place.write_bytes(content)
+            try:
+                open_results(place).close()
+                wrong.append(f"{words}: is read")
+            except OSError:
+                refused += 1
+        return Row("a bit of a result file changed, or its end is missing, read by the tools", len(spoiled), 0, refused, wrong)
+
+    def no_start(self):
+        """Settings with which MPI does not start."""
+        settings = [{"OMPI_MCA_pml": "nonsense"}, {"OMPI_MCA_btl": "nonsense"}, {"OMPI_MCA_orte_tmpdir_base": "/proc"}]
+        refused, wrong = 0, []
+        for one in settings:
+            place = self.anew()
+            status, complaint = self.over(place, environment=one)
+            refused += status == 3
+            found = "" if status == 3 and "MPI could not start" in complaint else f"status {status}: {complaint[:200]}"
+            found = found or problem_after(place, status, "a sentence", expected=(3,))
+            if found:
+                wrong.append(f"{one}: {found}")
+        return Row("MPI cannot start", len(settings), 0, refused, wrong)
+
 
 def all_rows(gfb, long=True):
     """Every kind of fault."""
@@ -262,4 +294,6 @@ def all_rows(gfb, long=True):
                 rows.append(faults.operations(library, "full", ranks=2))
         rows.append(faults.small_disk([4096*i for i in range(40 if long else 5)]))
         rows.append(faults.damaged(200 if long else 10))
+        rows.append(faults.damaged_results(200 if long else 20))
+        rows.append(faults.no_start())
     return [row for row in rows if row]
