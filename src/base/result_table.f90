@@ -187,6 +187,11 @@ module gfb_result_table
       'sign of the determinant of all equations; it changes at folds', &
       'where the shaft is balanced: sign of the determinant of all equations; along a branch '// &
       'it changes at a fold, 0 in the row of one'), &
+    result_type('edge_stiffness', 'N/m', number, bearing, &
+      'force that lifts the top foil''s free edge over its displacement; negative: unstable', &
+      'the same, with a free edge: force that lifts it over its mean displacement, while '// &
+      'film, foils and shaft follow; near zero the equilibrium is nearly neutral, below it '// &
+      'is unstable'), &
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, at this load and speed', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &

@@ -9,6 +9,7 @@ module gfb_answer_judgement
   use gfb_model_case, only: foil_shell
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, find_determinant_sign
+  use gfb_edge_stiffness, only: find_edge_stiffness
   use gfb_stability, only: stability_type, find_stability
   implicit none (type, external)
   private
@@ -25,6 +26,8 @@ contains
     type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
     integer :: sign_of_determinant
+    real(wp) :: stiffness
+    logical :: known
 
     allocate (list(0))
     if (scene%solver%stability) then
@@ -44,6 +47,9 @@ contains
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
     call add_result(list, 'determinant_sign', sign_of_determinant)
+    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    call find_edge_stiffness(bearing, newton, known, stiffness)
+    if (known) call add_result(list, 'edge_stiffness', stiffness)
   end subroutine judge_answer
 
   !> The stability as a sentence.

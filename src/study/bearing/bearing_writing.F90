@@ -26,6 +26,8 @@ module gfb_bearing_writing
   public :: write_bearing
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
+  real(wp), parameter :: micrometre = 1.0e-6_wp   !! [m]
+  real(wp), parameter :: neutral = 5.0e-4_wp      !! force over a lift by C that hardly holds an edge, over load and p_a D L [1]
 
   !> What is written beside the bearing's state and record.
   type, public :: bearing_result_type
@@ -63,7 +65,9 @@ contains
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
       call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
-      if (converged .and. answer%has_foils) call show_growth(log, record%judged)
+      if (converged .and. answer%has_foils) then
+        call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance)
+      end if
       call show_tilt_response(log, record%tilted)
       if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
         call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
@@ -78,16 +82,23 @@ contains
   end subroutine write_bearing
 
   !> Says that an equilibrium of the foils cannot be one that stays: where the determinant is negative an odd number of
-  !> motions grows.
-  subroutine show_growth(log, judged)
+  !> motions grows. And that it hardly is one: where next to no force lifts the free edge.
+  subroutine show_growth(log, judged, firm)
     type(run_log_type), intent(in) :: log
     type(quantity_type), intent(in) :: judged(:) !! what is known of the answer
+    real(wp), intent(in) :: firm !! stiffness of an edge that rests firmly [N/m]
     integer :: i
 
     do i = 1, size(judged)
-      if (judged(i)%name /= 'determinant_sign' .or. judged(i)%number > -0.5_wp) cycle
-      call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
-                    'foils grows; gfb --branches lists equilibria')
+      associate (number => judged(i)%number)
+        if (judged(i)%name == 'determinant_sign' .and. number < -0.5_wp) then
+          call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
+                        'foils grows; gfb --branches lists equilibria')
+        else if (judged(i)%name == 'edge_stiffness' .and. abs(number) < firm) then
+          call log%line('stability        nearly neutral: '//text(number*micrometre, 2)//' N lift the free edge of the top foil '// &
+                        'by 1 um; gfb --branches lists equilibria')
+        end if
+      end associate
     end do
   end subroutine show_growth
 end module gfb_bearing_writing
