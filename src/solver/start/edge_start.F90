@@ -11,7 +11,7 @@ module gfb_edge_start
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_force
+  use gfb_bearing_directions, only: edge_force, edge_lift
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: guess_position
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
@@ -20,7 +20,7 @@ module gfb_edge_start
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
-  public :: try_free_edge, has_free_edge
+  public :: try_free_edge, ask_edge, has_free_edge
 
   real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
   real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
@@ -176,6 +176,23 @@ contains
         'no step leads on with the edge fixed'
     end if
   end subroutine release_short_of_load
+
+  !> From an answer short of the target: fixes the edge where it is, goes to the target with it, and seeks the height where
+  !> it stays by itself.
+  subroutine ask_edge(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved, at an answer
+    type(path_report_type), intent(out) :: report !! how it ended; converged: with the edge released
+    logical, intent(out) :: ends !! the edge stays nowhere
+    type(operating_point_type) :: fixed
+
+    ends = .false.
+    fixed = with_fixed_edge(problem)
+    fixed%edge_height = edge_lift(problem%bearing)
+    problem%bearing%point%edge_hold = fixed%edge_hold
+    problem%bearing%point%edge_height = fixed%edge_height
+    call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
+    if (report%converged) call release_edge(problem, report, ends)
+  end subroutine ask_edge
 
   !> At the target: releases the edge where it stays by itself.
   subroutine release_edge(problem, report, ends)

@@ -44,10 +44,6 @@ contains
         call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
                       'not deflect and may touch first; ''axial_mean'' in &model lets them')
       end if
-      if (scene%sweep%present .and. .not. (report%has_cause() .or. report%converged)) then
-        call log%line('a case of its own at a value beyond, without &sweep, looks for other '// &
-                      'answers and says what the film does there')
-      end if
       select case (reason%code)
       case (reason_fixed_shaft)
         call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '// &

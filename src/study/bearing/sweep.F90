@@ -12,7 +12,7 @@ module gfb_sweep
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type, newton_settings_type
-  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
@@ -86,7 +86,7 @@ contains
     if (self%partitioned) then
       call follow_partitioned(self%bearing, self%newton, self%target_at(point), self%path, self%sides, report)
     else
-      call follow_path(self%bearing, self%newton, self%target_at(point), 1.0_wp, self%path, report)
+      call follow_branch(self%scene, self%bearing, self%newton, self%target_at(point), self%path, report)
     end if
     if (.not. report%converged) call self%stop_short(report, reason)
   end subroutine reach_value

@@ -1,0 +1,74 @@
+#include "gfb_petsc.h"
+!> A branch of answers to an operating point, and where it ends short of that without a cause: what the film does beyond.
+module gfb_branch_end
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_signals, only: stop_agreed
+  use gfb_scene, only: scene_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_lift
+  use gfb_newton, only: newton_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_start_problem, only: start_problem_type
+  use gfb_kept_state, only: kept_state_type
+  use gfb_edge_start, only: has_free_edge, ask_edge
+  implicit none (type)
+  private
+  public :: follow_branch, path_settings_type, path_report_type
+
+  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+contains
+
+  !> Follows a branch; where no step leads on and nothing tells why, the free edge is fixed, the target reached with it,
+  !> and the edge's force asked there. On return the state is the branch's last answer.
+  subroutine follow_branch(scene, bearing, newton, target, settings, report)
+    type(scene_type), target, intent(in) :: scene !! what is asked for
+    type(bearing_system_type), target, intent(inout) :: bearing !! at an answer
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target !! where the branch is to lead
+    type(path_settings_type), intent(in) :: settings !! limits of the path
+    type(path_report_type), intent(out) :: report !! how far it led
+    logical :: asks
+
+    call follow_path(bearing, newton, target, 1.0_wp, settings, report)
+    asks = .not. (report%converged .or. report%has_cause()) .and. bearing%floats .and. .not. bearing%shaft_fixed
+    if (asks) asks = bearing%pad(1)%foil%has_contacts()
+    if (asks) asks = has_free_edge(bearing)
+    if (asks) asks = .not. stop_agreed()
+    if (asks) call ask_beyond(scene, bearing, newton, target, settings, report)
+  end subroutine follow_branch
+
+  !> Adds to a report what happens to the free edge at the target.
+  subroutine ask_beyond(scene, bearing, newton, target, settings, report)
+    type(scene_type), target, intent(in) :: scene
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(inout) :: report
+    type(start_problem_type) :: problem
+    type(path_report_type) :: beyond
+    type(kept_state_type) :: last
+    logical :: ends
+
+    call newton%log%detail('the branch is lost: its free edge is fixed, and asked at the target')
+    call last%keep(bearing)
+    problem%scene => scene
+    problem%target = target
+    problem%settings = settings
+    problem%bearing => bearing
+    problem%newton => newton
+    call ask_edge(problem, beyond, ends)
+    if (ends) then
+      report%reason = report%reason//'; at the value asked for '//beyond%reason
+    else if (beyond%converged) then
+      report%reason = report%reason//'; at the value asked for another equilibrium was found, with its free edge at '// &
+        text(edge_lift(bearing)*micrometres, 3)//' um: a branch of its own'
+    end if
+    call last%put_back(bearing)
+    call last%destroy()
+    call problem%anchor%destroy()
+  end subroutine ask_beyond
+end module gfb_branch_end
