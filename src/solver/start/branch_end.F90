@@ -12,7 +12,7 @@ module gfb_branch_end
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_start, only: has_free_edge, ask_edge
+  use gfb_edge_heights, only: has_free_edge, ask_edge
   implicit none (type)
   private
   public :: follow_branch, path_settings_type, path_report_type

@@ -5,6 +5,7 @@
 !> released; where it never does below the shaft the edge is drawn up everywhere, and stays nowhere.
 module gfb_edge_heights
   use gfb_kinds, only: wp
+  use gfb_petsc_session, only: any_rank
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -12,12 +13,15 @@ module gfb_edge_heights
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at
-  use gfb_start_problem, only: start_problem_type
+  use gfb_start_problem, only: start_problem_type, trial_settings
   use gfb_kept_state, only: kept_state_type
   implicit none (type)
   private
-  public :: seek_height, release, clearance_of
+  public :: ask_edge, release_edge, release, with_fixed_edge, settings_with_fixed_edge, has_free_edge, clearance_of
 
+  real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
+  real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
+  real(wp), parameter :: first_step = 0.25_wp    !! of a path with the edge fixed, to the target [1]
   character(len=*), parameter :: suction = 'the film draws the free edge of the top foil to the shaft'
   real(wp), parameter, public :: low_edge = -0.2_wp !! height of an edge that lies on its bumps, over the clearance [1]
   real(wp), parameter :: lowest = -0.5_wp        !! where the film still presses it down, the same [1]
@@ -40,6 +44,66 @@ module gfb_edge_heights
   real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
 
 contains
+
+  !> Whether the top foil has an edge that is fixed nowhere.
+  function has_free_edge(bearing) result(has)
+    type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
+    logical :: has
+
+    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
+  end function has_free_edge
+
+  !> The target with the edge fixed at its height at rest.
+  function with_fixed_edge(problem) result(target)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: target
+
+    target = problem%target
+    target%edge_hold = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
+    target%edge_height = 0.0_wp
+  end function with_fixed_edge
+
+  !> Limits of a path along which the edge is fixed.
+  pure function settings_with_fixed_edge(settings) result(fixed)
+    type(path_settings_type), intent(in) :: settings
+    type(path_settings_type) :: fixed
+
+    fixed = trial_settings(settings)
+    fixed%look_for_folds = .false.
+  end function settings_with_fixed_edge
+
+  !> From an answer short of the target: fixes the edge where it is, goes to the target with it, and seeks the height where
+  !> it stays by itself.
+  subroutine ask_edge(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved, at an answer
+    type(path_report_type), intent(out) :: report !! how it ended; converged: with the edge released
+    logical, intent(out) :: ends !! the edge stays nowhere
+    type(operating_point_type) :: fixed
+
+    ends = .false.
+    fixed = with_fixed_edge(problem)
+    fixed%edge_height = edge_lift(problem%bearing)
+    problem%bearing%point%edge_hold = fixed%edge_hold
+    problem%bearing%point%edge_height = fixed%edge_height
+    call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
+    if (report%converged) call release_edge(problem, report, ends)
+  end subroutine ask_edge
+
+  !> At the target: releases the edge where it stays by itself.
+  subroutine release_edge(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+    real(wp) :: highest !! edge that is accepted, over the clearance [1]
+
+    ends = .false.
+    report%converged = .false.
+    ! It moves the way the film presses it.
+    highest = merge(resting, 0.0_wp, edge_force(problem%bearing) < 0.0_wp)
+    call release(problem, problem%target, problem%newton%settings, &
+                 [low_edge, highest]*clearance_of(problem%bearing), report)
+    if (.not. report%converged) call seek_height(problem, settings_with_fixed_edge(problem%settings), report, ends)
+  end subroutine release_edge
 
   !> From where the edge is fixed at its height at rest, seeks the height where it needs no force, and releases it there:
   !> below, where it lies on its bumps, before above.

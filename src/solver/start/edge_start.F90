@@ -11,31 +11,20 @@ module gfb_edge_start
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_force, edge_lift
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: guess_position
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_heights, only: seek_height, release, clearance_of, low_edge
+  use gfb_edge_heights, only: release_edge, release, with_fixed_edge, settings_with_fixed_edge, clearance_of, low_edge
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
-  public :: try_free_edge, ask_edge, has_free_edge
+  public :: try_free_edge
 
-  real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
-  real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
 
 contains
-
-  !> Whether the top foil has an edge that is fixed nowhere.
-  function has_free_edge(bearing) result(has)
-    type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
-    logical :: has
-
-    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
-  end function has_free_edge
 
   !> Fixes the edge where it rests while contacts are released, and seeks from there the height where it stays by
   !> itself: the equilibrium with a resting edge, where there is one, rather than those whose edge is lifted.
@@ -176,56 +165,4 @@ contains
         'no step leads on with the edge fixed'
     end if
   end subroutine release_short_of_load
-
-  !> From an answer short of the target: fixes the edge where it is, goes to the target with it, and seeks the height where
-  !> it stays by itself.
-  subroutine ask_edge(problem, report, ends)
-    type(start_problem_type), intent(inout) :: problem !! what is to be solved, at an answer
-    type(path_report_type), intent(out) :: report !! how it ended; converged: with the edge released
-    logical, intent(out) :: ends !! the edge stays nowhere
-    type(operating_point_type) :: fixed
-
-    ends = .false.
-    fixed = with_fixed_edge(problem)
-    fixed%edge_height = edge_lift(problem%bearing)
-    problem%bearing%point%edge_hold = fixed%edge_hold
-    problem%bearing%point%edge_height = fixed%edge_height
-    call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
-    if (report%converged) call release_edge(problem, report, ends)
-  end subroutine ask_edge
-
-  !> At the target: releases the edge where it stays by itself.
-  subroutine release_edge(problem, report, ends)
-    type(start_problem_type), intent(inout) :: problem
-    type(path_report_type), intent(inout) :: report
-    logical, intent(out) :: ends !! it stays nowhere
-    real(wp) :: highest !! edge that is accepted, over the clearance [1]
-
-    ends = .false.
-    report%converged = .false.
-    ! It moves the way the film presses it.
-    highest = merge(resting, 0.0_wp, edge_force(problem%bearing) < 0.0_wp)
-    call release(problem, problem%target, problem%newton%settings, &
-                 [low_edge, highest]*clearance_of(problem%bearing), report)
-    if (.not. report%converged) call seek_height(problem, settings_with_fixed_edge(problem%settings), report, ends)
-  end subroutine release_edge
-
-  !> The target with the edge fixed at its height at rest.
-  function with_fixed_edge(problem) result(target)
-    type(start_problem_type), intent(in) :: problem
-    type(operating_point_type) :: target
-
-    target = problem%target
-    target%edge_hold = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
-    target%edge_height = 0.0_wp
-  end function with_fixed_edge
-
-  !> Limits of a path along which the edge is fixed.
-  pure function settings_with_fixed_edge(settings) result(fixed)
-    type(path_settings_type), intent(in) :: settings
-    type(path_settings_type) :: fixed
-
-    fixed = trial_settings(settings)
-    fixed%look_for_folds = .false.
-  end function settings_with_fixed_edge
 end module gfb_edge_start

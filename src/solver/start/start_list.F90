@@ -12,7 +12,8 @@ module gfb_start_list
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
-  use gfb_edge_start, only: try_free_edge, has_free_edge
+  use gfb_edge_heights, only: has_free_edge
+  use gfb_edge_start, only: try_free_edge
   implicit none (type)
   private
   public :: cold_starts, try_starts
