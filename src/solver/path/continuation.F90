@@ -46,7 +46,7 @@ contains
     Vec :: here, before
     real(wp) :: step, smallest, at_before, trial
     integer :: most_steps, rescues
-    logical :: goes_on, just_cut, spent
+    logical :: goes_on, just_cut, spent, closing
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -88,6 +88,9 @@ contains
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'
           if (.not. (settings%look_for_folds .and. bearing%floats)) exit
+          ! A film without contacts that closes has told its end; beyond it there is only rounding.
+          closing = is_closing(bearing)
+          if (closing .and. .not. bearing%pad(1)%foil%has_contacts()) exit
           rescues = rescues + 1
           if (rescues > most_rescues) exit
           call find_end(bearing, newton, target, smallest, settings, here, before, at_before, report, goes_on)
