@@ -40,6 +40,10 @@ module gfb_dynamics_record
     real(wp), allocatable :: frequency(:)          !! [rad/s]
     complex(wp), allocatable :: coefficient(:, :, :) !! (row, column, frequency) Z in SI
     real(wp), allocatable :: mode(:, :)            !! (number, mode) of the rotor, if there is one
+    real(wp), allocatable :: amplitude(:)          !! of the shaft, if any is asked for [m]
+    !> (row, column, amplitude, frequency) Z in SI
+    complex(wp), allocatable :: at_amplitude(:, :, :, :)
+    real(wp), allocatable :: friction_loss(:, :, :) !! (x or y, amplitude, frequency) [J]
   end type dynamics_point_type
 
   !> At all answers so far; none without an answer.
@@ -118,7 +122,47 @@ contains
     three(2:)%order = shaft_coordinates
     call add_arrays(arrays, three)
     call add_mode_arrays(record, sweeps, points, arrays)
+    if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)
   end function dynamics_arrays
+
+  !> Adds what was found at the shaft's amplitudes. Tilts stay small ones: their columns are NaN.
+  subroutine add_amplitude_arrays(point, arrays)
+    type(dynamics_point_type), intent(in) :: point
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(case_array_type) :: four(4)
+    real(wp), allocatable, dimension(:, :) :: stiffness, damping
+    character(len=*), parameter :: axes = ', [frequency, amplitude, row, column] in the order '// &
+                                          'e_x, e_y, phi_x, phi_y, NaN in the columns of phi'
+    integer :: i, k, first
+    integer, parameter :: entries = shaft_coordinates**2
+
+    allocate (stiffness(entries*size(point%amplitude), size(point%frequency)))
+    allocate (damping, mold=stiffness)
+    do i = 1, size(point%frequency)
+      do k = 1, size(point%amplitude)
+        first = (k - 1)*entries
+        associate (z => transpose(point%at_amplitude(:, :, k, i)))
+          stiffness(first + 1:first + entries, i) = reshape(real(z, wp), [entries])
+          damping(first + 1:first + entries, i) = reshape(aimag(z), [entries])/point%frequency(i)
+        end associate
+      end do
+    end do
+    call fill_array('/dynamics/amplitude', 'm', 'amplitude of the shaft, along x or along y', &
+                    reshape(point%amplitude, [1, size(point%amplitude)]), four(1))
+    call fill_array('/dynamics/stiffness_at_amplitude', 'N/m; N m/m', 'as stiffness, with '// &
+                    'contacts that slide to and fro at an amplitude, one harmonic'//axes, &
+                    stiffness, four(2), by_step=.true.)
+    call fill_array('/dynamics/damping_at_amplitude', 'N s/m; N m s/m', 'as damping, with '// &
+                    'contacts that slide to and fro at an amplitude, one harmonic'//axes, &
+                    damping, four(3), by_step=.true.)
+    call fill_array('/dynamics/friction_loss_at_amplitude', 'J', 'energy that contacts lose in '// &
+                    'a cycle; a row a frequency: shaft along x, y with the first amplitude, x, '// &
+                    'y with the second, ...', &
+                    reshape(point%friction_loss, [2*size(point%amplitude), &
+                                                  size(point%frequency)]), four(4), by_step=.true.)
+    four(2:3)%order = shaft_coordinates
+    call add_arrays(arrays, four)
+  end subroutine add_amplitude_arrays
 
   !> Adds the rotor's modes; a point of a sweep that has fewer than others has NaN at the end.
   subroutine add_mode_arrays(record, sweeps, points, arrays)

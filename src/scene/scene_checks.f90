@@ -32,7 +32,8 @@ contains
     call check_foundation(keys, scene%model)
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
-    call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, scene%sweep, &
+    call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, &
+                        scene%contact%may_rub, scene%contact%friction_law, scene%sweep, &
                         scene%accuracy%present)
     call check_rotor(keys, scene%rotor, scene%operation, scene%sweep)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &

@@ -45,6 +45,7 @@ COARSER = (  # which inputs, what is changed
     (r"gu2020_bearing_fig10_trailing", SHELLS | {"sweep": {"values": (50.0, 75.0)}}),
     (r"gu2020_bearing|gu2020_bearing_fig9", SHELLS),
     (r"gu2020_dynamics|gu2020_dynamics_beam", SHELLS | {"dynamics": {"frequency_ratios": (0.5, 1.0)}}),
+    (r"gu2020_dynamics_amplitude", SHELLS | {"dynamics": {"vibration_amplitudes": (1.0e-7, 2.0e-6)}}),
     (r"gu2020_dynamics_foundation", FILM | {"dynamics": {"frequency_ratios": (0.5, 1.0)}}),
     (r"gu2020_position_.*", PAPER),
 )

@@ -16,7 +16,7 @@ module gfb_film_rates
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
-  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_friction, squeeze_column
 
   integer, parameter :: squeeze = 1, squeeze_by_gap = 2, flow_by_gap = 3 !! derivatives there are
 
@@ -174,6 +174,36 @@ contains
     end associate
     call finish(bearing, matrix)
   end subroutine fill_springs
+
+  !> A stiffness of the contacts along their surface, and nothing else.
+  subroutine fill_friction(bearing, stiffness, matrix)
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer; left as it is
+    real(wp), intent(in) :: stiffness(:) !! of this rank's contacts [N/m]
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    real(wp) :: kept(3, 3, size(stiffness)), unknown(bearing%local_size())
+    PetscErrorCode :: ierr
+    integer :: i
+
+    call bearing%get_unknowns(unknown)
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    associate (foil => bearing%pad(1)%foil)
+      associate (point => foil%contacts%point, law => foil%contacts%law)
+        do i = 1, size(point)
+          kept(:, :, i) = point(i)%derivative
+          point(i)%derivative = 0.0_wp
+          point(i)%derivative(1, 1) = -stiffness(i)
+          if (.not. law(point(i)%law)%one_way) point(i)%derivative(2, 2) = -stiffness(i)
+        end do
+        call foil%set_lending(.false.)
+        call foil%add_jacobian(unknown, matrix)
+        call foil%set_lending(.true.)
+        do i = 1, size(point)
+          point(i)%derivative = kept(:, :, i)
+        end do
+      end associate
+    end associate
+    call finish(bearing, matrix)
+  end subroutine fill_friction
 
   !> Assembles a matrix and scales it as the bearing's.
   subroutine finish(bearing, matrix)

@@ -5,6 +5,7 @@ module gfb_dynamics_case
   use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
                             foil_rigid, meshes_foils
   use gfb_operation_case, only: operation_case_type, angular_speed
+  use gfb_contact_law, only: law_tanh_reset
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
@@ -27,6 +28,7 @@ module gfb_dynamics_case
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
+    real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
   end type dynamics_case_type
 
 contains
@@ -70,6 +72,10 @@ contains
     call keys%real_key('foundation_damping', dynamics%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
+    call keys%real_list_key('vibration_amplitudes', dynamics%amplitudes, longest_list, 'm', &
+                            'amplitudes of the shaft along x and along y at which stiffness '// &
+                            'and damping are asked for too, contacts sliding to and fro', &
+                            positive, .false., 'none: small ones alone')
     call keys%finish_group()
   end subroutine read_dynamics_case
 
@@ -102,11 +108,14 @@ contains
   end subroutine check_frequencies
 
   !> What the rest of the scene allows.
-  subroutine check_dynamics(keys, dynamics, operation, model, sweep, refines)
+  subroutine check_dynamics(keys, dynamics, operation, model, may_rub, friction_law, sweep, &
+                            refines)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(dynamics_case_type), intent(in) :: dynamics !! what `&dynamics` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(model_case_type), intent(in) :: model !! what `&model` asks for
+    logical, intent(in) :: may_rub !! a friction coefficient of `&contact` is positive
+    integer, intent(in) :: friction_law !! of `&contact`, `law_tanh_drag`, ...
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     logical, intent(in) :: refines !! the scene asks for an accuracy
 
@@ -123,7 +132,40 @@ contains
                          'at every point of the sweep: give frequencies')
     end if
     call check_model(keys, dynamics, model)
+    if (keys%meant('dynamics', 'vibration_amplitudes')) then
+      call check_amplitudes(keys, dynamics, model, may_rub, friction_law, sweep)
+    end if
   end subroutine check_dynamics
+
+  !> Where amplitudes of the shaft count.
+  subroutine check_amplitudes(keys, dynamics, model, may_rub, friction_law, sweep)
+    type(case_keys_type), intent(inout) :: keys
+    type(dynamics_case_type), intent(in) :: dynamics
+    type(model_case_type), intent(in) :: model
+    logical, intent(in) :: may_rub
+    integer, intent(in) :: friction_law
+    type(sweep_case_type), intent(in) :: sweep
+    character(len=*), parameter :: group = 'dynamics', name = 'vibration_amplitudes'
+
+    if (sweep%present) then
+      call keys%complain(group, name, 'needs a scene of one answer, without &sweep')
+    end if
+    if (dynamics%contact_tangent /= tangent_stick) then
+      call keys%complain(group, name, "needs contact_tangent = 'stick': contacts that have "// &
+                         'shaken down are their limit')
+    end if
+    if (model%foil == 0) return
+    if (.not. meshes_foils(model%foil)) then
+      call keys%complain(group, name, "needs foil = 'shell' in &model, or 'beam': nothing else "// &
+                         'rubs')
+    else if (.not. may_rub) then
+      call keys%complain(group, name, 'needs friction: give friction_top or friction_sleeve in '// &
+                         '&contact')
+    else if (friction_law == law_tanh_reset) then
+      call keys%complain(group, name, "needs another friction_law than 'tanh_reset' in "// &
+                         '&contact: that one never shakes down')
+    end if
+  end subroutine check_amplitudes
 
   !> What foils and the way of solving allow.
   subroutine check_model(keys, dynamics, model)

@@ -28,7 +28,7 @@ module gfb_dynamic_response
   use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs, keep_entries
   implicit none (type)
   private
-  public :: create_response, find_coefficients, forces_of, dissipates, destroy_response
+  public :: create_response, find_coefficients, combine, coupled_columns, solve_part, forces_of, dissipates, destroy_response
 
   character(len=*), parameter :: prefix = 'dynamic_' !! of PETSc's options
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
@@ -58,7 +58,7 @@ module gfb_dynamic_response
     type(part_type), allocatable :: part(:)
     type(tMat) :: steady, squeeze !! derivatives by the unknowns
     type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
-    type(tMat), private :: real_part, imaginary_part
+    type(tMat) :: real_part, imaginary_part !! of the matrix that was combined last
     type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
     type(tVec) :: one, other !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
@@ -212,7 +212,7 @@ contains
 
   !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.
   pure function coupled_columns(bearing) result(columns)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! that vibrates
     integer :: columns
     columns = bearing%unknowns - merge(shaft_unknowns, 0, bearing%floats)
   end function coupled_columns
@@ -270,7 +270,7 @@ contains
 
   !> Real and imaginary part of the matrix.
   subroutine combine(response, rate)
-    type(dynamic_response_type), intent(in) :: response
+    type(dynamic_response_type), intent(in) :: response !! that was created
     complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp) :: loss, softening
     PetscErrorCode :: ierr
@@ -303,13 +303,13 @@ contains
 
   !> Forces of a part's motions, with the factors there are.
   subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(in) :: response
-    complex(wp), intent(in) :: rate   !! [1/s]
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(in) :: response !! of it; `one` and `other` keep minus the last motion's change
+    complex(wp), intent(in) :: rate   !! lambda [1/s]
     integer, intent(in) :: wanted     !! coordinates, from the first
-    type(part_type), intent(in) :: part
-    complex(wp), intent(inout) :: coefficient(:, :)
-    logical, intent(out) :: found
+    type(part_type), intent(in) :: part !! of the response, factorized
+    complex(wp), intent(inout) :: coefficient(:, :) !! (force, motion) [SI]
+    logical, intent(out) :: found !! all were solved
     Vec :: right, answer
     KSPConvergedReason :: reason
     PetscErrorCode :: ierr

@@ -2,6 +2,7 @@
 !> Small vibrations of the shaft about an answer: stiffness and damping, the mass that whirls, and the
 !> modes of a rotor.
 module gfb_dynamics
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -18,6 +19,7 @@ module gfb_dynamics
   use gfb_newton, only: newton_type
   use gfb_dynamic_response, only: dynamic_response_type, vibration_type, create_response, find_coefficients, &
                                   destroy_response
+  use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type
   use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes
@@ -25,6 +27,9 @@ module gfb_dynamics
   implicit none (type, external)
   private
   public :: find_dynamics, find_growth_rate, opposite_builder
+
+  integer, parameter :: digits = 4       !! in tables of the log
+  integer, parameter :: translations = 2 !! of the shaft's coordinates, the first ones
 
   abstract interface
     !> Builds the bearing of motions against the mirror's, where shells are solved on half the width.
@@ -66,6 +71,9 @@ contains
     if (.not. scene%sweep%present .and. .not. allocated(record%problem)) then
       call show_coefficients(log, bearing%point%speed, point)
     end if
+    if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
+      call fill_amplitudes(scene, log, bearing, response, point, record%problem)
+    end if
     if (.not. allocated(record%problem) .and. bearing%point%speed > 0.0_wp) then
       call add_whirl(log, bearing, response, found)
       if (scene%rotor%present) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
@@ -96,6 +104,64 @@ contains
       return
     end do
   end subroutine fill_coefficients
+
+  !> Stiffness and damping at the amplitudes of the scene, each found from the one before.
+  subroutine fill_amplitudes(scene, log, bearing, response, point, problem)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(inout) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(dynamics_point_type), intent(inout) :: point
+    character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
+    type(vibration_state_type) :: vibration
+    real(wp) :: none
+    complex(wp) :: z(shaft_coordinates, shaft_coordinates)
+    integer :: i, k, along
+    logical :: found
+
+    none = ieee_value(none, ieee_quiet_nan)
+    point%amplitude = scene%dynamics%amplitudes
+    associate (amplitudes => size(point%amplitude), frequencies => size(point%frequency))
+      allocate (point%at_amplitude(shaft_coordinates, shaft_coordinates, amplitudes, frequencies), source=cmplx(none, none, wp))
+      allocate (point%friction_loss(translations, amplitudes, frequencies))
+    end associate
+    do i = 1, size(point%frequency)
+      call log%line('contacts that slide to and fro, at '//text(point%frequency(i), digits)//' rad/s:')
+      call log%line('amplitude [m]   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]   lost in contacts, x y [J a cycle]')
+      do along = 1, translations
+        call start_vibration(bearing, vibration)
+        do k = 1, size(point%amplitude)
+          call find_at_amplitude(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), along, point%amplitude(k), vibration, found)
+          if (.not. found) then
+            problem = 'the matrix of the vibration at '//text(point%frequency(i))//' rad/s cannot be factorized'
+            return
+          end if
+          if (.not. vibration%converged) then
+            call log%line('warning: amplitude '//text(point%amplitude(k), digits)//' m along '//'xy'(along:along)//': contacts have not converged in '//text(vibration%passes)//' passes')
+          end if
+          point%at_amplitude(:, along, k, i) = vibration%coefficient
+          point%friction_loss(along, k, i) = vibration%lost
+        end do
+      end do
+      do k = 1, size(point%amplitude)
+        z = point%at_amplitude(:, :, k, i)
+        call log%line(text(point%amplitude(k), digits)//numbers_of(real(z, wp))//numbers_of(aimag(z)/point%frequency(i))// &
+                      '   '//text(point%friction_loss(1, k, i), digits)//' '//text(point%friction_loss(2, k, i), digits))
+      end do
+    end do
+  end subroutine fill_amplitudes
+
+  !> The entries of x and y, row by row.
+  function numbers_of(matrix) result(line)
+    real(wp), intent(in) :: matrix(:, :)
+    character(len=:), allocatable :: line
+    integer :: row
+
+    line = '  '
+    do row = 1, translations
+      line = line//' '//text(matrix(row, 1), digits)//' '//text(matrix(row, 2), digits)
+    end do
+  end function numbers_of
 
   !> Growth of the rotor's least damped mode at an answer.
   subroutine find_growth_rate(scene, bearing, newton, build, growth, found)
@@ -197,26 +263,14 @@ contains
     type(run_log_type), intent(in) :: log
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
     type(dynamics_point_type), intent(in) :: point
-    integer, parameter :: digits = 4
     character(len=:), allocatable :: line
-    real(wp) :: k(shaft_coordinates, shaft_coordinates), c(shaft_coordinates, shaft_coordinates)
-    integer :: i, row
+    integer :: i
 
     call log%line('frequency [rad/s] (over speed)   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]')
     do i = 1, size(point%frequency)
-      k = stiffness_of(point, i)
-      c = damping_of(point, i)
       line = text(point%frequency(i), digits)
       if (speed > 0.0_wp) line = line//' ('//text(point%frequency(i)/speed, digits)//')'
-      line = line//'  '
-      do row = 1, 2
-        line = line//' '//text(k(row, 1), digits)//' '//text(k(row, 2), digits)
-      end do
-      line = line//'  '
-      do row = 1, 2
-        line = line//' '//text(c(row, 1), digits)//' '//text(c(row, 2), digits)
-      end do
-      call log%line(line)
+      call log%line(line//numbers_of(stiffness_of(point, i))//numbers_of(damping_of(point, i)))
     end do
   end subroutine show_coefficients
 

@@ -1,0 +1,153 @@
+#include "gfb_petsc.h"
+!> How a bearing answers vibrations of the shaft that are not small, as far as its contacts rub.
+!>
+!> Harmonic balance with one harmonic. About the answer film, foils and normal forces are linear as in
+!> `gfb_dynamic_response`; each contact has the complex stiffness of the amplitude with which it slides
+!> (`gfb_vibrating_friction`), and both are found in turns: the matrix with these stiffnesses is
+!> factorized, the motion scaled to the shaft's amplitude gives the amplitudes of the contacts.
+module gfb_amplitude_response
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_vibrating_contacts, only: vibrate_contacts
+  use gfb_film_rates, only: fill_friction
+  use gfb_direct_solver, only: make_factors
+  use gfb_complex_pairs, only: fill_pairs
+  use gfb_dynamic_response, only: dynamic_response_type, combine, coupled_columns, solve_part
+  implicit none (type)
+  private
+  public :: start_vibration, find_at_amplitude
+
+  integer, parameter :: most_passes = 50
+  integer, parameter :: passes_watched = 3 !! before the stiffnesses are led on beyond the last change
+  real(wp), parameter :: most_ratio = 0.9_wp   !! of a change to the one before [1]
+  real(wp), parameter :: tolerance = 1.0e-6_wp !! change of a contact's stiffness that is left [1]
+
+  !> A vibration of one of the shaft's coordinates.
+  type, public :: vibration_state_type
+    complex(wp), allocatable :: stiffness(:) !! along the surface, of this rank's contacts [N/m]
+    complex(wp), allocatable, private :: sticking(:) !! the same of no amplitude [N/m]
+    complex(wp) :: coefficient(shaft_coordinates) = 0.0_wp !! forces and torques over the motion [SI]
+    real(wp) :: lost = 0.0_wp    !! energy that contacts lose in a cycle [J]
+    integer :: passes = 0        !! of the last amplitude
+    logical :: converged = .false.
+  end type vibration_state_type
+
+contains
+
+  !> A vibration of no amplitude.
+  subroutine start_vibration(bearing, vibration)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    type(vibration_state_type), intent(out) :: vibration !! whose contacts stick
+    real(wp) :: still(bearing%pad(1)%foil%local_unknowns()), lost
+
+    still = 0.0_wp
+    associate (contacts => bearing%pad(1)%foil%contacts)
+      allocate (vibration%stiffness(size(contacts%point)))
+      call vibrate_contacts(contacts, still, still, 0.0_wp, vibration%stiffness, lost)
+    end associate
+    vibration%sticking = vibration%stiffness
+  end subroutine start_vibration
+
+  !> Forces of a vibration with a given amplitude, from the contacts of another one.
+  subroutine find_at_amplitude(bearing, response, rate, coordinate, amplitude, vibration, found)
+    type(bearing_system_type), intent(inout) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it, with contacts that stick
+    complex(wp), intent(in) :: rate       !! i omega [1/s]
+    integer, intent(in) :: coordinate     !! of the shaft that moves: 1 or 2
+    real(wp), intent(in) :: amplitude     !! of it [m]
+    type(vibration_state_type), intent(inout) :: vibration !! its contacts are a first guess
+    logical, intent(out) :: found !! else a matrix cannot be factorized
+    complex(wp), dimension(size(vibration%stiffness)) :: next, change, before
+    integer :: pass
+
+    vibration%converged = .false.
+    before = 0.0_wp
+    do pass = 1, most_passes
+      vibration%passes = pass
+      call solve_motion(bearing, response, rate, coordinate, vibration, found)
+      if (.not. found) return
+      call answer_contacts(bearing, response, amplitude, next, vibration%lost)
+      change = (next - vibration%stiffness)/max(abs(vibration%stiffness), tiny(1.0_wp))
+      vibration%converged = maxval(largest_over_ranks([0.0_wp, maxval(abs(change))])) <= tolerance
+      if (vibration%converged) return
+      vibration%stiffness = next
+      if (modulo(pass, passes_watched) == 0) call lead_on(change, before, vibration%stiffness)
+      before = change
+    end do
+  end subroutine find_at_amplitude
+
+  !> Where changes keep on in the same direction the stiffnesses go where they lead to: contacts that
+  !> begin to slide unload each other slowly, to the same side in each pass.
+  subroutine lead_on(change, before, stiffness)
+    complex(wp), intent(in) :: change(:), before(:) !! of the last two passes, relative
+    complex(wp), intent(inout) :: stiffness(:) !! [N/m]
+    complex(wp) :: ahead(size(stiffness))
+    real(wp) :: product(2), ratio
+
+    product = sum_over_ranks([real(dot_product(before, change), wp), real(dot_product(before, before), wp)])
+    ratio = min(most_ratio, max(0.0_wp, product(1)/max(product(2), tiny(1.0_wp))))
+    ahead = stiffness + ratio/(1.0_wp - ratio)*change*abs(stiffness)
+    where (real(ahead, wp) > 0.0_wp .and. aimag(ahead) >= 0.0_wp) stiffness = ahead
+  end subroutine lead_on
+
+  !> The motion of film and foil with the contacts as they are.
+  subroutine solve_motion(bearing, response, rate, coordinate, vibration, found)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    complex(wp), intent(in) :: rate   !! [1/s]
+    integer, intent(in) :: coordinate
+    type(vibration_state_type), intent(inout) :: vibration
+    logical, intent(out) :: found
+    complex(wp) :: z(shaft_coordinates, shaft_coordinates)
+
+    call combine(response, rate)
+    associate (stiffness => vibration%stiffness - vibration%sticking)
+      call add_friction(bearing, real(stiffness, wp), response%real_part, response%steady)
+      call add_friction(bearing, aimag(stiffness), response%imaginary_part, response%steady)
+    end associate
+    z = 0.0_wp
+    associate (part => response%part(1))
+      call fill_pairs(response%real_part, response%imaginary_part, part%kept, coupled_columns(bearing), part%matrix)
+      response%factorizations = response%factorizations + 1
+      call make_factors(part%linear, part%matrix, found, response%enlargements)
+      if (found) call solve_part(bearing, response, rate, coordinate, part, z, found)
+    end associate
+    vibration%coefficient = z(:, coordinate)
+  end subroutine solve_motion
+
+  !> Adds a stiffness of the contacts along their surface.
+  subroutine add_friction(bearing, stiffness, matrix, pattern)
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp), intent(in) :: stiffness(:) !! [N/m]
+    Mat, intent(in) :: matrix, pattern
+    Mat :: friction
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDuplicate(pattern, MAT_DO_NOT_COPY_VALUES, friction, ierr))
+    call fill_friction(bearing, stiffness, friction)
+    PetscCallA(MatAXPY(matrix, 1.0_wp, friction, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatDestroy(friction, ierr))
+  end subroutine add_friction
+
+  !> What the contacts answer to the motion that was solved last.
+  subroutine answer_contacts(bearing, response, amplitude, stiffness, lost)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(in) :: response
+    real(wp), intent(in) :: amplitude !! [m]
+    complex(wp), intent(out) :: stiffness(:) !! [N/m]
+    real(wp), intent(out) :: lost !! [J]
+    real(wp), dimension(bearing%local_size()) :: in_phase, behind
+    real(wp) :: total(1)
+
+    call bearing%get_unknowns(in_phase, response%one)
+    call bearing%get_unknowns(behind, response%other)
+    associate (foil => bearing%pad(1)%foil)
+      call vibrate_contacts(foil%contacts, foil%own_part(in_phase), foil%own_part(behind), amplitude, stiffness, lost)
+    end associate
+    total = sum_over_ranks([lost])
+    lost = total(1)*merge(2.0_wp, 1.0_wp, bearing%pad(1)%whole%half)
+  end subroutine answer_contacts
+end module gfb_amplitude_response
