@@ -115,41 +115,54 @@ contains
     character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
     type(vibration_state_type) :: vibration
     real(wp) :: none
-    complex(wp) :: z(shaft_coordinates, shaft_coordinates)
     integer :: i, k, along
     logical :: found
 
     none = ieee_value(none, ieee_quiet_nan)
     point%amplitude = scene%dynamics%amplitudes
     associate (amplitudes => size(point%amplitude), frequencies => size(point%frequency))
-      allocate (point%at_amplitude(shaft_coordinates, shaft_coordinates, amplitudes, frequencies), source=cmplx(none, none, wp))
+      allocate (point%at_amplitude(shaft_coordinates, shaft_coordinates, amplitudes, frequencies), &
+                source=cmplx(none, none, wp))
       allocate (point%friction_loss(translations, amplitudes, frequencies))
     end associate
     do i = 1, size(point%frequency)
-      call log%line('contacts that slide to and fro, at '//text(point%frequency(i), digits)//' rad/s:')
-      call log%line('amplitude [m]   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]   lost in contacts, x y [J a cycle]')
       do along = 1, translations
         call start_vibration(bearing, vibration)
         do k = 1, size(point%amplitude)
-          call find_at_amplitude(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), along, point%amplitude(k), vibration, found)
+          call find_at_amplitude(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), along, point%amplitude(k), &
+                                 vibration, found)
           if (.not. found) then
             problem = 'the matrix of the vibration at '//text(point%frequency(i))//' rad/s cannot be factorized'
             return
           end if
           if (.not. vibration%converged) then
-            call log%line('warning: amplitude '//text(point%amplitude(k), digits)//' m along '//'xy'(along:along)//': contacts have not converged in '//text(vibration%passes)//' passes')
+            call log%line('warning: amplitude '//text(point%amplitude(k), digits)//' m along '//'xy'(along:along)// &
+                          ': contacts have not converged in '//text(vibration%passes)//' passes')
           end if
           point%at_amplitude(:, along, k, i) = vibration%coefficient
           point%friction_loss(along, k, i) = vibration%lost
         end do
       end do
-      do k = 1, size(point%amplitude)
-        z = point%at_amplitude(:, :, k, i)
-        call log%line(text(point%amplitude(k), digits)//numbers_of(real(z, wp))//numbers_of(aimag(z)/point%frequency(i))// &
-                      '   '//text(point%friction_loss(1, k, i), digits)//' '//text(point%friction_loss(2, k, i), digits))
-      end do
+      call show_amplitudes(log, point, i)
     end do
   end subroutine fill_amplitudes
+
+  !> A line an amplitude.
+  subroutine show_amplitudes(log, point, i)
+    type(run_log_type), intent(in) :: log
+    type(dynamics_point_type), intent(in) :: point
+    integer, intent(in) :: i !! number of the frequency
+    integer :: k
+
+    call log%line('contacts that slide to and fro, at '//text(point%frequency(i), digits)//' rad/s:')
+    call log%line('amplitude [m]   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]   lost in contacts, x y [J a cycle]')
+    do k = 1, size(point%amplitude)
+      associate (z => point%at_amplitude(:, :, k, i), lost => point%friction_loss(:, k, i))
+        call log%line(text(point%amplitude(k), digits)//numbers_of(real(z, wp))//numbers_of(aimag(z)/point%frequency(i))// &
+                      '   '//text(lost(1), digits)//' '//text(lost(2), digits))
+      end associate
+    end do
+  end subroutine show_amplitudes
 
   !> The entries of x and y, row by row.
   function numbers_of(matrix) result(line)
