@@ -4,7 +4,6 @@ cannot use."""
 
 import os
 import pathlib
-import signal
 import subprocess
 import sys
 import tempfile
@@ -93,27 +92,6 @@ def check_ranks(checks, folder):
     checks.that("it says that ranks have nothing to do", "warning: " in log and "have nothing to do" in log)
 
 
-def check_killed_rank(checks, folder):
-    """A rank that is killed does not hang the others."""
-    sweep = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(1500))}}
-    (folder/"sweep.nml").write_text(case_text(sweep), encoding="utf-8")
-    with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "--quiet", "sweep.nml"], cwd=folder, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8",
-                          env={**ENVIRONMENT, **os.environ}) as process:
-        for line in process.stdout:
-            if line.startswith("point 2 of"):
-                break
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()
-        os.kill(int(children[-1]), signal.SIGKILL)
-        try:
-            process.communicate(timeout=30)
-            status = process.returncode
-        except subprocess.TimeoutExpired:
-            process.kill()
-            status = 0
-    checks.that(f"a killed rank ends the job: status {status}", status != 0)
-
-
 def check_memory(checks, folder):
     """What a run refuses for want of memory, --check refuses too."""
     large = CASE | {"mesh": {"circumferential_elements": 10000, "axial_elements": 4800}}
@@ -129,7 +107,7 @@ def check_memory(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_names, check_folders, check_odd_files, check_ranks, check_killed_rank, check_memory):
+        for check in (check_names, check_folders, check_odd_files, check_ranks, check_memory):
             check(checks, pathlib.Path(name))
     checks.close()
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""MPI that cannot start ends in a sentence and status 3; a rank that does not answer any more does not outlive its job."""
+"""MPI that cannot start ends in a sentence and status 3; a rank that is killed or stopped does not hold its job."""
 
 import os
 import pathlib
@@ -61,8 +61,8 @@ def check_folder(checks, folder):
     checks.that("nothing is left of a session", not list(place.glob("gfb-*")))
 
 
-def check_stopped_rank(checks, folder):
-    """MPI sees no rank that is stopped: the job waits for it, and a signal to the job ends it all the same."""
+def disturbed(folder, disturb):
+    """Status of a long job of two ranks, and its ranks: it is disturbed at its second point, by its process and its last rank."""
     (folder/"long.nml").write_text(case_text(SWEEP), encoding="utf-8")
     with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "--quiet", "long.nml"], cwd=folder, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8",
@@ -71,14 +71,28 @@ def check_stopped_rank(checks, folder):
             if line.startswith("point 2 of"):
                 break
         ranks = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()[-2:]
-        os.kill(int(ranks[-1]), signal.SIGSTOP)
-        process.send_signal(signal.SIGTERM)
+        disturb(process, int(ranks[-1]))
         try:
             process.communicate(timeout=SECONDS)
-            status = process.returncode
+            return process.returncode, ranks
         except subprocess.TimeoutExpired:
             process.kill()
-            status = 0
+            return 0, ranks
+
+
+def check_killed_rank(checks, folder):
+    """A rank that is killed does not hang the others."""
+    status, _ = disturbed(folder, lambda _, rank: os.kill(rank, signal.SIGKILL))
+    checks.that(f"a killed rank ends the job: status {status}", status != 0)
+
+
+def check_stopped_rank(checks, folder):
+    """MPI sees no rank that is stopped: the job waits for it, and a signal to the job ends it all the same."""
+    def stop(process, rank):
+        os.kill(rank, signal.SIGSTOP)
+        process.send_signal(signal.SIGTERM)
+
+    status, ranks = disturbed(folder, stop)
     checks.that(f"a stopped rank, SIGTERM: status {status}", status != 0)
     checks.that("no rank is left", not any(pathlib.Path(f"/proc/{rank}/exe").exists() for rank in ranks))
 
@@ -86,7 +100,7 @@ def check_stopped_rank(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_start, check_folder, check_stopped_rank):
+        for check in (check_start, check_folder, check_killed_rank, check_stopped_rank):
             check(checks, pathlib.Path(name))
     checks.close()
 

@@ -10,6 +10,7 @@
 module gfb_whirl
   use gfb_kinds, only: wp
   use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_root_bracket, only: root_bracket_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
   implicit none (type, external)
@@ -101,32 +102,24 @@ contains
     real(wp), intent(in) :: ratio(2)     !! of both ends, over the speed [1]
     complex(wp), intent(in) :: branch(2) !! eigenvalue there [N/m]
     type(whirl_type), intent(inout) :: whirl
-    real(wp) :: low, high, at_low, at_high, trial, mass
+    type(root_bracket_type) :: bracket
+    real(wp) :: trial, mass
     complex(wp) :: kappa(2), here
     integer :: i
 
-    low = ratio(1)
-    high = ratio(2)
-    at_low = aimag(branch(1))
-    at_high = aimag(branch(2))
-    trial = low
+    bracket = root_bracket_type(ratio(1), ratio(2), aimag(branch(1)), aimag(branch(2)))
+    trial = ratio(1)
     here = branch(1)
     do i = 1, most_trials
-      if (abs(at_low - at_high) <= 0.0_wp .or. abs(high - low) <= tolerance) exit
-      trial = (low*at_high - high*at_low)/(at_high - at_low)
+      if (abs(bracket%at_low - bracket%at_high) <= 0.0_wp .or. &
+          abs(bracket%high - bracket%low) <= tolerance) exit
+      trial = bracket%trial()
       call eigenvalues_at(bearing, response, trial, kappa, whirl%searched)
       if (.not. whirl%searched) return
       here = near(kappa, branch(1) + (branch(2) - branch(1))* &
                      (trial - ratio(1))/(ratio(2) - ratio(1)))
       if (abs(aimag(here)) <= tolerance*maxval(abs(branch))) exit
-      if (aimag(here)*at_high < 0.0_wp) then
-        low = high
-        at_low = at_high
-      else
-        at_low = 0.5_wp*at_low
-      end if
-      high = trial
-      at_high = aimag(here)
+      call bracket%narrow(trial, aimag(here))
     end do
     mass = max(0.0_wp, real(here, wp)/(trial*bearing%point%speed)**2)
     if (whirl%found .and. mass >= whirl%critical_mass) return

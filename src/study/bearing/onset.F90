@@ -6,6 +6,7 @@ module gfb_onset
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_speed
+  use gfb_root_bracket, only: root_bracket_type
   use gfb_operation_case, only: angular_speed
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
@@ -93,32 +94,24 @@ contains
     logical, intent(out) :: found
     type(operating_point_type) :: target
     type(path_report_type) :: report
-    real(wp) :: low, high, at_low, at_high, trial, here
+    type(root_bracket_type) :: bracket
+    real(wp) :: trial, here
     integer :: i
 
-    low = speed(1)
-    high = speed(2)
-    at_low = growth(1)
-    at_high = growth(2)
-    trial = high
+    bracket = root_bracket_type(speed(1), speed(2), growth(1), growth(2))
+    trial = speed(2)
     do i = 1, most_trials
-      if (abs(at_high) <= 0.0_wp .or. abs(high - low) <= tolerance*abs(high)) exit
-      trial = (low*at_high - high*at_low)/(at_high - at_low)
+      if (abs(bracket%at_high) <= 0.0_wp .or. &
+          abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)) exit
+      trial = bracket%trial()
       target = bearing%point
       target%speed = angular_speed(trial)
       call follow_path(bearing, newton, target, 1.0_wp, path, report)
       found = report%converged
       if (found) call find_growth_rate(scene, bearing, newton, build, here, found)
       if (.not. found) return
-      if (abs(trial - high) <= tolerance*abs(high)) exit
-      if (here*at_high < 0.0_wp) then
-        low = high
-        at_low = at_high
-      else
-        at_low = 0.5_wp*at_low
-      end if
-      high = trial
-      at_high = here
+      if (abs(trial - bracket%high) <= tolerance*abs(bracket%high)) exit
+      call bracket%narrow(trial, here)
     end do
     found = .true.
     onset = trial
