@@ -77,7 +77,7 @@ def check_words(checks):
                          "force_y": one.groups["operation"]["load"][1]}}
             for one, (outcome, cpu, shown) in zip(some, ((trial.ANSWER, 2.0, ""), (trial.ANSWER, 1.0, ""),
                                                          ("touch-down", 6.0, trial.BY_GAP),
-                                                         ("touch-down", 4.0, trial.BY_SWEEP), (trial.BOUND, 9.0, "")))]
+                                                         ("touch-down", 4.0, trial.BY_SWEEP["load"]), (trial.BOUND, 9.0, "")))]
     with tempfile.TemporaryDirectory() as folder:
         table = page.write(some, rows, argparse.Namespace(set="random", seconds=9.0), pathlib.Path(folder))
         text = (pathlib.Path(folder)/"population.md").read_text(encoding="utf-8")

@@ -3,8 +3,8 @@
 import statistics
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (AGAINST, ANSWER, BOUND, BY_GAP, BY_SWEEP, CHEAP, FALLING, OUTCOMES, REFUSALS,
-                                        RISING, SECOND_WAYS, THIN, imbalance)
+from gfb.bench.population.trial import (AGAINST, ANSWER, BOUND, BY_GAP, FALLING, OUTCOMES, REFUSALS, RISING,
+                                        SECOND_WAYS, SLOWER, THIN, imbalance)
 from gfb.tables import markdown_table, plain_table
 
 WORST = 10
@@ -51,11 +51,11 @@ def notes(title):
     """What a table's words mean."""
     if title != SHOWN:
         return ""
-    rising, falling = (", ".join(f"{share:g}" for share in shares) for shares in (RISING, FALLING))
-    return (f"*{BY_GAP}*: the smallest gap of the last state is at most {THIN:g} touch_down_gap. *{BY_SWEEP}*: else a sweep of the load, "
-            f"from a\ncold start at {rising} of it, ends for the same reason before the whole load; where the film draws the edge "
-            f"to the shaft, at\n{falling}, and the branch ends in a fold or there. *contradicted*: the sweep gets to the load. "
-            "*not shown*: neither.\n\n")
+    rising, falling, slower = (", ".join(f"{share:g}" for share in shares) for shares in (RISING, FALLING, SLOWER))
+    return (f"*{BY_GAP}*: the smallest gap of the last state is at most {THIN:g} touch_down_gap. *by a load sweep*: else a sweep of "
+            f"the load, from a\ncold start at {rising} of it, ends for the same reason before the whole load; where the film draws "
+            f"the edge to the shaft, also at\n{falling}, and it ends in a fold or there. *by a speed sweep*: else one of the speed, "
+            f"at {rising}\nor {slower} of it. *contradicted*: a sweep gets to the member itself. *not shown*: none of these.\n\n")
 
 
 OUTCOME, RATIO, SHOWN, DEAR = "Outcomes", "Refusals against answers", "Second ways", f"The {WORST} most expensive"

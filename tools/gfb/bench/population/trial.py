@@ -20,11 +20,16 @@ NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says whe
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
 BY_SIGNAL = 128            # plus the signal's number: the status of a run that a signal has stopped
 THIN = 2.0                 # a film this many times touch_down_gap has touched down
-RISING = (0.1, 0.25, 0.5, 0.75, 1.0)    # of the load, in the sweep that must stop
-FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)    # where light loads are what the film draws the edge at
-BY_GAP, BY_SWEEP, AGAINST, OPEN = "by its last film", "by a load sweep", "contradicted", "not shown"
-CHEAP = 3.0  # times the CPU time of the run that is to be shown
-SECOND_WAYS = (BY_GAP, BY_SWEEP, AGAINST, OPEN)
+RISING = (0.1, 0.25, 0.5, 0.75, 1.0)  # of the load or the speed, in the sweeps that must stop
+FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)
+SLOWER = (2.0, 1.6, 1.3, 1.15, 1.0)   # of the speed, where the film gives way as it falls
+BY_GAP, AGAINST, OPEN = "by its last film", "contradicted", "not shown"
+BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep"}
+SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER)), "emptied": (("load", RISING), ("speed_rpm", SLOWER)),
+          "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER)),
+          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING)))}
+CHEAP = 3.0  # times the CPU time of the run that is to be shown, a sweep
+SECOND_WAYS = (BY_GAP, *BY_SWEEP.values(), AGAINST, OPEN)
 
 
 def run_bounded(gfb, path, folder, seconds):
@@ -97,15 +102,28 @@ def second_way(gfb, member, row):
     gap = row["summary"].get("minimum_gap", math.inf)
     if row["outcome"] == "touch-down" and gap <= THIN*TOUCH_DOWN_SHARE*clearance:
         return BY_GAP, 0.0
-    shares, ends = (FALLING, ("fold", *SUCTION)) if row["outcome"] in SUCTION else (RISING, (row["outcome"],))
-    operation = member.groups["operation"]
-    first = {**operation, "load": tuple(shares[0]*part for part in operation["load"])}
-    sweep = {"parameter": "load", "values": tuple(share*member.load for share in shares)}
-    again = try_case(gfb, {**member.groups, "operation": first, "sweep": sweep}, CHEAP*max(row["cpu"], 1.0))
-    if again["outcome"] == ANSWER:
-        return AGAINST, again["cpu"]
-    begun = again.get("points", 0) > 0
-    return (BY_SWEEP if begun and again["outcome"] in ends else OPEN), again["cpu"]
+    ends = ("fold", *SUCTION) if row["outcome"] in SUCTION else (row["outcome"],)
+    spent = 0.0
+    for parameter, shares in SWEEPS[row["outcome"]]:
+        again = try_case(gfb, swept(member, parameter, shares), CHEAP*max(row["cpu"], 1.0))
+        spent += again["cpu"]
+        if again["outcome"] == ANSWER:
+            return AGAINST, spent
+        if again.get("points", 0) > 0 and again["outcome"] in ends:
+            return BY_SWEEP[parameter], spent
+    return OPEN, spent
+
+
+def swept(member, parameter, shares):
+    """A member's groups with a sweep of its load or its speed up or down to what it has."""
+    operation = dict(member.groups["operation"])
+    whole = member.load if parameter == "load" else operation["speed_rpm"]
+    if parameter == "load":
+        operation["load"] = tuple(shares[0]*part for part in operation["load"])
+    else:
+        operation["speed_rpm"] = shares[0]*whole
+    sweep = {"parameter": parameter, "values": tuple(share*whole for share in shares)}
+    return {**member.groups, "operation": operation, "sweep": sweep}
 
 
 def imbalance(member, row):
