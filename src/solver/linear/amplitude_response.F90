@@ -15,7 +15,8 @@ module gfb_amplitude_response
   use gfb_film_rates, only: fill_friction
   use gfb_direct_solver, only: make_factors
   use gfb_complex_pairs, only: fill_pairs
-  use gfb_dynamic_response, only: dynamic_response_type, combine, coupled_columns, solve_part
+  use gfb_dynamic_response, only: dynamic_response_type, coupled_columns, solve_part
+  use gfb_vibration_equations, only: combine
   implicit none (type)
   private
   public :: start_vibration, find_at_amplitude
@@ -103,14 +104,14 @@ contains
     logical, intent(out) :: found
     complex(wp) :: z(shaft_coordinates, shaft_coordinates)
 
-    call combine(response, rate)
+    call combine(response%equations, rate)
     associate (stiffness => vibration%stiffness - vibration%sticking)
-      call add_friction(bearing, real(stiffness, wp), response%real_part, response%steady)
-      call add_friction(bearing, aimag(stiffness), response%imaginary_part, response%steady)
+      call add_friction(bearing, real(stiffness, wp), response%equations%real_part, response%equations%steady)
+      call add_friction(bearing, aimag(stiffness), response%equations%imaginary_part, response%equations%steady)
     end associate
     z = 0.0_wp
     associate (part => response%part(1))
-      call fill_pairs(response%real_part, response%imaginary_part, part%kept, coupled_columns(bearing), part%matrix)
+      call fill_pairs(response%equations%real_part, response%equations%imaginary_part, part%kept, coupled_columns(bearing), part%matrix)
       response%factorizations = response%factorizations + 1
       call make_factors(part%linear, part%matrix, found, response%enlargements)
       if (found) call solve_part(bearing, response, rate, coordinate, part, z, found)

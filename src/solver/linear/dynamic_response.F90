@@ -8,7 +8,7 @@
 !>
 !> and the force of the film by the pressures in \( x' \): \( Z_{jk} = K_{jk} + i \omega C_{jk} =
 !> -\int p'_k B_j \, dA \) with \( B_j = \partial h/\partial q_j \). A positive diagonal restores, and
-!> damps. Springs under the film may dissipate: \( k (1 + i \eta \, sgn \, \omega) + i \omega c \).
+!> damps.
 !>
 !> Real and imaginary part of an unknown stand side by side in one real matrix, of twice the order, whose
 !> pattern is analysed once. On half the width translations have the symmetry of the steady state, tilts
@@ -24,21 +24,15 @@ module gfb_dynamic_response
   use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+  use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
   use gfb_direct_solver, only: use_factors, make_factors
   use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs, keep_entries
   implicit none (type)
   private
-  public :: create_response, find_coefficients, combine, coupled_columns, solve_part, forces_of, dissipates, destroy_response
+  public :: create_response, find_coefficients, coupled_columns, solve_part, forces_of, destroy_response
 
   character(len=*), parameter :: prefix = 'dynamic_' !! of PETSc's options
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
-
-  !> What a foil does under vibration.
-  type, public :: vibration_type
-    logical :: stick = .true.           !! contacts that rub stick; else they slide on as they did
-    real(wp) :: loss_factor = 0.0_wp    !! eta of the foil's stiffness [1]
-    real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs over their stiffness [s]
-  end type vibration_type
 
   !> The equations of motions with one symmetry about z = 0, or of all.
   type, public :: part_type
@@ -53,12 +47,8 @@ module gfb_dynamic_response
   type, public :: dynamic_response_type
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
-    type(vibration_type) :: vibration
-    logical :: local_springs = .false. !! a node's pressure moves the foil there
+    type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
-    type(tMat) :: steady, squeeze !! derivatives by the unknowns
-    type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
-    type(tMat) :: real_part, imaginary_part !! of the matrix that was combined last
     type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
     type(tVec) :: one, other !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
@@ -76,31 +66,25 @@ contains
     !> the bearing of tilts, where shells are solved on half the width; it moves into the response
     type(bearing_system_type), allocatable, optional, intent(inout) :: opposite
 
-    response%vibration = vibration
     if (present(opposite)) call move_alloc(opposite, response%opposite_bearing)
-    call linearise_steady(bearing, vibration%stick, response%steady, response%opposite_bearing)
+    call linearise_steady(bearing, vibration%stick, response%equations%steady, response%opposite_bearing)
     if (allocated(response%opposite_bearing)) then
       allocate (response%opposite)
-      response%opposite%vibration = vibration
-      call linearise_exactly(response%opposite_bearing, response%opposite%steady)
-      call complete_response(response%opposite_bearing, response%opposite)
+      call linearise_exactly(response%opposite_bearing, response%opposite%equations%steady)
+      call complete_response(response%opposite_bearing, vibration, response%opposite)
     end if
-    call complete_response(bearing, response)
+    call complete_response(bearing, vibration, response)
   end subroutine create_response
 
   !> What else there is beside the steady equations.
-  subroutine complete_response(bearing, response)
+  subroutine complete_response(bearing, vibration, response)
     type(bearing_system_type), intent(inout) :: bearing
+    type(vibration_type), intent(in) :: vibration
     type(dynamic_response_type), intent(inout) :: response !! with its steady equations
     integer :: k
     PetscErrorCode :: ierr
 
-    response%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
-    call copy_pattern(response%steady, response%squeeze)
-    call fill_squeeze(bearing, response%squeeze)
-    if (dissipates(response)) call linearise_springs(bearing, response)
-    call copy_pattern(response%steady, response%real_part)
-    call copy_pattern(response%steady, response%imaginary_part)
+    call complete_equations(bearing, vibration, response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
     do k = 1, shaft_coordinates
@@ -113,6 +97,22 @@ contains
     call create_parts(bearing, response)
   end subroutine complete_response
 
+  !> The other derivatives.
+  subroutine complete_equations(bearing, vibration, equations)
+    type(bearing_system_type), intent(in) :: bearing
+    type(vibration_type), intent(in) :: vibration
+    type(vibration_equations_type), intent(inout) :: equations !! with the steady ones
+    integer :: k
+
+    equations%vibration = vibration
+    equations%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
+    call copy_pattern(equations%steady, equations%squeeze)
+    call fill_squeeze(bearing, equations%squeeze)
+    if (dissipates(equations)) call linearise_springs(bearing, equations)
+    call copy_pattern(equations%steady, equations%real_part)
+    call copy_pattern(equations%steady, equations%imaginary_part)
+  end subroutine complete_equations
+
   !> An empty matrix like another.
   subroutine copy_pattern(matrix, other)
     Mat, intent(in) :: matrix
@@ -122,26 +122,19 @@ contains
     PetscCallA(MatDuplicate(matrix, MAT_DO_NOT_COPY_VALUES, other, ierr))
   end subroutine copy_pattern
 
-  !> Whether the foil's stiffness is complex.
-  pure function dissipates(response)
-    type(dynamic_response_type), intent(in) :: response !! that was created
-    logical :: dissipates
-    dissipates = response%vibration%loss_factor > 0.0_wp .or. response%vibration%damping_time > 0.0_wp
-  end function dissipates
-
   !> What losses act on: the deflection that pressures give, or the springs' stiffness.
-  subroutine linearise_springs(bearing, response)
+  subroutine linearise_springs(bearing, equations)
     type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
+    type(vibration_equations_type), intent(inout) :: equations
 
-    if (response%local_springs) then
-      call copy_pattern(response%steady, response%flow_by_gap)
-      call copy_pattern(response%steady, response%squeeze_by_gap)
-      call fill_flow_by_gap(bearing, response%flow_by_gap)
-      call fill_squeeze_by_gap(bearing, response%squeeze_by_gap)
+    if (equations%local_springs) then
+      call copy_pattern(equations%steady, equations%flow_by_gap)
+      call copy_pattern(equations%steady, equations%squeeze_by_gap)
+      call fill_flow_by_gap(bearing, equations%flow_by_gap)
+      call fill_squeeze_by_gap(bearing, equations%squeeze_by_gap)
     else
-      call copy_pattern(response%steady, response%springs)
-      call fill_springs(bearing, response%springs)
+      call copy_pattern(equations%steady, equations%springs)
+      call fill_springs(bearing, equations%springs)
     end if
   end subroutine linearise_springs
 
@@ -161,23 +154,23 @@ contains
         part(1)%coordinate = tilts
         part(1)%weight = -film%half_torque_weight
         where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
-        call create_part(bearing, response%steady, has, part(1))
+        call create_part(bearing, response%equations%steady, has, part(1))
       else if (.not. bearing%pad(1)%whole%half) then
         part(1)%coordinate = [translations, tilts]
         part(1)%weight = film%force_weight
         part(1)%weight(tilts, :) = -part(1)%weight(tilts, :) ! torques act on the shaft
-        call create_part(bearing, response%steady, has, part(1))
+        call create_part(bearing, response%equations%steady, has, part(1))
       else
         part(1)%coordinate = translations
         part(1)%weight = film%force_weight(translations, :)
-        call create_part(bearing, response%steady, has, part(1))
+        call create_part(bearing, response%equations%steady, has, part(1))
       end if
       if (size(part) == 2) then
         part(2)%coordinate = tilts
         part(2)%weight = -film%half_torque_weight
         where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
         has(bearing%pad(1)%foil%first + 1:) = 0.0_wp
-        call create_part(bearing, response%steady, has, part(2))
+        call create_part(bearing, response%equations%steady, has, part(2))
       end if
       do i = 1, size(part)
         call keep_columns(part(i), response)
@@ -247,11 +240,11 @@ contains
     found = .false.
     wanted = shaft_coordinates
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
-    call combine(response, rate)
+    call combine(response%equations, rate)
     do i = 1, size(response%part)
       if (response%part(i)%coordinate(1) > wanted) cycle
-      call fill_pairs(response%real_part, response%imaginary_part, response%part(i)%kept, coupled_columns(bearing), &
-                      response%part(i)%matrix)
+      call fill_pairs(response%equations%real_part, response%equations%imaginary_part, response%part(i)%kept, &
+                      coupled_columns(bearing), response%part(i)%matrix)
       response%factorizations = response%factorizations + 1
       call make_factors(response%part(i)%linear, response%part(i)%matrix, found, response%enlargements)
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
@@ -267,39 +260,6 @@ contains
       opposite%enlargements = 0
     end associate
   end subroutine find_coefficients
-
-  !> Real and imaginary part of the matrix.
-  subroutine combine(response, rate)
-    type(dynamic_response_type), intent(in) :: response !! that was created
-    complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp) :: loss, softening
-    PetscErrorCode :: ierr
-
-    PetscCallA(MatCopy(response%steady, response%real_part, SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatZeroEntries(response%imaginary_part, ierr))
-    call add_multiple(rate, response%squeeze)
-    if (.not. dissipates(response)) return
-    associate (vibration => response%vibration)
-      loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
-    end associate
-    if (response%local_springs) then
-      softening = 1.0_wp/(1.0_wp + loss) - 1.0_wp
-      call add_multiple(softening, response%flow_by_gap)
-      call add_multiple(rate*softening, response%squeeze_by_gap)
-    else
-      call add_multiple(loss, response%springs)
-    end if
-
-  contains
-
-    subroutine add_multiple(factor, matrix)
-      complex(wp), intent(in) :: factor
-      Mat, intent(in) :: matrix
-
-      PetscCallA(MatAXPY(response%real_part, real(factor, wp), matrix, SAME_NONZERO_PATTERN, ierr))
-      PetscCallA(MatAXPY(response%imaginary_part, aimag(factor), matrix, SAME_NONZERO_PATTERN, ierr))
-    end subroutine add_multiple
-  end subroutine combine
 
   !> Forces of a part's motions, with the factors there are.
   subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found)
@@ -385,16 +345,6 @@ contains
     end do
     PetscCallA(VecDestroy(response%one, ierr))
     PetscCallA(VecDestroy(response%other, ierr))
-    PetscCallA(MatDestroy(response%steady, ierr))
-    PetscCallA(MatDestroy(response%squeeze, ierr))
-    PetscCallA(MatDestroy(response%real_part, ierr))
-    PetscCallA(MatDestroy(response%imaginary_part, ierr))
-    if (.not. dissipates(response)) return
-    if (response%local_springs) then
-      PetscCallA(MatDestroy(response%flow_by_gap, ierr))
-      PetscCallA(MatDestroy(response%squeeze_by_gap, ierr))
-    else
-      PetscCallA(MatDestroy(response%springs, ierr))
-    end if
+    call destroy_equations(response%equations)
   end subroutine destroy_response
 end module gfb_dynamic_response

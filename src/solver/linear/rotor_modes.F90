@@ -57,15 +57,15 @@ contains
     integer :: i
 
     allocate (answer%mode(0))
-    answer%defined = .not. response%vibration%loss_factor > 0.0_wp
+    answer%defined = .not. response%equations%vibration%loss_factor > 0.0_wp
     if (.not. answer%defined) return
-    dampers = response%vibration%damping_time
-    if (.not. has_pencil(response)) response%vibration%damping_time = 0.0_wp
+    dampers = response%equations%vibration%damping_time
+    if (.not. has_pencil(response%equations)) response%equations%vibration%damping_time = 0.0_wp
     call collect_modes(bearing, response, rotor, answer)
-    if (answer%found .and. response%vibration%damping_time < dampers) then
+    if (answer%found .and. response%equations%vibration%damping_time < dampers) then
       call let_dampers_grow(bearing, response, rotor, dampers, answer)
     end if
-    response%vibration%damping_time = dampers
+    response%equations%vibration%damping_time = dampers
     if (.not. answer%found) return
     call sort_modes(answer%mode)
     answer%foil_grows = any(.not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > 0.0_wp)
@@ -118,7 +118,7 @@ contains
     call sort_modes(answer%mode)
     allocate (kept(size(answer%mode)), source=.true.)
     do step = 1, damper_steps
-      response%vibration%damping_time = dampers*real(step, wp)/real(damper_steps, wp)
+      response%equations%vibration%damping_time = dampers*real(step, wp)/real(damper_steps, wp)
       do i = 1, size(answer%mode)
         if (kept(i)) call solve_mode(bearing, response, rotor, answer%mode(i)%kind, answer%mode(i)%rate, kept(i))
       end do

@@ -22,7 +22,8 @@ module gfb_rotor_pencil
   use gfb_petsc_session, only: sum_over_ranks, this_rank
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of, dissipates
+  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
+  use gfb_vibration_equations, only: vibration_equations_type, dissipates
   use gfb_complex_pairs, only: keep_entries
   use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, cylindrical
   implicit none (type)
@@ -68,11 +69,11 @@ contains
 
   !> Whether the equations are linear in lambda: not with a loss factor, nor with dampers beside springs
   !> that have no unknowns of their own.
-  pure function has_pencil(response)
-    type(dynamic_response_type), intent(in) :: response !! of a bearing
+  pure function has_pencil(equations)
+    type(vibration_equations_type), intent(in) :: equations !! of a bearing
     logical :: has_pencil
-    has_pencil = .not. dissipates(response) .or. &
-                 (.not. response%local_springs .and. .not. response%vibration%loss_factor > 0.0_wp)
+    has_pencil = .not. dissipates(equations) .or. &
+                 (.not. equations%local_springs .and. .not. equations%vibration%loss_factor > 0.0_wp)
   end function has_pencil
 
   !> Modes next to a real shift, nearest first, one of each complex pair.
@@ -138,9 +139,9 @@ contains
     share%part = number
     PetscCallA(VecGetLocalSize(bearing%state, entries, ierr))
     share%entries = int(entries)
-    PetscCallA(MatDuplicate(response%squeeze, MAT_COPY_VALUES, share%rate, ierr))
-    if (dissipates(response)) then
-      PetscCallA(MatAXPY(share%rate, response%vibration%damping_time, response%springs, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatDuplicate(response%equations%squeeze, MAT_COPY_VALUES, share%rate, ierr))
+    if (dissipates(response%equations)) then
+      PetscCallA(MatAXPY(share%rate, response%equations%vibration%damping_time, response%equations%springs, SAME_NONZERO_PATTERN, ierr))
     end if
     do i = 1, planar
       PetscCallA(VecDuplicate(bearing%state, share%column(i), ierr))

@@ -17,8 +17,8 @@ module gfb_dynamics
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
-  use gfb_dynamic_response, only: dynamic_response_type, vibration_type, create_response, find_coefficients, &
-                                  destroy_response
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
+  use gfb_vibration_equations, only: vibration_type
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type
