@@ -26,6 +26,13 @@ module gfb_plausible_values
     range_type('bearing', 'length', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
     range_type('bearing', 'clearance', 1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('bearing', 'leading_edge_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('bore', 'wave_amplitude', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('bore', 'wave_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('bore', 'shim_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('bore', 'shim_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('bore', 'shim_arc', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('bore', 'shim_ramp', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('bore', 'profile_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('gas', 'viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
     range_type('gas', 'ambient_pressure', 1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
     range_type('operation', 'speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &

@@ -2,6 +2,7 @@
 module gfb_scene
   use gfb_accuracy_case, only: accuracy_case_type
   use gfb_bearing_case, only: bearing_case_type
+  use gfb_bore_case, only: bore_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_contact_case, only: contact_case_type
   use gfb_dynamics_case, only: dynamics_case_type
@@ -30,6 +31,7 @@ module gfb_scene
     character(len=:), allocatable :: warnings  !! of values that are hardly meant, one a line
     type(scene_case_type) :: general
     type(bearing_case_type) :: bearing
+    type(bore_case_type) :: bore
     type(gas_case_type) :: gas
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep

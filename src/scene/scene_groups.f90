@@ -2,6 +2,7 @@
 module gfb_scene_groups
   use gfb_accuracy_case, only: read_accuracy_case
   use gfb_bearing_case, only: read_bearing_case
+  use gfb_bore_case, only: read_bore_case
   use gfb_bump_foil_case, only: read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_case, only: read_contact_case
@@ -52,6 +53,7 @@ contains
       arc = modes .and. (part == part_half_arc .or. part == part_arc)
       call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
                              is_bearing(analysis), bearing_misplaced(analysis, part))
+      call read_bore_case(keys, scene%bore, scene%bearing%clearance, analysis)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)

@@ -100,6 +100,7 @@ contains
     call keys%report(error)
     there = scene
     there%bearing = changed%bearing
+    there%bore = changed%bore
     there%dynamics = changed%dynamics
     there%rotor = changed%rotor
     there%gas = changed%gas

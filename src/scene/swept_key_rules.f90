@@ -83,6 +83,8 @@ contains
     select case (group)
     case ('bearing', 'gas')
       return
+    case ('bore')
+      if (.not. scene%bore%present) problem = 'the file has no group &bore'
     case ('operation')
       if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
     case ('top_foil')

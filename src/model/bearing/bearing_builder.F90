@@ -12,6 +12,9 @@ module gfb_bearing_builder
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
+  use gfb_aligned_mesh, only: align_stations
+  use gfb_bore_profile, only: bore_kinks
+  use gfb_gas_film, only: put_bore
   use gfb_solid_contact, only: solid_contact_type
   use gfb_foil_models, only: build_foil
   use gfb_foil_model, only: foil_model_type
@@ -75,6 +78,7 @@ contains
     call create_film_part(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
                           bearing, error, division%film)
     if (allocated(error)) return
+    call put_bore(bearing%pad(1)%film, scene%bore%profile)
     associate (contact => scene%shaft_contact)
       bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate
@@ -103,7 +107,7 @@ contains
     if (.not. allocated(error)) division%film = film_columns(film, division%film)
   end subroutine divide_bearing
 
-  !> The film's mesh: equal elements, or stations above the crests.
+  !> The film's mesh: equal elements but for kinks of the bore, or stations above the crests.
   function film_mesh_of(scene, plan) result(mesh)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_plan_type), intent(in) :: plan !! what was decided about it
@@ -117,6 +121,9 @@ contains
         mesh = uniform_film_mesh(bearing%radius, bearing%length, bearing%leading_edge_angle, &
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order)
+        if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
+          call align_stations(mesh, bore_kinks(scene%bore%profile))
+        end if
       end if
     end associate
   end function film_mesh_of

@@ -3,6 +3,7 @@ module gfb_gas_film
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
+  use gfb_bore_profile, only: bore_profile_type, bore_height
   use gfb_film_gap, only: rigid_gap
   use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess, &
                               entraining_speed
@@ -12,7 +13,7 @@ module gfb_gas_film
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: create_gas_film
+  public :: create_gas_film, put_bore
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -39,6 +40,8 @@ module gfb_gas_film
     !! coordinates, see `shaft_motion` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
+    real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
+    real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
   contains
     procedure :: flow_at
     procedure :: cell_flow
@@ -130,6 +133,27 @@ contains
     if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
   end subroutine measure_elements
 
+  !> Takes the height of a bore off the rigid gap.
+  pure subroutine put_bore(film, profile)
+    type(gas_film_type), intent(inout) :: film !! this rank's film
+    type(bore_profile_type), intent(in) :: profile !! of the bore
+    integer :: element, i
+
+    if (.not. profile%present()) return
+    film%bore = [(bore_height(profile, film%angle(i)), i=1, size(film%angle))]
+    allocate (film%bore_excess(size(film%shape, 2), size(film%element_nodes, 2)))
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element), &
+                 motion => film%point_motion(:, :, element))
+        do i = 1, size(film%shape, 2)
+          ! The first of the motions are cosine and sine of the angle.
+          film%bore_excess(i, element) = bore_height(profile, atan2(motion(2, i), motion(1, i))) &
+            - dot_product(film%shape(:, i), film%bore(nodes))
+        end do
+      end associate
+    end do
+  end subroutine put_bore
+
   !> The gas as the shaft drags it at an operating point.
   pure function flow_at(self, point) result(flow)
     class(gas_film_type), intent(in) :: self !! this rank's film
@@ -171,6 +195,7 @@ contains
 
     gap = deflection + rigid_gap(self%angle, self%axial, self%clearance, point%eccentricity(1), &
                                  point%eccentricity(2), point%tilt(1), point%tilt(2))
+    if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
   !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
@@ -188,6 +213,9 @@ contains
           + point%tilt(1)*motion(3)
       end associate
     end do
+    if (allocated(self%bore)) then
+      excess(:size(self%shape, 2)) = excess(:size(self%shape, 2)) - self%bore_excess(:, element)
+    end if
   end function film_excess
 
   !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.

@@ -5,6 +5,7 @@ module gfb_start_position
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
+  use gfb_bore_profile, only: bore_peak
   use gfb_film_load, only: film_forces
   use gfb_solid_contact, only: contact_pressure
   use gfb_bearing_system, only: bearing_system_type
@@ -93,15 +94,22 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: wanted
     type(operating_point_type) :: free
-    real(wp) :: undeflected(size(bearing%pad(1)%film%angle)), approach(1)
+    type(operating_point_type) :: centred
+    real(wp), dimension(size(bearing%pad(1)%film%angle)) :: undeflected, at_rest
+    real(wp) :: clearance, extremes(2)
 
     free = wanted
     undeflected = 0.0_wp
-    associate (clearance => bearing%pad(1)%film%clearance)
-      approach = largest_over_ranks([clearance - minval(bearing%pad(1)%film%gap(wanted, undeflected))])
-      if (approach(1) < clearance) return
-      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach(1)
-      free%tilt = wanted%tilt*room_at_rest*clearance/approach(1)
+    centred = wanted
+    centred%eccentricity = 0.0_wp
+    centred%tilt = 0.0_wp
+    at_rest = bearing%pad(1)%film%gap(centred, undeflected)
+    extremes = largest_over_ranks([-minval(at_rest), maxval(at_rest - bearing%pad(1)%film%gap(wanted, undeflected))])
+    clearance = -extremes(1) ! less than C where the bore is no circle
+    associate (approach => extremes(2))
+      if (approach < clearance) return
+      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach
+      free%tilt = wanted%tilt*room_at_rest*clearance/approach
     end associate
   end function free_position
 
@@ -131,7 +139,7 @@ contains
     bearing%point%eccentricity = target%eccentricity
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
-      free = scene%bearing%clearance - 0.5_wp*scene%bearing%length*norm2(target%tilt)
+      free = scene%bearing%clearance - max(bore_peak(scene%bore%profile), 0.0_wp) - 0.5_wp*scene%bearing%length*norm2(target%tilt)
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]

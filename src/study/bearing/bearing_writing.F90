@@ -12,6 +12,7 @@ module gfb_bearing_writing
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
+  use gfb_film_notes, only: show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
   use gfb_bearing_record, only: analysis_name
   use gfb_case_file, only: case_array_type
@@ -65,6 +66,7 @@ contains
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
       call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
+      call show_film_notes(scene, bearing%pad(1)%whole, log)
       if (converged .and. answer%has_foils) then
         call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance)
       end if

@@ -1,0 +1,100 @@
+!> Moves the sides of a film's elements onto angles where the gap has a kink.
+module gfb_aligned_mesh
+  use gfb_kinds, only: wp
+  use gfb_film_mesh, only: film_mesh_type
+  implicit none (type, external)
+  private
+  public :: align_stations, kinks_inside
+
+  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
+  real(wp), parameter :: on_side = 1.0e-8_wp         !! nearer is on a side, over an element [1]
+  real(wp), parameter :: shortest = 0.25_wp          !! element it makes, over an equal one [1]
+
+contains
+
+  !> Puts the nearest side of an element on each kink; between them elements are equal.
+  !>
+  !> A kink that would leave an element too short stays inside one.
+  pure subroutine align_stations(mesh, kink)
+    type(film_mesh_type), intent(inout) :: mesh !! of equal elements
+    real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi), rising [rad]
+    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element
+    integer :: i, last, near, n
+
+    n = size(side)
+    side = sides(mesh)
+    element = (side(n) - side(1))/real(n - 1, wp)
+    last = 1
+    do i = 1, size(kink)
+      if (kink(i) - side(last) < shortest*element) cycle
+      if (side(n) - kink(i) < shortest*element) exit
+      near = min(max(last + 1, 1 + nint((kink(i) - side(1))/element)), n - 1)
+      if (near <= last) exit
+      call spread_sides(side, last, near, kink(i))
+      last = near
+    end do
+    if (last > 1) call spread_sides(side, last, n, side(n))
+    call put_sides(mesh, side)
+  end subroutine align_stations
+
+  !> How many kinks lie on the pad, and how many of them inside an element.
+  pure subroutine kinks_inside(mesh, kink, on_pad, inside)
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
+    real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi) [rad]
+    integer, intent(out) :: on_pad, inside !! of them
+    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element
+    integer :: i
+
+    side = sides(mesh)
+    element = (side(size(side)) - side(1))/real(size(side) - 1, wp)
+    on_pad = 0
+    inside = 0
+    do i = 1, size(kink)
+      if (kink(i) < side(1) - on_side*element) cycle
+      if (kink(i) > side(size(side)) + on_side*element) cycle
+      on_pad = on_pad + 1
+      if (minval(abs(side - kink(i))) > on_side*element) inside = inside + 1
+    end do
+  end subroutine kinks_inside
+
+  !> Angles where elements meet, those of a ring with the turn's end [rad].
+  pure function sides(mesh) result(side)
+    type(film_mesh_type), intent(in) :: mesh
+    real(wp) :: side(mesh%circumferential()/mesh%order + 1)
+
+    if (mesh%periodic) then
+      side = [mesh%station_angle(1::mesh%order), mesh%station_angle(1) + turn]
+    else
+      side = mesh%station_angle(1::mesh%order)
+    end if
+  end function sides
+
+  !> Puts one side at an angle, and those after the last one that stands evenly between.
+  pure subroutine spread_sides(side, last, near, angle)
+    real(wp), intent(inout) :: side(:) !! [rad]
+    integer, intent(in) :: last, near  !! sides
+    real(wp), intent(in) :: angle      !! of the second [rad]
+    integer :: i
+
+    do i = last + 1, near - 1
+      side(i) = side(last) + (angle - side(last))*real(i - last, wp)/real(near - last, wp)
+    end do
+    side(near) = angle
+  end subroutine spread_sides
+
+  !> Stations of given sides; those of biquadratic elements have one in their middle.
+  pure subroutine put_sides(mesh, side)
+    type(film_mesh_type), intent(inout) :: mesh
+    real(wp), intent(in) :: side(:) !! [rad]
+    integer :: i
+
+    do i = 1, size(side)
+      associate (station => mesh%order*(i - 1) + 1)
+        if (station <= mesh%stations()) mesh%station_angle(station) = side(i)
+        if (mesh%order == 2 .and. i < size(side)) then
+          mesh%station_angle(station + 1) = 0.5_wp*(side(i) + side(i + 1))
+        end if
+      end associate
+    end do
+  end subroutine put_sides
+end module gfb_aligned_mesh

@@ -1,0 +1,178 @@
+!> `&bore`: where the bore is no circle.
+module gfb_bore_case
+  use gfb_kinds, only: wp
+  use gfb_bore_profile, only: bore_profile_type, bore_peak
+  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_text, only: text
+  use gfb_value_rules, only: rule_type, any_value, from_below, from_to, not_negative, positive
+  implicit none (type, external)
+  private
+  public :: bore_case_type, read_bore_case
+
+  character(len=*), parameter :: group = 'bore'
+  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
+  real(wp), parameter :: most_waves = 1000.0_wp      !! more are roughness, which no film mesh shows
+
+  !> The bore.
+  type :: bore_case_type
+    logical :: present = .false.       !! the file has the group
+    type(bore_profile_type) :: profile !! its height over the circle
+  end type bore_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_bore_case(keys, bore, clearance, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bore_case_type), intent(out) :: bore !! what `&bore` asks for
+    real(wp), intent(in) :: clearance !! of the bearing, 0 where it is not known [m]
+    integer, intent(in) :: analysis !! 0 where it is not known
+    real(wp) :: peak
+    integer :: mistakes !! before the group
+
+    mistakes = keys%complaints%count
+    call keys%start_group(group, optional=.true., present_in_file=bore%present, &
+                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+    call read_waves(keys, bore%profile)
+    call read_shims(keys, bore%profile)
+    call read_table(keys, bore%profile)
+    call keys%finish_group()
+    if (.not. bore%present) return
+    if (.not. bore%profile%present()) then
+      if (keys%complaints%count == mistakes) then
+        call keys%complain(group, 'waves', 'or shim_angle or profile_angle is needed: the '// &
+                           'group says nothing of the bore')
+      end if
+      return
+    end if
+    peak = bore_peak(bore%profile)
+    if (.not. clearance > 0.0_wp .or. peak < clearance) return
+    call keys%complain(group, highest_key(bore%profile), 'makes the bore '//text(peak, 4)// &
+                       ' m high in all, which must be less than the clearance of '// &
+                       text(clearance)//' m: no gap is left at rest')
+  end subroutine read_bore_case
+
+  !> Lobes.
+  subroutine read_waves(keys, profile)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    logical :: waves, amplitude, angle
+
+    call keys%integer_key('waves', profile%waves, 'waves of the bore around the circle; 0: none', &
+                          from_to(0.0_wp, most_waves), given=waves)
+    waves = profile%waves > 0
+    call keys%real_key('wave_amplitude', profile%wave_amplitude, 'm', 'amplitude of the waves, '// &
+                       'half of their height from trough to crest', positive, waves, &
+                       default='required with waves', given=amplitude)
+    call keys%real_key('wave_angle', profile%wave_angle, 'rad', 'angle of a crest, where the '// &
+                       'bore is nearest to the shaft', any_value, given=angle)
+    if (amplitude .and. .not. waves) call keys%complain(group, 'wave_amplitude', 'needs waves')
+    if (angle .and. .not. waves) call keys%complain(group, 'wave_angle', 'needs waves')
+  end subroutine read_waves
+
+  !> Shims: each list has one value a shim; of arcs, ramps and heights one may stand for all.
+  subroutine read_shims(keys, profile)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    real(wp), allocatable :: angle(:), height(:), arc(:), ramp(:)
+    logical :: right, here
+
+    call keys%real_list_key('shim_angle', angle, longest_list, 'rad', 'middle of each shim '// &
+                            'under the foil', any_value, .false., 'no shims')
+    here = keys%key%given
+    right = here .and. keys%last_key_is_right()
+    call one_list('shim_height', height, 'm', 'height of the plateau of each shim, or '// &
+                  'of all', any_value)
+    call one_list('shim_arc', arc, 'rad', 'whole arc of the plateau of each shim, or of all', &
+                  not_negative)
+    call one_list('shim_ramp', ramp, 'rad', 'arc of the ramp on each side of the plateau of '// &
+                  'each shim, or of all', positive)
+    if (.not. right) return
+    if (any(0.5_wp*arc + ramp > 0.5_wp*turn)) then
+      call keys%complain(group, 'shim_arc', 'with both ramps must be a whole turn at most')
+      return
+    end if
+    profile%shim_angle = angle
+    profile%shim_height = height
+    profile%shim_arc = arc
+    profile%shim_ramp = ramp
+
+  contains
+
+    !> One of the lists beside the angles.
+    subroutine one_list(name, list, unit, meaning, rule)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(out) :: list(:)
+      type(rule_type), intent(in) :: rule
+
+      call keys%real_list_key(name, list, longest_list, unit, meaning, rule, here, &
+                              'required with shim_angle')
+      if (.not. here) then
+        if (keys%key%given) call keys%complain(group, name, 'needs shim_angle')
+      else if (.not. keys%last_key_is_right()) then
+        right = .false.
+      else if (size(list) == 1) then
+        list = spread(list(1), 1, size(angle))
+      else if (size(list) /= size(angle)) then
+        call keys%complain(group, name, 'must have one value, or one a shim: '// &
+                           text(size(angle))//', not '//text(size(list)))
+        right = .false.
+      end if
+    end subroutine one_list
+  end subroutine read_shims
+
+  !> A measured bore, or wear.
+  subroutine read_table(keys, profile)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    real(wp), allocatable :: angle(:), height(:)
+    logical :: here, right
+    integer :: i
+
+    call keys%real_list_key('profile_angle', angle, longest_list, 'rad', 'angles of a measured '// &
+                            'bore, rising', from_below(0.0_wp, turn), .false., 'no profile')
+    here = keys%key%given
+    right = here .and. keys%last_key_is_right()
+    if (right .and. size(angle) < 2) then
+      call keys%complain(group, 'profile_angle', 'needs two values at least')
+      right = .false.
+    end if
+    do i = 2, size(angle)
+      if (.not. right) exit
+      if (angle(i) > angle(i - 1)) cycle
+      call keys%complain(group, 'profile_angle', 'must be greater than the value before it', i)
+      right = .false.
+    end do
+    call keys%real_list_key('profile_height', height, longest_list, 'm', 'height of the bore '// &
+                            'over the circle there, linear between the angles and around', &
+                            any_value, here, 'required with profile_angle')
+    if (keys%key%given .and. .not. here) then
+      call keys%complain(group, 'profile_height', 'needs profile_angle')
+    else if (keys%key%given .and. size(height) /= size(angle)) then
+      call keys%complain(group, 'profile_height', 'must have one value an angle: '// &
+                         text(size(angle))//', not '//text(size(height)))
+      right = .false.
+    end if
+    if (.not. (right .and. keys%key%given)) return
+    profile%table_angle = angle
+    profile%table_height = height
+  end subroutine read_table
+
+  !> The key that has most to do with the height.
+  pure function highest_key(profile) result(key)
+    type(bore_profile_type), intent(in) :: profile
+    character(len=:), allocatable :: key
+    real(wp) :: height
+
+    key = 'wave_amplitude'
+    height = profile%wave_amplitude
+    if (allocated(profile%shim_height)) then
+      if (maxval(profile%shim_height) > height) key = 'shim_height'
+      height = max(height, maxval(profile%shim_height))
+    end if
+    if (allocated(profile%table_height)) then
+      if (maxval(profile%table_height) > height) key = 'profile_height'
+    end if
+  end function highest_key
+end module gfb_bore_case
