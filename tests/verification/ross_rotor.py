@@ -11,9 +11,6 @@ import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
-BUILT = pathlib.Path(__file__).resolve().parents[2]/"build/ross"
-PINS = pathlib.Path(__file__).resolve().parents[1]/"requirements-ross.txt"
 TOOL = pathlib.Path(__file__).resolve().parents[2]/"tools/coefficients"
 RPM = 60000.0
 CASE = {
@@ -70,21 +67,6 @@ def critical_mass(path, speed, low, high):
 
 # --- in the tests' ---
 
-def python_of_ross():
-    """Makes build/ross where it is not there yet; None where that cannot be."""
-    python, done = BUILT/"bin/python", BUILT/"installed.txt"
-    wanted = sys.version + PINS.read_text(encoding="utf-8")
-    if done.exists() and done.read_text(encoding="utf-8") == wanted:
-        return python
-    for command in (["/usr/bin/python3", "-m", "venv", "--clear", BUILT],
-                    [python, "-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "--no-deps",
-                     "--only-binary=:all:", "--require-hashes", "--requirement", PINS]):
-        if subprocess.run(list(map(str, command)), stdin=subprocess.DEVNULL, check=False).returncode:
-            return None
-    done.write_text(wanted, encoding="utf-8")
-    return python
-
-
 def main():
     if sys.argv[1:2] == ["--mass"]:
         print("critical:", *critical_mass(sys.argv[2], *map(float, sys.argv[3:])))
@@ -93,7 +75,8 @@ def main():
 
     from gfb_run import GFB, Checks
     from gfb.run import run_file, write_case
-    python = python_of_ross()
+    from pypi import SKIPPED, python_with
+    python = python_with("ross")
     if python is None:
         print("skipped: ROSS cannot be installed here (tests/requirements-ross.txt: Python 3.11, x86-64, PyPI)")
         sys.exit(SKIPPED)

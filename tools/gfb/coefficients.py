@@ -2,28 +2,52 @@
 
   tools/coefficients CASE.h5 --ross NAME.toml    a BearingElement of ROSS: ross.BearingElement.load("NAME.toml")
   tools/coefficients CASE.h5 --xltrc NAME.txt    columns as XLTRC2's: frequency [rpm], K [N/m], C [N s/m]
+  tools/coefficients CASE.h5 --state-space [NAME.npz]   matrices of linear differential equations, for integration in time:
+      x' = A x + B a,  force = -(C x + D a + E a'),  a = (x, y, phi_x, phi_y) of the shaft; NAME.mat for MATLAB (with SciPy);
+      without a name CASE.state_space.npz beside CASE.h5
 
-CASE.h5 is of analysis = 'linear_dynamics'. Both hold the four coefficients of x and y over the frequency of vibration, at
-the one speed of the case: for stability take them at the frequency of the mode, not at the speed.
+CASE.h5 is of analysis = 'linear_dynamics'. The first two hold the four coefficients of x and y over the frequency of
+vibration, at the one speed of the case: for stability take them at the frequency of the mode, not at the speed.
 """
 
 import argparse
+import importlib.util
 import json
 import math
 import pathlib
 
+import numpy
+
 from gfb.results import Unreadable, open_results, reading
-from gfb.tool import stop
+from gfb.state_space import CannotFit, fit
+from gfb.tool import say, stop
 
 PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, column
+LARGE = 1.0e-3  # deviation of a fit that is warned of
+ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
+         "the shaft along x, y [m], rotation about x, y [rad]; force: along x, y [N], torque about x, y [N m]. A [1/s], "
+         "poles [rad/s] are its eigenvalues; frequencies [rad/s] between which it was fitted. deviation: largest relative one "
+         "at these frequencies; between: at every second one, of a fit without them")
 
 
-def read_coefficients(path):
-    """Frequencies [rad/s], K and C (frequency, row, column) in SI."""
+def read_coefficients(path, point=None):
+    """Frequencies [rad/s], K and C (frequency, row, column) in SI; of a sweep those of a point, counted from 1."""
     with reading(path), open_results(path) as file:
         if "dynamics" not in file:
             raise ValueError("no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
-        return tuple(file[f"dynamics/{name}"][...] for name in ("frequency", "stiffness", "damping"))
+        frequency, *both = (file[f"dynamics/{name}"][...] for name in ("frequency", "stiffness", "damping"))
+        swept = both[0].ndim == 4
+        if swept:
+            points = len(both[0])
+            if point is None or not 0 < point <= points:
+                raise Unreadable(f"{path}: a sweep; say which of its points with --point, 1 to {points}")
+            frequency, both = frequency[point - 1], [values[point - 1] for values in both]
+        elif point is not None:
+            raise Unreadable(f"{path}: --point is of sweeps, this is none")
+        frequency = numpy.atleast_1d(frequency)
+        if any(values.shape != (len(frequency), 4, 4) for values in both):
+            raise ValueError("stiffness and damping are no 4 x 4 a frequency")
+        return frequency, *both
 
 
 def columns_of(stiffness, damping):
@@ -49,27 +73,76 @@ def xltrc_text(frequency, columns, name):
     return "\n".join(lines) + "\n"
 
 
+def table_writer(text_of, data, name):
+    """What writes a table to a path."""
+    frequency, stiffness, damping = data
+    return lambda path: path.write_text(text_of(frequency, columns_of(stiffness, damping), name), encoding="utf-8")
+
+
+def state_space_writer(options, data):
+    """The same of the matrices; says how good they are."""
+    frequency, stiffness, damping = data
+    if options.state_space.suffix == ".mat" and importlib.util.find_spec("scipy") is None:
+        stop(f"{options.state_space}: a .mat file needs SciPy: apt-get install python3-scipy")
+    if options.state_space.suffix not in (".npz", ".mat"):
+        stop(f"{options.state_space}: the matrices are written as .npz or .mat")
+    try:
+        made = fit(frequency, stiffness + 1j*frequency[:, None, None]*damping, options.poles, options.velocity_term)
+    except CannotFit as error:
+        stop(f"{options.file}: no state space: {error}")
+    between = "" if math.isnan(made.between) else f", {made.between:.1e} between"
+    print(f"{made.number} poles, {4*made.number} states; largest deviation {made.deviation:.1e} at the frequencies{between}")
+    if not max(made.deviation, numpy.nan_to_num(made.between)) < LARGE:
+        say("warning: these equations are not those of the bearing: they need more poles, or more frequencies, wider or denser; "
+            "a loss factor, or a film that is unstable under a fixed shaft, has none with stable poles")
+    content = dict(zip("ABCDE", made.matrices()), poles=made.all_poles, frequency=frequency, deviation=made.deviation,
+                   between=made.between, about=ABOUT)
+    return lambda path: save(path, content)
+
+
+def save(path, content):
+    """Writes the matrices."""
+    with open(path, "wb") as file:
+        if path.suffix == ".mat":
+            from scipy.io import savemat  # a package that only this needs
+            savemat(file, content)
+        else:
+            numpy.savez(file, **content)
+
+
 def main():
     parser = argparse.ArgumentParser(prog="tools/coefficients", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=pathlib.Path, help="CASE.h5")
     parser.add_argument("--ross", type=pathlib.Path, metavar="TOML", help="write ROSS's file")
     parser.add_argument("--xltrc", type=pathlib.Path, metavar="TXT", help="write XLTRC2's columns")
+    parser.add_argument("--state-space", type=pathlib.Path, metavar="NPZ", nargs="?", const=pathlib.Path(),
+                        help="write state-space matrices")
+    parser.add_argument("--point", type=int, metavar="N", help="the point of a sweep, counted from 1")
+    parser.add_argument("--poles", type=int, metavar="N", help="number of poles of --state-space; default: as many as 1e-5 needs")
+    parser.add_argument("--velocity-term", action="store_true",
+                        help="of --state-space: fit E as well; without it E is zero, as of gas that is squeezed fast")
     options = parser.parse_args()
-    if options.ross is None and options.xltrc is None:
-        stop("nothing to write: name --ross TOML or --xltrc TXT")
+    if options.ross is None and options.xltrc is None and options.state_space is None:
+        stop("nothing to write: name --ross TOML, --xltrc TXT or --state-space")
+    if options.state_space is None and (options.poles is not None or options.velocity_term):
+        stop("--poles and --velocity-term are of --state-space")
+    if options.state_space == pathlib.Path():
+        options.state_space = options.file.with_suffix(".state_space.npz")
     try:
-        frequency, stiffness, damping = read_coefficients(options.file)
+        data = read_coefficients(options.file, options.point)
     except Unreadable as error:
         stop(str(error))
     except FileNotFoundError:
         stop(f"{options.file}: there is no such file")
-    columns = columns_of(stiffness, damping)
-    for path, text_of in ((options.ross, ross_text), (options.xltrc, xltrc_text)):
+    for path, writer in ((options.ross, lambda: table_writer(ross_text, data, options.file.stem)),
+                         (options.xltrc, lambda: table_writer(xltrc_text, data, options.file.stem)),
+                         (options.state_space, lambda: state_space_writer(options, data))):
         if path is None:
             continue
+        write = writer()
         try:
-            path.write_text(text_of(frequency, columns, options.file.stem), encoding="utf-8")
+            write(path)
         except OSError as error:
             stop(f"{path}: {error.strerror}", 3)
         print(f"written: {path}")

@@ -10,6 +10,11 @@ MEASURED = ROOT/"docs/measured"  # pages and pictures that tools write
 PACKAGES = ("numpy", "h5py", "matplotlib")
 
 
+def say(words):
+    """A message beside the tool's own output."""
+    print(words, file=sys.stderr)
+
+
 def stop(words, status=1):
     """Ends the tool with a message; 1: the user can mend it, 3: the machine failed."""
     print(words, file=sys.stderr)
