@@ -6,10 +6,8 @@ program gfb
   use gfb_signals, only: limit_time, stop_agreed, stop_status
   use gfb_job_groups, only: job_type, start_job, stop_job
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
-  use gfb_result_names, only: results_text
-  use gfb_scene_reading, only: key_table
-  use gfb_command_line, only: command_line_type, read_command_line, help_text
-  use gfb_provenance, only: version_text
+  use gfb_command_line, only: command_line_type, read_command_line
+  use gfb_information, only: information
   use gfb_run_case, only: run_case, run_scene
   use gfb_run_groups, only: run_groups
   implicit none (type, external)
@@ -19,6 +17,7 @@ program gfb
   type(job_type) :: job
   type(run_log_type) :: log
   type(error_type), allocatable :: error
+  character(len=:), allocatable :: words
   integer :: status
   logical :: converged
 
@@ -30,14 +29,9 @@ program gfb
   status = 0
   if (.not. allocated(error)) then
     log%verbose = .not. line%quiet
-    if (line%help) then
-      call log%line(help_text())
-    else if (line%version) then
-      call log%line(version_text())
-    else if (line%keys) then
-      call log%line(key_table())
-    else if (line%results) then
-      call log%line(results_text())
+    if (line%informs()) then
+      call information(line, words, error)
+      if (.not. allocated(error)) call log%line(words)
     else if (line%groups > 0) then
       call run_groups(line, job, run_scene, log, status, error)
     else

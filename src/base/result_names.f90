@@ -1,11 +1,11 @@
 !> What the table of result names says of a name, and lists made from it.
 module gfb_result_names
   use gfb_result_table, only: result_type, result_rows, study_words, own_unit, name_length
-  use gfb_text, only: join
+  use gfb_text, only: join, plain_text
   implicit none (type, external)
   private
   public :: find_result, result_unit, result_meaning, is_of, is_nodal, asked_names, &
-            compared_names, results_text
+            compared_names, results_text, result_words, row_names
 
   character(len=*), parameter :: any_number = '<n>', any_quantity = '<quantity>'
   !> What stands for one of several words; the last one changes first.
@@ -269,6 +269,28 @@ contains
       row = last + 1
     end do
   end function results_text
+
+  !> What the table says of a result, for the terminal.
+  pure function result_words(name) result(words)
+    character(len=*), intent(in) :: name !! of a result
+    character(len=:), allocatable :: words
+    type(result_type) :: found
+
+    call find_known(name, found)
+    words = 'result '//name//next//'  meaning  '//plain_text(completed(trim(found%meaning)))//next
+    if (found%manual /= '') words = words//'           '//plain_text(trim(found%manual))//next
+    if (found%unit /= '' .and. found%unit /= '1') then
+      words = words//'  unit     '//trim(found%unit)//next
+    end if
+    words = words//'  of       '//plain_text(studies_text(found%studies))//next
+    if (found%varies) words = words//'  differs from run to run'//next
+  end function result_words
+
+  !> The names of all rows, but for errors and orders of quantities of `&accuracy`.
+  pure function row_names() result(names)
+    character(len=name_length), allocatable :: names(:)
+    names = names_of(pack(result_rows, index(result_rows%name, any_quantity) == 0))
+  end function row_names
 
   !> Rows as one line of the table.
   pure function line_of(rows) result(words)

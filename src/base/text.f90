@@ -3,7 +3,7 @@ module gfb_text
   use gfb_kinds, only: wp, long
   implicit none (type, external)
   private
-  public :: text, exact_text, engineering_text, lower_case, nearest_word, join
+  public :: text, exact_text, engineering_text, lower_case, nearest_word, join, plain_text
 
   integer, parameter :: longest_word = 60 !! a longer one is a misspelling of nothing
 
@@ -175,6 +175,18 @@ contains
       joined = joined//trim(words(i))
     end do
   end function join
+
+  !> A text without Markdown's marks of code.
+  pure function plain_text(marked) result(words)
+    character(len=*), intent(in) :: marked !! with such marks
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = ''
+    do i = 1, len(marked)
+      if (marked(i:i) /= '`') words = words//marked(i:i)
+    end do
+  end function plain_text
 
   !> Where a decimal ends when trailing zeros, and a point left bare by them, are dropped.
   pure function last_digit(words) result(last)

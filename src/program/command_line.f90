@@ -33,15 +33,19 @@ module gfb_command_line
     logical :: version = .false.
     logical :: keys = .false.    !! print the table of all keys
     logical :: results = .false. !! print the table of all names of results
+    character(len=:), allocatable :: template !! analysis whose template to print; empty: none
+    character(len=:), allocatable :: explain  !! key or result to explain; empty: none
     logical :: quiet = .false.   !! no line per iteration
     character(len=:), allocatable :: words !! the whole line
   contains
     procedure :: context => run_context
+    procedure :: informs
   end type command_line_type
 
-  character(len=12), parameter :: options(15) = [character(len=12) :: &
+  character(len=12), parameter :: options(17) = [character(len=12) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
-    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit']
+    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit', &
+    '--template', '--explain']
 
 contains
 
@@ -56,6 +60,8 @@ contains
 
     line%folder = '.'
     line%table = ''
+    line%template = ''
+    line%explain = ''
     allocate (line%case_files(0))
     line%words = argument(0)
     do i = 1, command_argument_count()
@@ -78,12 +84,28 @@ contains
         line%restart = .true.
       case ('--help', '-h')
         line%help = .true.
+      case ('help') ! help, or help WORD
+        line%explain = argument(i + 1)
+        line%help = line%explain == ''
+        i = i + 1
+      case ('-')
+        call take_file(word, line, error)
       case ('--version')
         line%version = .true.
       case ('--keys')
         line%keys = .true.
       case ('--results')
         line%results = .true.
+      case ('--template')
+        i = i + 1
+        line%template = argument(i)
+        if (line%template == '') call fail(error, 'gfb: --template needs an analysis, '// &
+                                           'such as equilibrium')
+      case ('--explain')
+        i = i + 1
+        line%explain = argument(i)
+        if (line%explain == '') call fail(error, 'gfb: --explain needs a key, or the name of '// &
+                                          'a result')
       case ('--quiet')
         line%quiet = .true.
       case ('--petsc') ! the rest is for PETSc
@@ -110,7 +132,7 @@ contains
         call take_other(word, line, error)
       end select
     end do
-    if (allocated(error) .or. line%help .or. line%version .or. line%keys .or. line%results) return
+    if (allocated(error) .or. line%informs()) return
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
     else if (line%restart .and. line%branches) then
@@ -121,12 +143,23 @@ contains
     end if
   end subroutine read_command_line
 
+  !> Whether the line asks about the program and for no computation.
+  pure function informs(self)
+    class(command_line_type), intent(in) :: self !! the command line
+    logical :: informs
+
+    informs = self%help .or. self%version .or. self%keys .or. self%results .or. &
+              self%template /= '' .or. self%explain /= ''
+  end function informs
+
   !> Several case files need groups, and groups are not for everything.
   subroutine check_groups(line, error)
     type(command_line_type), intent(inout) :: line
     type(error_type), allocatable, intent(out) :: error
 
-    if (line%groups == 0 .and. size(line%case_files) > 1) then
+    if (line%groups > 0 .and. any_is_input(line%case_files)) then
+      call fail(error, 'gfb: --groups reads case files, not the standard input')
+    else if (line%groups == 0 .and. size(line%case_files) > 1) then
       call fail(error, 'gfb: one case file at a time, not '//line%case_file//' and '// &
                 line%case_files(2)%path//'; --groups N computes several in N groups of ranks')
     else if (line%table /= '' .and. size(line%case_files) < 2) then
@@ -138,6 +171,18 @@ contains
     end if
     if (line%table == '') line%table = 'ensemble'
   end subroutine check_groups
+
+  !> Whether the standard input is among the case files.
+  pure function any_is_input(files) result(is)
+    type(file_name_type), intent(in) :: files(:)
+    logical :: is
+    integer :: i
+
+    is = .false.
+    do i = 1, size(files)
+      is = is .or. files(i)%path == '-'
+    end do
+  end function any_is_input
 
   !> Reads how many groups are wanted.
   subroutine take_groups(word, line, error)
@@ -203,6 +248,10 @@ contains
       call take_groups(word(10:), line, error)
     else if (index(word, '--time-limit=') == 1) then
       call take_time_limit(word(14:), line, error)
+    else if (index(word, '--template=') == 1 .and. len(word) > 11) then
+      line%template = word(12:)
+    else if (index(word, '--explain=') == 1 .and. len(word) > 10) then
+      line%explain = word(11:)
     else if (index(word, '--name=') == 1 .and. len(word) > 7) then
       line%table = word(8:)
     else if (index(word, '-') == 1) then
@@ -264,6 +313,8 @@ contains
     character(len=1), parameter :: next = new_line('a')
 
     words = 'usage: gfb [options] CASE.nml   (or: mpiexec -n RANKS gfb ...)'//next// &
+      '       gfb [options] -          reads the case from the standard input'//next// &
+      '       gfb --template ANALYSIS > CASE.nml'//next// &
       next// &
       'Computes bump-type gas foil bearings, and their foils as structures.'//next// &
       next// &
@@ -280,6 +331,11 @@ contains
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
       '  --name NAME     of the table of several cases; default: ensemble'//next// &
+      '  --template A    a case file to begin with, all keys with unit, default and'//next// &
+      '                  meaning; A: equilibrium, fixed_position, strip, modes,'//next// &
+      '                  linear_dynamics'//next// &
+      '  --explain NAME  a key (or group%key), a group, or the name of a result;'//next// &
+      '                  gfb help NAME does the same'//next// &
       '  --keys          table of all keys of a case file'//next// &
       '  --results       table of the names of all results'//next// &
       '  --version       version of the program and its libraries'//next// &

@@ -4,7 +4,7 @@ module gfb_run_case
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
-  use gfb_scene_reading, only: read_scene
+  use gfb_read_input, only: read_input
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type
   use gfb_solver_case, only: linear_solver_out_of_core
@@ -39,7 +39,7 @@ contains
 
     converged = .true.
     context = line%context(log)
-    call read_scene(line%case_file, scene, error, line%strict)
+    call read_input(line%case_file, line%strict, scene, error)
     only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return

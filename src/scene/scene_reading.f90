@@ -5,6 +5,7 @@ module gfb_scene_reading
   use gfb_case_keys, only: case_keys_type
   use gfb_changed_text, only: changed_text
   use gfb_case_text, only: read_case_text
+  use gfb_key_notes, only: noted_key_type
   use gfb_scene, only: scene_type
   use gfb_scene_checks, only: check_groups
   use gfb_sweep_case, only: swept_key_type, swept_keys
@@ -12,7 +13,7 @@ module gfb_scene_reading
   use gfb_scene_groups, only: read_groups
   implicit none (type, external)
   private
-  public :: read_scene, read_scene_text, scene_at_value, key_table
+  public :: read_scene, read_scene_text, scene_at_value, key_table, all_keys
 
   character(len=*), parameter :: ending = '.nml'
 
@@ -131,12 +132,28 @@ contains
   function key_table() result(table)
     character(len=:), allocatable :: table
     type(case_keys_type) :: keys
+
+    call read_nothing(keys)
+    table = keys%notes%table
+  end function key_table
+
+  !> All keys there are.
+  function all_keys() result(list)
+    type(noted_key_type), allocatable :: list(:)
+    type(case_keys_type) :: keys
+
+    call read_nothing(keys)
+    list = keys%notes%met(:keys%notes%count)
+  end function all_keys
+
+  !> Reads the keys of an empty file, and so notes what there is.
+  subroutine read_nothing(keys)
+    type(case_keys_type), intent(out) :: keys
     type(scene_type) :: scene
 
     call keys%open_text('', 'none')
     call read_groups(keys, scene)
-    table = keys%notes%table
-  end function key_table
+  end subroutine read_nothing
 
   !> A file's name without its folder and its ending.
   pure function base_name(file) result(name)

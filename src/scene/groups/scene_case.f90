@@ -11,9 +11,9 @@ module gfb_scene_case
   integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or, or a part
   integer, parameter, public :: analysis_linear_dynamics = 5 !! small vibrations about 1 or 2
 
-  character(len=*), parameter :: analysis_words(*) = [character(len=15) :: 'equilibrium', &
-                                                      'fixed_position', 'strip', 'modes', &
-                                                      'linear_dynamics']
+  character(len=*), parameter, public :: analysis_words(*) = [character(len=15) :: 'equilibrium', &
+                                                              'fixed_position', 'strip', &
+                                                              'modes', 'linear_dynamics']
 
   !> What is asked for.
   type :: scene_case_type

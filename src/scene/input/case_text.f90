@@ -1,13 +1,13 @@
 !> The characters of a case file, read once.
 module gfb_case_text
-  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
   use, intrinsic :: iso_fortran_env, only: iostat_end
   use gfb_kinds, only: long, wp
   use gfb_errors, only: error_type, fail, status_input
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: read_case_text
+  public :: read_case_text, read_standard_input
 
   integer(long), parameter :: longest = 1000000_long !! bytes; a case file has some thousand
 
@@ -18,6 +18,15 @@ module gfb_case_text
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int) :: answer
     end function gfb_is_no_file
+
+    function c_read(unit, bytes, most) result(taken) bind(c, name='read')
+      import :: c_char, c_int, c_size_t
+      implicit none (type, external)
+      integer(c_int), value :: unit
+      character(kind=c_char), intent(out) :: bytes(*)
+      integer(c_size_t), value :: most
+      integer(c_size_t) :: taken
+    end function c_read
   end interface
 
 contains
@@ -37,6 +46,33 @@ contains
     if (problem == '') problem = binary_problem(words)
     if (problem /= '') call fail(error, trim(file)//': '//problem, status_input)
   end subroutine read_case_text
+
+  !> All bytes of the standard input, up to its end.
+  !>
+  !> The problem is empty where it is a text.
+  subroutine read_standard_input(words, problem)
+    character(len=:), allocatable, intent(out) :: words !! that were read
+    character(len=:), allocatable, intent(out) :: problem !! in words
+    integer, parameter :: at_once = 4096 !! bytes
+    character(kind=c_char) :: bytes(at_once)
+    character(len=at_once) :: piece
+    integer(c_size_t) :: taken
+
+    words = ''
+    problem = ''
+    do
+      taken = c_read(0_c_int, bytes, int(at_once, c_size_t))
+      if (taken <= 0) exit
+      piece = transfer(bytes, piece)
+      words = words//piece(:taken)
+      if (len(words) > longest) exit
+    end do
+    if (taken < 0) problem = 'the standard input cannot be read'
+    if (problem == '' .and. words == '') problem = 'the standard input is empty'
+    if (len(words) > longest) problem = 'the standard input has more than the limit of '// &
+                                        megabytes(longest)
+    if (problem == '') problem = binary_problem(words)
+  end subroutine read_standard_input
 
   !> What keeps a file from being opened at all; a pipe would be waited for without end, and its
   !> size is zero.

@@ -4,7 +4,8 @@ module gfb_key_notes
   use gfb_text, only: exact_text, join
   implicit none (type, external)
   private
-  public :: key_type, key_notes_type, quoted, value_list, choices, chosen_word, chosen_words
+  public :: key_type, key_notes_type, noted_key_type, quoted, value_list, choices, &
+            chosen_word, chosen_words
 
   character(len=*), parameter, public :: real_words = 'real' !! a key that is one real number
   character(len=*), parameter, public :: no_default = 'none' !! nothing holds without the key
@@ -21,8 +22,20 @@ module gfb_key_notes
     logical :: given = .false.                      !! it stands in the file
   end type key_type
 
+  !> A key as it was met.
+  type :: noted_key_type
+    character(len=:), allocatable :: group
+    type(key_type) :: key
+    character(len=:), allocatable :: default !! in words
+    character(len=:), allocatable :: value   !! as it is shown
+    logical :: is_set = .false.    !! the value is more than a placeholder
+    logical :: is_echoed = .false. !! its group is there
+  end type noted_key_type
+
   !> The echo and the table of keys.
   type :: key_notes_type
+    type(noted_key_type), allocatable :: met(:) !! all keys, in their order; `count` of them
+    integer :: count = 0
     character(len=:), allocatable :: echo   !! a case file with every value used
     character(len=:), allocatable :: table  !! rows of a Markdown table
     character(len=:), allocatable :: group  !! the one that is open
@@ -45,6 +58,7 @@ contains
     if (.not. allocated(self%echo)) then
       self%echo = "! Every key with the value used; those not given are marked '(default)'."// &
                   new_line('a')
+      allocate (self%met(64))
       self%table = '| group | key | type | unit | default | meaning |'//new_line('a')// &
                    '| --- | --- | --- | --- | --- | --- |'//new_line('a')
     end if
@@ -75,9 +89,29 @@ contains
     if (key%default /= '') default = key%default
     self%table = self%table//'| `&'//self%group//'` | `'//key%name//'` | '//key%type_words// &
                  ' | '//key%unit//' | '//default//' | '//key%meaning//' |'//new_line('a')
+    call grow(self)
+    associate (one => self%met(self%count))
+      one%group = self%group
+      one%key = key
+      one%default = default
+      one%value = value_words
+      one%is_echoed = self%is_echoed
+    end associate
   end subroutine add_row
 
-  !> Adds the line of a key.
+  !> Makes room for another key.
+  pure subroutine grow(self)
+    type(key_notes_type), intent(inout) :: self
+    type(noted_key_type), allocatable :: longer(:)
+
+    self%count = self%count + 1
+    if (self%count <= size(self%met)) return
+    allocate (longer(2*size(self%met)))
+    longer(:size(self%met)) = self%met
+    call move_alloc(longer, self%met)
+  end subroutine grow
+
+  !> Adds the line of a key, which `add_row` has noted.
   pure subroutine add_line(self, key, value_words, is_set)
     class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
     type(key_type), intent(in) :: key !! of the group
@@ -85,6 +119,8 @@ contains
     logical, intent(in) :: is_set !! a value with a default in words is more than a placeholder
     character(len=:), allocatable :: line
 
+    self%met(self%count)%value = value_words
+    self%met(self%count)%is_set = is_set
     if (.not. self%is_echoed) return
     if (key%given .or. is_set .or. (key%default == '' .and. .not. key%required)) then
       line = '  '//key%name//' = '//value_words//' !'

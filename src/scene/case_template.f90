@@ -1,0 +1,203 @@
+!> A case file to begin with: every key of an analysis with unit, default and meaning.
+module gfb_case_template
+  use gfb_case_keys, only: case_keys_type
+  use gfb_errors, only: error_type, fail
+  use gfb_key_notes, only: noted_key_type, no_default
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_words
+  use gfb_scene_groups, only: read_groups
+  use gfb_text, only: join, nearest_word, plain_text
+  implicit none (type, external)
+  private
+  public :: template_text
+
+  integer, parameter :: comment_column = 42, longest_line = 120
+  character(len=1), parameter :: next = new_line('a')
+
+contains
+
+  !> The case file of an analysis with which it can begin: run as it is, it has an answer.
+  !>
+  !> Fails where there is no such analysis.
+  subroutine template_text(analysis, words, error)
+    character(len=*), intent(in) :: analysis !! as typed
+    character(len=:), allocatable, intent(out) :: words !! of the file
+    type(error_type), allocatable, intent(out) :: error !! why there is none
+    type(case_keys_type) :: keys
+    type(scene_type) :: scene
+    character(len=:), allocatable :: near
+
+    words = ''
+    if (all(analysis_words /= analysis)) then
+      near = nearest_word(analysis, analysis_words)
+      if (near /= '') near = ', did you mean '//near//'?'
+      call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//near// &
+                ' The analyses are '//join(analysis_words, ', '))
+      return
+    end if
+    call keys%open_text(example(analysis), 'template')
+    call read_groups(keys, scene)
+    words = introduction()//written(keys%notes%met(:keys%notes%count), offered(analysis))
+  end subroutine template_text
+
+  !> What a template begins with.
+  pure function introduction() result(words)
+    character(len=:), allocatable :: words
+
+    words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
+            'units.'//next// &
+            '! A key in a comment shows its default; take away its ''!'' to give another '// &
+            'value.'//next// &
+            '! The same holds for groups in comments. gfb --check CASE.nml tells of '// &
+            'mistakes,'//next// &
+            '! gfb --explain KEY of a key.'//next
+  end function introduction
+
+  !> The keys as a case file; the groups that are only offered stand in comments.
+  pure function written(met, offer) result(words)
+    type(noted_key_type), intent(in) :: met(:)
+    character(len=*), intent(in) :: offer !! groups between blanks
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: group, before
+    integer :: i
+
+    words = ''
+    group = ''
+    before = ''
+    do i = 1, size(met)
+      if (.not. met(i)%is_echoed) cycle
+      if (met(i)%group /= group) then
+        if (group /= '') words = words//before//'/'//next
+        group = met(i)%group
+        before = trim(merge('! ', '  ', index(offer, ' '//group//' ') > 0))
+        words = words//next
+        if (before /= '') words = words//'! Where it is wanted:'//next
+        words = words//before//'&'//group//next
+      end if
+      words = words//key_lines(met(i), before)
+    end do
+    words = words//before//'/'//next
+  end function written
+
+  !> A key with its comment, which may need several lines.
+  pure function key_lines(one, before) result(words)
+    type(noted_key_type), intent(in) :: one
+    character(len=*), intent(in) :: before !! '!' in a group that is only offered
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: line, left
+    integer :: last
+
+    line = before//'  ! '
+    if (one%key%given) line = before//'  '
+    line = line//one%key%name//' ='
+    if (one%key%given .or. one%is_set .or. one%key%default == '') line = line//' '//one%value
+    left = comment(one)
+    words = ''
+    do
+      if (len(line) < comment_column - 1) line = line//repeat(' ', comment_column - 1 - len(line))
+      line = line//' ! '
+      last = len(left)
+      if (len(line) + last > longest_line) then
+        last = index(left(:min(last, longest_line - len(line))), ' ', back=.true.)
+        if (last == 0) last = len(left)
+      end if
+      words = words//line//trim(left(:last))//next
+      left = left(last + 1:)
+      if (left == '') exit
+      line = before
+    end do
+  end function key_lines
+
+  !> Unit, meaning, choice and default of a key.
+  pure function comment(one) result(words)
+    type(noted_key_type), intent(in) :: one
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (one%key%unit /= '' .and. one%key%unit /= '1') words = '['//one%key%unit//'] '
+    words = words//plain_text(one%key%meaning)
+    if (index(one%key%type_words, '`') > 0) words = words//': '//plain_text(one%key%type_words)
+    if (one%key%required) then
+      words = words//' (required)'
+    else if (one%key%default /= '' .and. one%key%default /= no_default) then
+      words = words//' (default: '//plain_text(one%key%default)//')'
+    else if (one%key%given .and. one%key%default == '') then
+      words = words//' (default: '//plain_text(one%default)//')'
+    end if
+  end function comment
+
+  !> The groups that stand in a template's comments, with values that fit.
+  pure function offered(analysis) result(groups)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: groups
+
+    select case (analysis)
+    case ('strip')
+      groups = ' accuracy '
+    case ('modes')
+      groups = ' '
+    case ('linear_dynamics')
+      groups = ' shaft_contact sweep rotor '
+    case default
+      groups = ' shaft_contact sweep accuracy '
+    end select
+  end function offered
+
+  !> The values that a template begins with: those of `inputs/`.
+  pure function example(analysis) result(words)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: words
+
+    words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"//next
+    select case (analysis)
+    case ('strip')
+      words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' /"//next// &
+              '&contact friction_sleeve=0.1 /'//next// &
+              "&strip_load kind='crest_pressure' pressure=0.2e6 steps_up=10 /"//next// &
+              "&accuracy quantity='maximum_deflection' /"//next
+    case ('modes')
+      words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' /"//next// &
+              "&modes part='strip' count=6 /"//next
+    case default
+      words = words//bearing_example(analysis)
+    end select
+  end function example
+
+  !> The same of a bearing.
+  pure function bearing_example(analysis) result(words)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: words
+
+    words = '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//next// &
+            '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//next// &
+            '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
+            "fixed_edge='trailing' /"//next// &
+            bumps(26)//"fixed_edge='trailing' fixed_line='half_flat' /"//next// &
+            '&contact friction_top=0.1 friction_sleeve=0.1 /'//next// &
+            "&model foil='beam' /"//next// &
+            '&shaft_contact roughness=0.5e-6 pressure=10.0e6 /'//next
+    if (analysis == 'fixed_position') then
+      words = words//'&operation speed_rpm=30000.0 eccentricity=30.0e-6, 9.0e-6 /'//next// &
+              "&sweep parameter='eccentricity_x' values=30.0e-6, 29.0e-6, 28.0e-6 /"//next
+    else
+      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
+              "&sweep parameter='load' values=100.0, 90.0, 80.0 /"//next
+    end if
+    if (analysis == 'linear_dynamics') then
+      words = words//'&dynamics frequency_ratios=0.5, 1.0 /'//next//'&rotor mass=1.0 /'//next
+    else
+      words = words//"&accuracy quantity='minimum_gap' /"//next
+    end if
+  end function bearing_example
+
+  !> The bump foil of [Gu2020], case 1, but for its fixed edge.
+  pure function bumps(number) result(words)
+    integer, intent(in) :: number !! of bumps
+    character(len=:), allocatable :: words
+    character(len=8) :: digits
+
+    write (digits, '(i0)') number
+    words = '&bump_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
+            'half_length=1.778e-3 height=0.508e-3 pitch=4.572e-3 bumps='//trim(digits)//' '
+  end function bumps
+end module gfb_case_template

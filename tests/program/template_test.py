@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""A scene from nothing: templates that run unchanged, keys and results explained, a case from the standard input."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
+
+ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics")
+SECONDS = 120
+
+
+def call(*words, folder, given="", ranks=1):
+    """Status, output and error stream."""
+    command = [GFB, *words] if ranks == 1 else [MPIEXEC, "-n", str(ranks), GFB, *words]
+    done = subprocess.run(command, cwd=folder, input=given.encode(), capture_output=True, timeout=SECONDS, check=False)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def wanted(text, group):
+    """A template with a group that it only offers."""
+    inside = re.search(rf"^!&{group}$.*?^!/$", text, re.M | re.S)[0]
+    return text.replace(inside, "\n".join(line[1:] for line in inside.split("\n")))
+
+
+def check_templates(checks, folder):
+    """Every analysis has one; it runs as it is, without a warning, and with each group that it offers."""
+    for analysis in ANALYSES:
+        status, text, wrong = call("--template", analysis, folder=folder)
+        checks.that(f"--template {analysis}", status == 0 and not wrong and f"analysis = '{analysis}'" in text)
+        checks.that(f"{analysis}: lines that a screen has", max(map(len, text.splitlines())) <= 120)
+        (folder/f"{analysis}.nml").write_text(text, encoding="utf-8")
+        status, _, wrong = call("--strict", "--output", "there", f"{analysis}.nml", folder=folder)
+        checks.that(f"{analysis}: runs unchanged {wrong}", status == 0 and (folder/f"there/{analysis}.h5").exists())
+        for group in re.findall(r"^!&(\w+)$", text, re.M):
+            status, _, wrong = call("--check", "--strict", "-", folder=folder, given=wanted(text, group))
+            checks.that(f"{analysis}: with &{group} {wrong}", status == 0)
+    _, text, _ = call("--template=equilibrium", folder=folder)
+    keys = {(group, key) for group, key in re.findall(r"^\| `&(\w+)` \| `(\w+)` ", call("--keys", folder=folder)[1], re.M)
+            if group not in ("modes", "strip_load", "dynamics", "rotor")}
+    named, group = set(), ""
+    for line in text.splitlines():
+        group = (re.findall(r"^!?&(\w+)$", line) or [group])[0]
+        named |= {(group, key) for key in re.findall(r"^!?  (?:! )?(\w+) = ?", line)}
+    checks.that(f"equilibrium: all its keys are there {sorted(keys ^ named)}", named == keys)
+    for word, expected in (("strp", "did you mean strip?"), ("nonsense", "The analyses are equilibrium")):
+        status, words, wrong = call("--template", word, folder=folder)
+        checks.that(f"--template {word}: {expected}", status == 1 and expected in wrong and not words)
+
+
+def check_explanations(checks, folder):
+    """--explain and help, of keys, groups and results."""
+    for word, parts in {
+            "bearing%clearance": ("key clearance of &bearing", "unit     m", "required"),
+            "&gas": ("&gas has the keys", "viscosity [Pa s]"),
+            "load": ("key load of &operation", "result load"),
+            "frequency_3": ("natural frequency", "Hz"),
+            "minimum_gap_error": ("unit     m", "&accuracy")}.items():
+        status, told, wrong = call("--explain", word, folder=folder)
+        checks.that(f"{word}: {parts}", status == 0 and not wrong and all(part in told for part in parts))
+        checks.that(f"{word}: no mark of Markdown", "`" not in told)
+    checks.that("help WORD is --explain WORD", call("help", "load", folder=folder)[1] == call(
+        "--explain=load", folder=folder)[1])
+    status, told, wrong = call("--explain", "clearence", folder=folder)
+    checks.that("clearence: the nearest name", status == 1 and "did you mean clearance?" in wrong and not told)
+    checks.that("help is --help", call("help", folder=folder)[1] == call("--help", folder=folder)[1])
+    checks.that("--explain alone", "needs a key" in call("--explain", folder=folder)[2])
+
+
+def check_input(checks, folder):
+    """`-` is the standard input, and what follows `--` is a file."""
+    case = call("--template", "strip", folder=folder)[1]
+    for ranks in (1, 2):
+        place = folder/str(ranks)
+        status, _, wrong = call("--output", str(place), "-", folder=folder, given=case, ranks=ranks)
+        checks.that(f"gfb - on {ranks} rank(s) {wrong}", status == 0 and (place/"stdin.summary").exists())
+    status, _, wrong = call("-", folder=folder, given=case.replace("&bump_foil", "&bumpfoil"))
+    checks.that("its mistakes have a place", status == 1 and re.search(r"^stdin:\d+: unknown group '&bumpfoil'", wrong, re.M))
+    for given, expected in (("", "is empty"), ("\0", "is binary"), ("! long\n"*200000, "more than the limit")):
+        status, _, wrong = call("-", folder=folder, given=given)
+        checks.that(f"gfb -: {expected}", status == 1 and expected in wrong)
+    checks.that("--groups -: refused", "not the standard input" in call("--groups", "1", "-", folder=folder, given=case)[2])
+    (folder/"-x.nml").write_text(case, encoding="utf-8")
+    status, _, _ = call("--output", "dash", "--", "-x.nml", folder=folder)
+    checks.that("gfb -- -x.nml", status == 0 and (folder/"dash/-x.summary").exists())
+
+
+def main():
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    checks = Checks()
+    for check in (check_templates, check_explanations, check_input):
+        with tempfile.TemporaryDirectory() as folder:
+            check(checks, pathlib.Path(folder))
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
