@@ -23,8 +23,8 @@ module gfb_edge_heights
   real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   real(wp), parameter :: first_step = 0.25_wp    !! of a path with the edge fixed, to the target [1]
   character(len=*), parameter :: suction = 'the film draws the free edge of the top foil to the shaft'
-  real(wp), parameter, public :: low_edge = -0.2_wp !! height of an edge that lies on its bumps, over the clearance [1]
-  real(wp), parameter :: lowest = -0.5_wp        !! where the film still presses it down, the same [1]
+  real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
+  real(wp), parameter, public :: lowest = -0.5_wp !! where the film still presses it down, the same [1]
   real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
   real(wp), parameter :: firm = 10.0_wp          !! times the largest force so far: the bumps push the edge back [1]
   real(wp), parameter :: next_height = 0.1_wp    !! from the one before, the same [1]
@@ -95,13 +95,15 @@ contains
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! it stays nowhere
     real(wp) :: highest !! edge that is accepted, over the clearance [1]
+    logical :: drawn_up
 
     ends = .false.
     report%converged = .false.
     ! It moves the way the film presses it.
-    highest = merge(resting, 0.0_wp, edge_force(problem%bearing) < 0.0_wp)
+    drawn_up = edge_force(problem%bearing) < 0.0_wp
+    highest = merge(resting, 0.0_wp, drawn_up)
     call release(problem, problem%target, problem%newton%settings, &
-                 [low_edge, highest]*clearance_of(problem%bearing), report)
+                 [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
     if (.not. report%converged) call seek_height(problem, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
 

@@ -12,10 +12,11 @@ module gfb_edge_start
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_bearing_directions, only: edge_force
   use gfb_start_position, only: guess_position
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_heights, only: release_edge, release, with_fixed_edge, settings_with_fixed_edge, clearance_of, low_edge
+  use gfb_edge_heights, only: release_edge, release, with_fixed_edge, settings_with_fixed_edge, clearance_of, lowest
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
@@ -105,7 +106,7 @@ contains
     free%edge_hold = 0.0_wp
     free%edge_height = 0.0_wp
     call release(problem, free, problem%newton%settings, &
-                 [low_edge*clearance_of(problem%bearing), problem%bearing%point%edge_height], report)
+                 [lowest*clearance_of(problem%bearing), problem%bearing%point%edge_height], report)
     if (.not. report%converged) return
     call problem%anchor%keep(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
@@ -121,12 +122,14 @@ contains
     logical, intent(out) :: ends !! neither leads there
     type(path_report_type) :: released
     type(kept_state_type) :: last
+    logical :: sunk
 
     released = report
     call last%keep(problem%bearing)
     call fixed%put_back(problem%bearing)
     call follow_path(problem%bearing, problem%newton, with_fixed_edge(problem), first_step, settings, report)
-    ends = .not. report%converged .and. (report%has_cause() .or. released%folded)
+    sunk = edge_force(problem%bearing) > 0.0_wp ! without a hold the edge lies lower, and the path may lead on
+    ends = .not. report%converged .and. (report%has_cause() .and. .not. sunk .or. released%folded)
     if (ends .and. released%folded) then
       report = released
       call last%put_back(problem%bearing)
