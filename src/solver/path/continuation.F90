@@ -76,7 +76,7 @@ contains
       trial = min(1.0_wp, report%fraction + step)
       bearing%point = point_between(start, target, trial)
       call predict(bearing, here, before, report%fraction, at_before, trial)
-      call try_step(newton, step >= 2.0_wp*smallest, solved)
+      call try_step(newton, step >= 2.0_wp*smallest, settings, solved)
       if (.not. solved%converged) then
         report%cuts = report%cuts + 1
         just_cut = .true. ! what failed need not be tried again at once
@@ -213,16 +213,20 @@ contains
 
   !> Newton's method, which gives up early where a shorter step can be tried: a step that
   !> converges does so soon.
-  subroutine try_step(newton, may_be_cut, solved)
+  subroutine try_step(newton, may_be_cut, settings, solved)
     type(newton_type), target, intent(inout) :: newton
     logical, intent(in) :: may_be_cut
+    type(path_settings_type), intent(in) :: settings
     type(newton_report_type), intent(out) :: solved
-    integer :: allowed
+    integer :: allowed, straight
 
+    straight = newton%settings%straight_steps
+    newton%settings%straight_steps = min(straight, settings%straight_steps)
     allowed = newton%settings%maximum_iterations
     if (may_be_cut) newton%settings%maximum_iterations = min(allowed, hasty_iterations)
     call solve_newton(newton, solved)
     newton%settings%maximum_iterations = allowed
+    newton%settings%straight_steps = straight
   end subroutine try_step
 
   !> Says so where a path ended because the gap closes, because its answers turn back, or because the film is emptied.

@@ -14,6 +14,7 @@ module gfb_path_report
     integer :: most_cuts = huge(1)        !! of steps, after one that succeeded
     !> Of any scaled unknown, where the branch is lost; farther off lies another one [1].
     real(wp) :: longest_leap = 0.05_wp
+    integer :: straight_steps = huge(1)   !! Newton's, before they are bent at contacts
   end type path_settings_type
 
   !> How far a path led.

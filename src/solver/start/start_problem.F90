@@ -20,6 +20,7 @@ module gfb_start_problem
 
   real(wp), parameter :: shortest_trial = 0.02_wp !! step of a path of such a start [1]
   integer, parameter :: most_steps = 20           !! of it
+  integer, parameter :: straight_steps = 8        !! Newton's, of one of its steps, before they are bent
 
   !> How a start uses soft two-way contact springs.
   type, public :: soft_contacts_type
@@ -84,5 +85,6 @@ contains
     trial%smallest_step = max(settings%smallest_step, shortest_trial)
     trial%maximum_steps = min(settings%maximum_steps, most_steps)
     trial%longest_leap = huge(1.0_wp)
+    trial%straight_steps = straight_steps
   end function trial_settings
 end module gfb_start_problem
