@@ -24,6 +24,8 @@ def table_of(gfb, name):
     done = call([gfb, f"--{name}"])
     if done.status != 0:
         stop(f"{gfb} --{name} ended with status {done.status}:\n{done.complaint}", 3)
+    if not done.log.startswith("| "):
+        stop(f"{gfb} --{name}: no table; is it gfb?")
     return done.log.strip() + "\n"
 
 

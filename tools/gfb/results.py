@@ -3,6 +3,7 @@
 import contextlib
 import csv
 import dataclasses
+import json
 import pathlib
 import re
 import zlib
@@ -18,7 +19,8 @@ COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_fines
 SEAL = re.compile(rb"gfb crc32 ([0-9a-f]{8}) ([0-9a-f]{16})\n$")
 SEAL_LENGTH = 36
 PLAIN = b"gfb crc32 ******** ****************\n"  # what of it is always there
-BROKEN = (OSError, KeyError, IndexError, ValueError, TypeError, RuntimeError)  # what reading a file of another kind ends in
+# What reading a file of another kind ends in.
+BROKEN = (OSError, KeyError, IndexError, ValueError, TypeError, RuntimeError, AttributeError, ArithmeticError, MemoryError)
 
 
 class Unreadable(OSError):
@@ -95,6 +97,13 @@ def read_film(path):
         rows = int((points[:, 0] == points[0, 0]).sum())
         fields |= {"x": points[:, 0], "z": points[:, 2]}
         return {name: data.reshape(len(points)//rows, rows) for name, data in fields.items()}
+
+
+def read_json(path, *names):
+    """What a tool has kept in a JSON file; under the names given, which must be there."""
+    with reading(path):
+        content = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        return tuple(content[name] for name in names) if names else content
 
 
 def text_of(value):

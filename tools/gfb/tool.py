@@ -1,9 +1,12 @@
 """What every tool begins and ends with: the checkout, Python packages, a message and a status."""
 
+import importlib.abc
+import importlib.machinery
 import importlib.util
 import os
 import pathlib
 import sys
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEASURED = ROOT/"docs/measured"  # pages and pictures that tools write
@@ -21,8 +24,39 @@ def stop(words, status=1):
     sys.exit(status)
 
 
+def run(main):
+    """A tool from its start to its status: what a file or the machine is to blame for ends in one sentence."""
+    try:
+        return main()
+    except KeyboardInterrupt:
+        return 130
+    except OSError as error:
+        from gfb.results import Unreadable  # not before the packages are there
+        if isinstance(error, Unreadable):
+            return stop(str(error))
+        return stop(f"{error.filename}: {error.strerror}" if error.filename else " ".join(str(error).split()), 3)
+
+
+class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Finds what is missing as modules that hold anything: enough for what a tool says of its options."""
+
+    def __init__(self, missing):
+        self.missing = missing
+
+    def find_spec(self, name, path=None, target=None):
+        """A module of a missing package."""
+        return importlib.machinery.ModuleSpec(name, self, is_package=True) if name.split(".")[0] in self.missing else None
+
+    def create_module(self, spec):
+        """One that has every name."""
+        return unittest.mock.MagicMock(name=spec.name)
+
+    def exec_module(self, module):
+        """Nothing is to be done."""
+
+
 def need_packages():
-    """Starts the tool again with a Python that has the packages, where this one has not."""
+    """Starts the tool again with a Python that has the packages, where this one has not; --help is answered without them."""
     missing = [name for name in PACKAGES if importlib.util.find_spec(name) is None]
     if not missing:
         return
@@ -31,5 +65,8 @@ def need_packages():
         if python not in tried and os.access(python, os.X_OK):
             os.environ["GFB_TOOLS_PYTHON"] = ":".join(tried + [python])
             os.execv(python, [python, *sys.argv])
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        sys.meta_path.append(StandIns(missing))
+        return
     stop(f"Python packages are missing: {', '.join(missing)}. tools/test installs them; with apt:\n"
          "  apt-get install python3-numpy python3-h5py python3-matplotlib")

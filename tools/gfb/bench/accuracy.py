@@ -13,6 +13,7 @@ import statistics
 import tempfile
 
 from gfb.build import version_of
+from gfb.results import read_json
 from gfb.run import run_case
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import MEASURED, ROOT, stop
@@ -139,7 +140,7 @@ def mesh_keys(mesh):
 def compute_reference(gfb, folder, names):
     """Answers on fine meshes, with where they come from."""
     version = version_of(gfb)
-    scenes = json.loads(REFERENCE.read_text(encoding="utf-8"))["scenes"] if REFERENCE.exists() else {}
+    scenes = read_json(REFERENCE, "scenes")[0] if REFERENCE.exists() else {}
     for name in names:
         quantity = SCENES[name][0]
         values, groups = [], case_of(name)
@@ -183,7 +184,7 @@ def run(options):
             compute_reference(options.gfb, folder, options.scenes)
         if not REFERENCE.exists():
             stop(f"there is no {REFERENCE}: --reference computes it")
-        fine = json.loads(REFERENCE.read_text(encoding="utf-8"))["scenes"]
+        fine = read_json(REFERENCE, "scenes")[0]
         rows = [measure(options.gfb, folder, name, fine[name]) for name in options.scenes]
     (options.output/"accuracy.md").write_text(report(rows, markdown_table), encoding="utf-8")
     return report(rows, plain_table)

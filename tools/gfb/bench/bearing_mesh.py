@@ -15,7 +15,7 @@ import tempfile
 
 import numpy
 
-from gfb.results import open_results
+from gfb.results import open_results, reading
 from gfb.run import run_case
 
 RADIUS, CLEARANCE, PRESSURE = 19.05e-3, 31.8e-6, 1.0135e5
@@ -106,7 +106,7 @@ def largest_sag(path):
 
     A sag is the deflection between two crests less the mean at these.
     """
-    with open_results(path) as file:
+    with reading(path), open_results(path) as file:
         points = file["VTKHDF/Points"][...]
         deflection = file["VTKHDF/PointData/deflection"][...]
     middle = numpy.abs(points[:, 2]) <= 1.0e-9*RADIUS

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import time
 
-from gfb.results import read_summary
+from gfb.results import read_json, read_summary
 from gfb.run import ENVIRONMENT, command_of, write_case
 from gfb.tool import ROOT, stop
 
@@ -155,9 +155,9 @@ def kept_rows(store, program):
     """{key: row} of an earlier run of the tool with the same program."""
     if not store.exists():
         return {}
-    kept = json.loads(store.read_text(encoding="utf-8"))
-    if kept["program"] == program:
-        return kept["rows"]
+    kept, rows = read_json(store, "program", "rows")
+    if kept == program:
+        return rows
     print("kept rows are of another build of gfb: measuring anew", flush=True)
     return {}
 

@@ -11,7 +11,7 @@ import re
 
 from gfb.plot.film import draw_film, read_film
 from gfb.plot.strip import used_keys
-from gfb.results import open_results, read_history, reading, read_summary, text_of
+from gfb.results import open_results, read_history, reading, read_json, read_summary, text_of
 from gfb.run import DONE, NOT_CONVERGED, call, command_of, namelist_value, stem_of
 from gfb.tool import ROOT, stop
 
@@ -146,8 +146,7 @@ class Runs:
         """What an earlier call noted of the same case, if it may be taken."""
         if not self.reuse or not note.exists() or path.read_text(encoding="utf-8") != text:
             return None
-        with reading(note):
-            return json.loads(note.read_text(encoding="utf-8"))
+        return read_json(note)
 
     def run_all(self, cases, may_stop=False):
         """Results of several (case, changes), some at a time."""

@@ -8,6 +8,7 @@ import numpy
 from gfb.bench import strip as bench_strip
 from gfb.gallery.page import STRIP_FRAME, Page, change_words, input_link, percent
 from gfb.plot import strip as plot_strip
+from gfb.results import read_json
 from gfb.tool import ROOT
 
 REFERENCE = ROOT/"tests/verification/reference/strip.json"
@@ -25,7 +26,7 @@ DOUBLE_MESH = {"mesh.arc_elements": 24, "mesh.flat_elements": 6, "mesh.axial_ele
 
 def independent():
     """The independent program's numbers."""
-    return json.loads(REFERENCE.read_text(encoding="utf-8"))
+    return read_json(REFERENCE)
 
 
 # --- what condensation saves ---
@@ -81,7 +82,7 @@ def timed(runs):
     """Measurements of tools/bench strip's first two scenes, kept with the runs."""
     kept = pathlib.Path(runs.folder)/"section41_times.json"
     if runs.reuse and kept.exists():
-        measured = json.loads(kept.read_text(encoding="utf-8"))
+        measured = read_json(kept)
     else:
         runs.folder.mkdir(parents=True, exist_ok=True)
         scenes = bench_strip.SCENES[:2]

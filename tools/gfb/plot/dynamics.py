@@ -1,5 +1,6 @@
 """The picture of a bearing's stiffness and damping over the frequency of vibration."""
 
+import numpy
 from matplotlib import pyplot
 
 from gfb.tool import stop
@@ -12,15 +13,23 @@ CHARTS = (("stiffness", ENTRIES, 1.0e-6, "K [MN/m]"), ("damping", ENTRIES, 1.0e-
           ("stiffness", ANGLES, 1.0, "K [N m/rad]"), ("damping", ANGLES, 1.0, "C [N m s/rad]"))
 
 
-def draw(path, file):
-    """Displacements above, tilts below; stiffness at the left, damping at the right."""
+def draw(path, file, steps=()):
+    """Displacements above, tilts below; stiffness at the left, damping at the right; of a sweep the last point, or the one named."""
     if "dynamics" not in file:
         stop(f"{path}: no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
-    group = file["dynamics"]
-    frequency = group["frequency"][...]
+    group, words = file["dynamics"], ""
+    frequency, here = group["frequency"][...], ...
+    if group["stiffness"].ndim == 4:
+        points = len(frequency)
+        if len(steps) > 1 or not all(0 < step <= points for step in steps):
+            stop(f"{path}: one point of the sweep at a time, --step 1 to {points}")
+        here = steps[0] - 1 if steps else points - 1
+        frequency, words = numpy.atleast_1d(frequency[here]), f", point {here + 1}"
+    elif steps:
+        stop(f"{path}: not a sweep: stiffness and damping are drawn without --step")
     figure, axes = pyplot.subplots(2, 2, figsize=(10.0, 6.6), layout="constrained", sharex=True)
     for chart, (name, entries, scale, label) in zip(axes.flat, CHARTS):
-        values = group[name][...]*scale
+        values = group[name][here]*scale
         for words, row, column, colour, style in entries:
             chart.plot(frequency, values[:, row, column], style, color=colour, marker="o", markersize=3.0, label=words)
         chart.axhline(0.0, color="0.6", linewidth=0.8)
@@ -30,5 +39,5 @@ def draw(path, file):
         chart.legend(fontsize=8)  # of its row
     for chart in axes[1]:
         chart.set_xlabel("frequency of vibration [rad/s]")
-    figure.suptitle(path.name.removesuffix(".h5"), fontsize=11)
+    figure.suptitle(path.name.removesuffix(".h5") + words, fontsize=11)
     return figure

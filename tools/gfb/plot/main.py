@@ -104,9 +104,9 @@ def draw(options, paths, files):
     if options.show in rotor.KINDS:
         return rotor.draw(paths, files, options.show)
     if options.show == dynamics.KIND:
-        if len(files) > 1 or options.step:
-            stop("stiffness and damping are drawn of one file, without --step")
-        return dynamics.draw(path, file)
+        if len(files) > 1:
+            stop("stiffness and damping are drawn of one file")
+        return dynamics.draw(path, file, options.step)
     if of_strips or (not options.columns and strip.is_strip(file)):
         return strip.draw(paths, files, options.show, options.step)
     if foil.is_foil(file):
