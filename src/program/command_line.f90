@@ -35,6 +35,7 @@ module gfb_command_line
     logical :: results = .false. !! print the table of all names of results
     character(len=:), allocatable :: template !! analysis whose template to print; empty: none
     character(len=:), allocatable :: explain  !! key or result to explain; empty: none
+    logical :: csv = .false.     !! the history as comma-separated values, too
     logical :: quiet = .false.   !! no line per iteration
     character(len=:), allocatable :: words !! the whole line
   contains
@@ -42,10 +43,10 @@ module gfb_command_line
     procedure :: informs
   end type command_line_type
 
-  character(len=12), parameter :: options(17) = [character(len=12) :: &
+  character(len=12), parameter :: options(18) = [character(len=12) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
     '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit', &
-    '--template', '--explain']
+    '--template', '--explain', '--csv']
 
 contains
 
@@ -106,6 +107,8 @@ contains
         line%explain = argument(i)
         if (line%explain == '') call fail(error, 'gfb: --explain needs a key, or the name of '// &
                                           'a result')
+      case ('--csv')
+        line%csv = .true.
       case ('--quiet')
         line%quiet = .true.
       case ('--petsc') ! the rest is for PETSc
@@ -302,6 +305,7 @@ contains
     context%folder = self%folder
     context%command = self%words
     context%petsc_options = given_petsc_options()
+    context%csv = self%csv
     context%resumes = self%restart
     context%start_time = wall_time()
     context%log = log
@@ -328,6 +332,7 @@ contains
       '  --restart       resume from CASE.restart.h5, which a killed run left behind'//next// &
       '  --time-limit T  stop after T seconds (or M:S, or H:M:S) as by a signal'//next// &
       '  --quiet         no line per iteration'//next// &
+      '  --csv           write the history as CASE.csv, too (a sweep does anyway)'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
       '  --name NAME     of the table of several cases; default: ensemble'//next// &
@@ -343,7 +348,8 @@ contains
       '  --              case files follow, also such as begin with -'//next// &
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
       next// &
-      'results: CASE.summary, .h5, .used.nml, and surfaces as .<part>.vtkhdf;'//next// &
+      'results: CASE.summary, .h5, .used.nml, .csv of sweeps, and surfaces as '// &
+      '.<part>.vtkhdf;'//next// &
       'CASE.unconverged.* where no answer was found, CASE.branches.* of --branches'//next// &
       'exit status: 0 done, 1 the input is wrong, 2 did not converge,'//next// &
       '             3 a file or the machine failed, 124 stopped by the time limit,'//next// &

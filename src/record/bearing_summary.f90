@@ -132,9 +132,10 @@ contains
   end function attitude_angle
 
   !> The answer in the units an engineer reads.
-  subroutine show_closing_block(log, converged, answer, clearance, cost, ranks, blas)
+  subroutine show_closing_block(log, converged, place, answer, clearance, cost, ranks, blas)
     type(run_log_type), intent(in) :: log !! where lines go
     logical, intent(in) :: converged !! it is an answer, not the last state reached
+    character(len=*), intent(in) :: place !! point of the sweep, in words; empty without one
     type(bearing_answer_type), intent(in) :: answer !! to be shown
     real(wp), intent(in) :: clearance     !! C [m]
     type(cost_type), intent(in) :: cost !! of the whole run
@@ -147,6 +148,7 @@ contains
     else
       call log%heading('last state reached, not the answer')
     end if
+    if (place /= '') call log%line('point            '//place)
     call log%line('eccentricity     '//pair(answer%eccentricity, 'um', 1.0e6_wp)// &
                   '   over C '//text(answer%eccentricity(1)/clearance, 5)//', '// &
                   text(answer%eccentricity(2)/clearance, 5))

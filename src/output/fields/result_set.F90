@@ -9,7 +9,7 @@ module gfb_result_set
   use gfb_petsc_session, only: this_rank, rank_count, share_failure
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
-  use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text
+  use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, history_csv
   use gfb_grid_file, only: grid_type, grid_field_type, write_grid_file
   use gfb_text_file, only: write_unfinished_text
   use gfb_run_log, only: run_log_type
@@ -30,7 +30,7 @@ contains
   !>
   !> Fails when a file cannot be written; older results are then as they were.
   subroutine write_result_set(scene, folder, converged, provenance, summary, history, arrays, grids, &
-                              log, error)
+                              csv, log, error, columns)
     type(scene_type), intent(in) :: scene !! with its name and echo
     character(len=*), intent(in) :: folder !! where the files go
     logical, intent(in) :: converged !! it is an answer, not the last state reached
@@ -39,19 +39,21 @@ contains
     type(history_row_type), intent(in) :: history(:) !! a row for each point or step
     type(case_array_type), intent(in) :: arrays(:) !! further arrays of the result file
     type(result_grid_type), intent(in) :: grids(:) !! surfaces, a file each
+    logical, intent(in) :: csv !! the history also as a table, which a sweep has anyway
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
 
-    character(len=:), allocatable :: stem, names
+    character(len=:), allocatable :: stem, names, table
     type(result_file_type) :: file
-    type(unfinished_file_type) :: files(size(grids) + 3)
+    type(unfinished_file_type) :: files(size(grids) + merge(4, 3, csv .or. scene%sweep%present))
     integer :: i
 
     stem = folder//'/'//scene%name
     if (.not. converged) stem = stem//'.unconverged'
     names = stem//'.summary, .h5'
     call write_case_file(stem//'.h5', PETSC_COMM_WORLD, this_rank() == 0, scene%verbatim, &
-                         scene%echo, provenance, summary, history, arrays, file, error)
+                         scene%echo, provenance, summary, history, arrays, file, error, columns)
     call share_failure(error)
     files(1) = file%written
     do i = 1, size(grids)
@@ -63,7 +65,12 @@ contains
       call share_failure(error)
       files(i + 1) = file%written
     end do
-    if (this_rank() == 0) call keep_all(stem, files, summary, scene, error)
+    table = ''
+    if (csv .or. scene%sweep%present) then
+      table = history_csv(history, columns)
+      names = names//', .csv'
+    end if
+    if (this_rank() == 0) call keep_all(stem, files, summary, table, scene, error)
     call share_failure(error)
     if (allocated(error)) return
     call log%line('')
@@ -71,15 +78,17 @@ contains
   end subroutine write_result_set
 
   !> Writes the small files too and gives all of them their names, the summary last; none stays unfinished.
-  subroutine keep_all(stem, files, summary, scene, error)
+  subroutine keep_all(stem, files, summary, table, scene, error)
     character(len=*), intent(in) :: stem
     type(unfinished_file_type), intent(inout) :: files(:)
     type(quantity_type), intent(in) :: summary(:)
+    character(len=*), intent(in) :: table !! comma-separated values; empty: not wanted
     type(scene_type), intent(in) :: scene
     type(error_type), allocatable, intent(inout) :: error !! of the large files
     integer :: i
 
     associate (last => size(files))
+      if (table /= '' .and. .not. allocated(error)) call write_unfinished_text(stem//'.csv', table, files(last - 2), error)
       if (.not. allocated(error)) call write_unfinished_text(stem//'.used.nml', scene%echo, files(last - 1), error)
       if (.not. allocated(error)) call write_unfinished_text(stem//'.summary', summary_text(summary), files(last), error)
     end associate

@@ -1,12 +1,15 @@
 !> `<case>.h5`: the scene, where it was computed, its summary and its history.
 module gfb_case_file
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_quantity, only: quantity_type, quantity_word
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_number
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
+  use gfb_text, only: exact_text, text
   implicit none (type, external)
   private
-  public :: write_case_file, write_quantities, write_history, summary_text, fill_array, add_arrays
+  public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
+            add_arrays, history_csv, history_values
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -30,7 +33,7 @@ contains
   !>
   !> Fails when it cannot be written.
   subroutine write_case_file(path, communicator, first_rank, verbatim, echo, &
-                             provenance, summary, history, arrays, file, error)
+                             provenance, summary, history, arrays, file, error, columns)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's
     logical, intent(in) :: first_rank !! this rank leads
@@ -42,6 +45,7 @@ contains
     type(case_array_type), intent(in) :: arrays(:)   !! their groups are made as needed
     type(result_file_type), intent(out) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+    type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
 
     call open_result_file(path, communicator, first_rank, file, error)
     if (allocated(error)) return
@@ -50,7 +54,7 @@ contains
     call file%put_text('/scene/used', echo, 'every key with the value used; it can be run again')
     call write_quantities(file, '/provenance', provenance)
     call write_quantities(file, '/summary', summary)
-    call write_history(file, history)
+    call write_history(file, history, columns)
     call write_arrays(file, arrays)
     call close_result_file(file, error)
   end subroutine write_case_file
@@ -135,32 +139,73 @@ contains
   end subroutine write_quantities
 
   !> One dataset a name, one entry a row; a row without the name has NaN there.
-  subroutine write_history(file, history)
+  subroutine write_history(file, history, columns)
     type(result_file_type), intent(inout) :: file !! the file being written
     type(history_row_type), intent(in) :: history(:) !! a row a step or point
+    type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
     type(quantity_type), allocatable :: column(:)
-    real(wp), allocatable :: values(:)
-    integer :: i, row
+    integer :: i
 
     call file%group('/history')
-    call collect_columns(history, column)
+    call collect_columns(history, column, columns)
     do i = 1, size(column)
-      allocate (values(size(history)))
-      do row = 1, size(history)
-        values(row) = value_of(history(row), column(i)%name)
-      end do
-      call file%put_numbers('/history/'//column(i)%name, values, column(i)%unit, column(i)%meaning)
-      deallocate (values)
+      call file%put_numbers('/history/'//column(i)%name, history_values(history, column(i)%name), &
+                            column(i)%unit, column(i)%meaning)
     end do
   end subroutine write_history
 
+  !> The history as comma-separated values; the first line has names and units.
+  function history_csv(history, columns) result(words)
+    type(history_row_type), intent(in) :: history(:) !! a row a step or point
+    type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
+    character(len=:), allocatable :: words
+    type(quantity_type), allocatable :: column(:)
+    real(wp) :: value
+    integer :: i, row
+
+    call collect_columns(history, column, columns)
+    words = ''
+    do i = 1, size(column)
+      if (i > 1) words = words//','
+      words = words//column(i)%name//' ['//column(i)%unit//']'
+    end do
+    words = words//new_line('a')
+    do row = 1, size(history)
+      do i = 1, size(column)
+        if (i > 1) words = words//','
+        value = value_of(history(row), column(i)%name)
+        if (ieee_is_nan(value)) cycle
+        if (column(i)%kind == quantity_number) words = words//exact_text(value)
+        if (column(i)%kind /= quantity_number) words = words//text(nint(value))
+      end do
+      words = words//new_line('a')
+    end do
+  end function history_csv
+
+  !> The numbers of a name, a row each; NaN where a row has none [their unit].
+  function history_values(history, name) result(values)
+    type(history_row_type), intent(in) :: history(:) !! a row a step or point
+    character(len=*), intent(in) :: name !! of the result
+    real(wp) :: values(size(history))
+    integer :: row
+
+    do row = 1, size(history)
+      values(row) = value_of(history(row), name)
+    end do
+  end function history_values
+
   !> Every numeric name that any row has.
-  subroutine collect_columns(history, column)
+  recursive subroutine collect_columns(history, column, columns)
     type(history_row_type), intent(in) :: history(:)
     type(quantity_type), allocatable, intent(out) :: column(:)
+    type(history_row_type), intent(in), optional :: columns(:)
     integer :: row, i, j
     logical :: known
 
+    if (present(columns) .and. size(history) == 0) then
+      call collect_columns(columns, column)
+      return
+    end if
     allocate (column(0))
     do row = 1, size(history)
       do i = 1, size(history(row)%quantity)

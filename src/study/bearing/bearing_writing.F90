@@ -14,14 +14,15 @@ module gfb_bearing_writing
                                  show_closing_block
   use gfb_film_notes, only: show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
-  use gfb_bearing_record, only: analysis_name
-  use gfb_case_file, only: case_array_type
+  use gfb_bearing_record, only: bearing_record_type, analysis_name, add_row
+  use gfb_case_file, only: case_array_type, history_row_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_output, only: add_foil_grids
   use gfb_provenance, only: blas_in_use
   use gfb_run_context, only: run_context_type
   use gfb_sweep, only: sweep_type
+  use gfb_sweep_table, only: show_points, place_on_sweep
   implicit none (type)
   private
   public :: write_bearing
@@ -55,6 +56,7 @@ contains
 
     type(bearing_answer_type) :: answer
     type(result_grid_type), allocatable :: grids(:)
+    type(history_row_type), allocatable :: columns(:)
 
     associate (bearing => sweep%bearing, record => sweep%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing)
@@ -65,7 +67,10 @@ contains
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
-      call show_closing_block(log, converged, answer, bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
+      columns = columns_of(scene, sweep)
+      if (scene%sweep%present) call show_points(scene, record%history, log)
+      call show_closing_block(log, converged, place_on_sweep(scene, record%history, converged), answer, &
+                              bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
       call show_film_notes(scene, bearing%pad(1)%whole, log)
       if (converged .and. answer%has_foils) then
         call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance)
@@ -79,9 +84,22 @@ contains
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)
       call write_result_set(scene, context%folder, converged, result%origin, summary, record%history, result%contacts, &
-                            grids, log, error)
+                            grids, context%csv, log, error, columns)
     end associate
   end subroutine write_bearing
+
+  !> The columns that the history of a sweep has, also where no point has an answer.
+  function columns_of(scene, sweep) result(columns)
+    type(scene_type), intent(in) :: scene
+    type(sweep_type), intent(in) :: sweep
+    type(history_row_type), allocatable :: columns(:)
+    type(bearing_record_type) :: record
+
+    allocate (columns(0))
+    if (.not. scene%sweep%present .or. size(sweep%record%history) > 0) return
+    call add_row(scene, sweep%bearing, sweep%newton, .false., record, scene%sweep%values(1))
+    columns = record%history
+  end function columns_of
 
   !> Says that an equilibrium of the foils cannot be one that stays: where the determinant is negative an odd number of
   !> motions grows. And that it hardly is one: where next to no force lifts the free edge.

@@ -63,7 +63,7 @@ contains
     call add_quantity(summary, history(1)%quantity)
     call add_quantity(summary, found%reduced)
     call write_result_set(scene, context%folder, found%converged, context%origin(), summary, history, &
-                          found%arrays, [grid], context%log, error)
+                          found%arrays, [grid], context%csv, context%log, error)
   end subroutine write_modes
 
   !> The shapes of the modes as fields of a surface.

@@ -107,7 +107,7 @@ contains
       arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
       call add_arrays(arrays, companion_arrays(run%companions))
       call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
-                            arrays, [grid], context%log, error)
+                            arrays, [grid], context%csv, context%log, error)
     end associate
   end subroutine write_files
 

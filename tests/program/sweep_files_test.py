@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Sweeps: a table of all points at the end of the log, the history as comma-separated values, the answer's point."""
+
+import csv
+import math
+import pathlib
+import re
+import sys
+import tempfile
+
+import h5py
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+from gfb_run import Bearing, Checks, case_groups, solve  # noqa: E402
+
+BEARING = Bearing()
+KEYS = {"parameter": "bearing%clearance", "values": (20.0e-6, 21.0e-6)}
+
+
+def sweep(folder, name, swept, options=(), status=0, load=(-20.0, 0.0)):
+    """The answer of a small rigid bearing along a sweep."""
+    groups = {} if swept is None else {"sweep": swept}
+    content = case_groups(BEARING, mesh=(48, 8), number=2.0, load=load, groups=groups)
+    return solve(folder, name, content, options=options, status=status)
+
+
+def table_of(answer):
+    """Names, units and rows of a table of comma-separated values."""
+    with open(f"{answer.stem}.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    heads = [re.fullmatch(r"(\w+) \[(.+)\]", head) for head in rows[0]]
+    return [head[1] for head in heads], [head[2] for head in heads], [[float(word or "nan") for word in row] for row in rows[1:]]
+
+
+def check_table(checks, answer, points):
+    """The same columns, units and digits as in the HDF5 file."""
+    names, units, rows = table_of(answer)
+    with h5py.File(f"{answer.stem}.h5") as file:
+        history = file["history"]
+        checks.that(f"{answer.stem.name}: the history's columns", set(names) == set(history))
+        checks.that(f"{answer.stem.name}: units", all(history[name].attrs["unit"].decode() == unit for name, unit in zip(names, units)))
+        checks.that(f"{answer.stem.name}: {points} points", len(rows) == points == len(history["converged"]))
+        for name, column in zip(names, zip(*rows)):
+            same = all(one == other or math.isnan(one) and math.isnan(other) for one, other in zip(column, history[name][...]))
+            checks.that(f"{answer.stem.name}: {name} to the last digit", same)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        loads = sweep(folder, "loads", {"parameter": "load", "values": (20.0, 30.0, 40.0)})
+        check_table(checks, loads, 3)
+        checks.that("the log has a line a point", re.search(r"^points of the sweep\n-+\n +load \[N\] .*film \[um\].*\n +20 .*\n +30 .*\n +40 ",
+                                                            loads.log, re.M))
+        checks.that("the answer names its point", "point            3 of 3: load = 40 N\n" in loads.log)
+        keys = sweep(folder, "keys", KEYS)
+        check_table(checks, keys, 2)
+        checks.that("keys: the answer's point", "point            2 of 2: bearing%clearance = 2.1e-5 m\n" in keys.log)
+        none = sweep(folder, "none", {"parameter": "load", "values": (1.0e9, 2.0e9)}, status=2, load=(-1.0e9, 0.0))
+        check_table(checks, none, 0)
+        checks.that("no point: said", "no point of the sweep has an answer" in none.log)
+        checks.that("no point: its columns", table_of(none)[0][:2] == ["load", "converged"])
+        some = sweep(folder, "some", {"parameter": "load", "values": (20.0, 30.0, 1.0e9)}, status=2)
+        check_table(checks, some, 2)
+        checks.that("two points: said", "the last with an answer is 2 of 3: load = 30 N" in some.log)
+        single = sweep(folder, "single", None)
+        checks.that("no sweep: no table", not (folder/"single.csv").exists() and "point  " not in single.log)
+        check_table(checks, sweep(folder, "single", None, options=("--csv",)), 1)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
