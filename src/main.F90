@@ -28,10 +28,12 @@ program gfb
   log%active = this_rank() == 0 .and. job%rank == 0
   status = 0
   if (.not. allocated(error)) then
-    log%verbose = .not. line%quiet
+    log%verbose = line%verbose
+    log%quiet = line%quiet
+    call log%begin()
     if (line%informs()) then
       call information(line, words, error)
-      if (.not. allocated(error)) call log%line(words)
+      if (.not. allocated(error)) call log%tell(words)
     else if (line%groups > 0) then
       call run_groups(line, job, run_scene, log, status, error)
     else
@@ -40,6 +42,7 @@ program gfb
     end if
   end if
   if (stop_agreed() .and. status == status_unconverged) status = stop_status()
+  call log%repeat_warnings()
   if (allocated(error)) then
     call log%complaint(error%message)
     status = error%status

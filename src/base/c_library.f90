@@ -4,7 +4,7 @@ module gfb_c_library
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: make_folder, remove_file, exit_with_status, peak_memory, host_name
+  public :: make_folder, remove_file, exit_with_status, peak_memory, host_name, is_terminal
 
   integer(c_int), parameter :: folder_mode = int(o'777', c_int) !! the user's umask takes its part
   integer, parameter :: usage_words = 18 !! length of struct rusage on 64-bit Unix [8 bytes]
@@ -47,6 +47,13 @@ module gfb_c_library
       integer(c_long), value :: length
       integer(c_int) :: status
     end function c_gethostname
+
+    function c_isatty(unit) result(status) bind(c, name='isatty')
+      import :: c_int
+      implicit none (type, external)
+      integer(c_int), value :: unit
+      integer(c_int) :: status
+    end function c_isatty
   end interface
 
 contains
@@ -77,6 +84,14 @@ contains
 
     call c_exit(int(status, c_int))
   end subroutine exit_with_status
+
+  !> Whether what is written goes to a terminal.
+  function is_terminal(unit)
+    integer, intent(in) :: unit !! of the system: 1 output, 2 errors
+    logical :: is_terminal
+
+    is_terminal = c_isatty(int(unit, c_int)) == 1
+  end function is_terminal
 
   !> Largest memory this process has used [B].
   function peak_memory() result(bytes)

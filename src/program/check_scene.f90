@@ -53,7 +53,7 @@ contains
     end if
     if (allocated(error)) return
     call log%line('')
-    if (scene%warnings /= '') call log%line(scene%warnings)
-    call log%line(scene%file//' is in order')
+    if (scene%warnings /= '') call log%tell(scene%warnings)
+    call log%tell(scene%file//' is in order')
   end subroutine check_scene
 end module gfb_check_scene

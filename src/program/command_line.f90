@@ -36,17 +36,18 @@ module gfb_command_line
     character(len=:), allocatable :: template !! analysis whose template to print; empty: none
     character(len=:), allocatable :: explain  !! key or result to explain; empty: none
     logical :: csv = .false.     !! the history as comma-separated values, too
-    logical :: quiet = .false.   !! no line per iteration
+    logical :: quiet = .false.   !! a line a stage and no more
+    logical :: verbose = .false. !! a line per iteration
     character(len=:), allocatable :: words !! the whole line
   contains
     procedure :: context => run_context
     procedure :: informs
   end type command_line_type
 
-  character(len=12), parameter :: options(18) = [character(len=12) :: &
+  character(len=12), parameter :: options(19) = [character(len=12) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
     '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit', &
-    '--template', '--explain', '--csv']
+    '--template', '--explain', '--csv', '--verbose']
 
 contains
 
@@ -58,6 +59,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     character(len=:), allocatable :: word
     integer :: i
+    logical :: known
 
     line%folder = '.'
     line%table = ''
@@ -72,31 +74,15 @@ contains
     do while (i < command_argument_count() .and. .not. allocated(error))
       i = i + 1
       word = argument(i)
+      call take_switch(word, line, known)
+      if (known) cycle
       select case (word)
-      case ('--check')
-        line%check = .true.
-      case ('--strict')
-        line%strict = .true.
-      case ('--branches')
-        line%branches = .true.
-      case ('--partition')
-        line%shares = 0
-      case ('--restart')
-        line%restart = .true.
-      case ('--help', '-h')
-        line%help = .true.
       case ('help') ! help, or help WORD
         line%explain = argument(i + 1)
         line%help = line%explain == ''
         i = i + 1
       case ('-')
         call take_file(word, line, error)
-      case ('--version')
-        line%version = .true.
-      case ('--keys')
-        line%keys = .true.
-      case ('--results')
-        line%results = .true.
       case ('--template')
         i = i + 1
         line%template = argument(i)
@@ -107,10 +93,6 @@ contains
         line%explain = argument(i)
         if (line%explain == '') call fail(error, 'gfb: --explain needs a key, or the name of '// &
                                           'a result')
-      case ('--csv')
-        line%csv = .true.
-      case ('--quiet')
-        line%quiet = .true.
       case ('--petsc') ! the rest is for PETSc
         exit
       case ('--') ! the rest are case files
@@ -135,6 +117,9 @@ contains
         call take_other(word, line, error)
       end select
     end do
+    if (line%quiet .and. line%verbose) then
+      call fail(error, 'gfb: --quiet or --verbose, not both')
+    end if
     if (allocated(error) .or. line%informs()) return
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
@@ -145,6 +130,43 @@ contains
       call check_groups(line, error)
     end if
   end subroutine read_command_line
+
+  !> A word that is an option without a value; nothing is known of others.
+  subroutine take_switch(word, line, known)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    logical, intent(out) :: known
+
+    known = .true.
+    select case (word)
+    case ('--check')
+      line%check = .true.
+    case ('--strict')
+      line%strict = .true.
+    case ('--branches')
+      line%branches = .true.
+    case ('--partition')
+      line%shares = 0
+    case ('--restart')
+      line%restart = .true.
+    case ('--help', '-h')
+      line%help = .true.
+    case ('--version')
+      line%version = .true.
+    case ('--keys')
+      line%keys = .true.
+    case ('--results')
+      line%results = .true.
+    case ('--csv')
+      line%csv = .true.
+    case ('--quiet')
+      line%quiet = .true.
+    case ('--verbose')
+      line%verbose = .true.
+    case default
+      known = .false.
+    end select
+  end subroutine take_switch
 
   !> Whether the line asks about the program and for no computation.
   pure function informs(self)
@@ -331,7 +353,8 @@ contains
       '  --output DIR    where the results go; made if it is not there; default: here'//next// &
       '  --restart       resume from CASE.restart.h5, which a killed run left behind'//next// &
       '  --time-limit T  stop after T seconds (or M:S, or H:M:S) as by a signal'//next// &
-      '  --quiet         no line per iteration'//next// &
+      '  --quiet         a line a stage, with the time so far, and warnings'//next// &
+      '  --verbose       a line per iteration, too'//next// &
       '  --csv           write the history as CASE.csv, too (a sweep does anyway)'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &

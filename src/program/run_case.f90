@@ -69,7 +69,7 @@ contains
     if (context%petsc_options /= '') then
       call context%log%line('options given to PETSc: '//context%petsc_options)
     end if
-    if (scene%warnings /= '') call context%log%line(scene%warnings)
+    if (scene%warnings /= '') call context%log%warned(scene%warnings)
     context%reduction = ''
     if (allocated(scene%model%reduction_reason)) then
       context%reduction = 'bumps '//scene%model%reduction_reason
@@ -85,8 +85,5 @@ contains
     end if
     if (.not. allocated(error)) call run_study(study, scene, context, summary, error)
     call context%give_back()
-    if (allocated(error)) return
-    ! Again, where the answer stands.
-    if (scene%warnings /= '') call context%log%line(scene%warnings)
   end subroutine run_scene
 end module gfb_run_case

@@ -57,7 +57,7 @@ contains
       call log%line('options given to PETSc: '//context%petsc_options)
     end if
     do i = 1, size(scenes)
-      if (scenes(i)%warnings /= '') call log%line(scenes(i)%warnings)
+      if (scenes(i)%warnings /= '') call log%warned(scenes(i)%warnings)
     end do
     if (size(scenes) == 1) then
       if (allocated(scenes(1)%model%reduction_reason)) then

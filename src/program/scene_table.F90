@@ -183,7 +183,7 @@ contains
     end do
     if (allocated(error)) return
     call context%log%line('')
-    call context%log%line('table of all cases: '//stem//'.summary, .h5')
+    call context%log%tell('table of all cases: '//stem//'.summary, .h5')
   end subroutine write_table
 
   !> How a member ended.
@@ -217,9 +217,9 @@ contains
 
     failed = count(members%status /= 0)
     if (failed == 0) return
-    call log%line(text(failed)//' of '//text(size(members))//' without an answer:')
+    call log%tell(text(failed)//' of '//text(size(members))//' without an answer:')
     do i = 1, size(members)
-      if (members(i)%status /= 0) call log%line('  '//outcome(members(i)))
+      if (members(i)%status /= 0) call log%tell('  '//outcome(members(i)))
     end do
   end subroutine show_failures
 end module gfb_scene_table

@@ -115,6 +115,7 @@ contains
       max(answer%travel, maxval(answer%deflection))*micrometres, answer%count(:, 1), &
       answer%count(:, 2), newton_iterations, factorizations
     call log%line(trim(line))
+    call log%progress('step '//text(step))
   end subroutine show_step
 
   !> Quantities of what it cost.

@@ -137,7 +137,7 @@ contains
   end subroutine take_mesh
 
   !> A log without lines.
-  pure function silent(log)
+  function silent(log)
     type(run_log_type), intent(in) :: log
     type(run_log_type) :: silent
 
@@ -246,7 +246,7 @@ contains
       call log%line('target of '//text(100.0_wp*self%sequence%target, 4)// &
                     ' % met; left out: '//left_out//'finer meshes, which the target does not need')
     else
-      call log%line(self%reason%words())
+      call log%tell(self%reason%words())
       call log%line('left out: '//left_out//'finer meshes, because '//self%stopped)
     end if
   end subroutine conclude

@@ -35,7 +35,7 @@ contains
       call study%write(scene, context, summary, error)
       call leave_stage()
     end if
-    if (study%reason%code == reason_stopped) call context%log%line(study%reason%words())
+    if (study%reason%code == reason_stopped) call context%log%tell(study%reason%words())
     if (study%converged .and. .not. allocated(error)) call drop_restart(context%restart)
     call study%discard()
   end subroutine run_study

@@ -40,7 +40,7 @@ def ways_of(scene, builds):
 
 def options_of(scene, groups=0):
     """The program's options."""
-    return ["--quiet", *scene.options, *(["--groups", str(groups)] if groups else [])]
+    return [*scene.options, *(["--groups", str(groups)] if groups else [])]
 
 
 def run_once(gfb, path, folder, scene, way, more=()):

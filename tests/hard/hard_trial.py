@@ -82,7 +82,7 @@ class Trial:
         """Runs a case; it must end with that status (None: with an answer or without), and with numbers only."""
         self.runs += 1
         path = write_case(self.folder, f"case_{self.runs}", merged(content, **changes))
-        answer = run_file(GFB, path, self.folder, options=("--quiet", *options), seconds=SECONDS)
+        answer = run_file(GFB, path, self.folder, options=options, seconds=SECONDS)
         self.seconds += answer.wall
         wanted = (0, 2) if status is None else (status,)
         self.that(f"run {self.runs} ends with status {answer.status}, not {status}: {self.reason(answer)}",

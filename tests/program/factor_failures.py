@@ -31,7 +31,7 @@ STRIP = {
 def solve(folder, options, groups=None):
     """The bearing, or other groups, with options of PETSc's."""
     path = write_case(folder, "case", groups or BEARING)
-    return run_file(GFB, path, folder, options=("--quiet",), environment={"PETSC_OPTIONS": options}, seconds=300)
+    return run_file(GFB, path, folder, options=(), environment={"PETSC_OPTIONS": options}, seconds=300)
 
 
 def check_small_workspace(checks, folder):

@@ -17,7 +17,7 @@ SWEEP = {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in r
 
 def run(case, folder, *words, **more):
     """A run and what it says."""
-    return subprocess.run([GFB, "--quiet", "--output", str(folder), *words, str(case)], stdin=subprocess.DEVNULL,
+    return subprocess.run([GFB, "--output", str(folder), *words, str(case)], stdin=subprocess.DEVNULL,
                           capture_output=True, encoding="utf-8", check=False, timeout=faults.SECONDS, **more)
 
 
@@ -26,7 +26,7 @@ def check_two_runs(checks, folder):
     case = write_case(folder, "twice", faults.CASE | SWEEP)
     other = write_case(folder, "other", faults.CASE)
     place = folder/"two"
-    with subprocess.Popen([GFB, "--quiet", "--output", str(place), str(case)], stdin=subprocess.DEVNULL,
+    with subprocess.Popen([GFB, "--output", str(place), str(case)], stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, encoding="utf-8") as first:
         for line in first.stdout:
             if line.startswith("point 2 of"):

@@ -20,7 +20,7 @@ LONGEST = 255 - len(".unconverged.bump_foil.vtkhdf")
 
 def call(folder, *words, ranks=1, text=None):
     """Status, log, complaints."""
-    command = [GFB, "--quiet", *map(str, words)]
+    command = [GFB, *map(str, words)]
     if ranks > 1:
         command = [MPIEXEC, "-n", str(ranks), *command]
     done = subprocess.run(command, cwd=folder, input=text, stdin=None if text else subprocess.DEVNULL, capture_output=True,

@@ -44,7 +44,7 @@ def check_options(checks, folder):
     status, words, wrong = call("--help", folder=folder)
     checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
     checks.that("--help: names every option and the exit status", all(part in words for part in (
-        "--check", "--output", "--quiet", "--groups", "--name", "--keys", "--results", "--strict", "--version", "--petsc",
+        "--check", "--output", "--quiet", "--verbose", "--csv", "--template", "--explain", "--groups", "--name", "--keys", "--results", "--strict", "--version", "--petsc",
         "exit status", "CASE.nml")))
     status, words, wrong = call("--version", folder=folder)
     checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
@@ -113,13 +113,48 @@ def check_folders(checks, folder):
 
 
 def check_quiet(checks, folder):
-    """--quiet drops the iterations and nothing else."""
+    """A line per iteration with --verbose alone; --quiet has a line a stage, with the time so far."""
     (folder/"good.nml").write_text(GOOD, encoding="utf-8")
-    loud, quiet = (call(*words, "good.nml", folder=folder)[1] for words in ([], ["--quiet"]))
-    checks.that("a line per iteration", "residual" in loud and "new" in loud)
-    checks.that("--quiet: none", "residual" not in quiet)
+    loud, usual, quiet = (call(*words, "good.nml", folder=folder)[1] for words in (["--verbose"], [], ["--quiet"]))
+    checks.that("--verbose: a line per iteration", "residual" in loud and "new" in loud)
+    checks.that("without it: none", "residual" not in usual + quiet and "start: " in usual)
     for part in ("what the scene needs", "eccentricity", "minimum gap", "um", "friction torque", "results: "):
-        checks.that(f"the log has: {part}", part in loud and part in quiet)
+        checks.that(f"the log has: {part}", part in loud and part in usual)
+    lines = quiet.rstrip().splitlines()
+    checks.that(f"--quiet: a line a stage {quiet}", len(lines) < 10 and lines[-1].startswith("results: ") and all(
+        re.fullmatch(r" +\d+\.\d s  \S.*", line) for line in lines[:-1]))
+    for stage in ("what the scene needs", "start: ", "answer"):
+        checks.that(f"--quiet: {stage}", any(f" s  {stage}" in line for line in lines))
+    status, _, wrong = call("--quiet", "--verbose", "good.nml", folder=folder)
+    checks.that("not both", status == 1 and "not both" in wrong)
+    heavy = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-1.0e9, 0.0))
+    (folder/"heavy.nml").write_text(heavy, encoding="utf-8")
+    status, words, _ = call("--quiet", "heavy.nml", folder=folder)
+    checks.that("--quiet: why there is no answer", status == 2 and words.count("no equilibrium found: ") == 1)
+    checks.that("--quiet: warnings, at the end too", words.count("warning: heavy.nml:") == 2
+                and words.strip().splitlines()[-1].startswith("warning: "))
+
+
+def check_colours(checks, folder):
+    """On a terminal alone, and not where NO_COLOR is set."""
+    (folder/"good.nml").write_text(GOOD, encoding="utf-8")
+    for environment, coloured in (({"NO_COLOR": ""}, True), ({"NO_COLOR": "1"}, False)):
+        ours, theirs = os.openpty()
+        with subprocess.Popen([GFB, "good.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=theirs,
+                              env={**os.environ, **environment}) as process:
+            os.close(theirs)
+            words = b""
+            while True:
+                try:
+                    more = os.read(ours, 4096)
+                except OSError:  # the other end is closed
+                    break
+                words += more
+            process.wait(timeout=SECONDS)
+        os.close(ours)
+        checks.that(f"on a terminal, {environment}: colours {coloured}", (b"\x1b[1manswer\x1b[0m" in words) == coloured
+                    and b"answer" in words)
+    checks.that("no terminal: no colours", "\x1b" not in call("good.nml", folder=folder)[1])
 
 
 def check_warnings(checks, folder):
@@ -268,7 +303,7 @@ def check_ranks(checks, folder):
 
 def main():
     checks = Checks()
-    for check in (check_options, check_folders, check_quiet, check_warnings, check_petsc_options, check_rerun, check_kill,
+    for check in (check_options, check_folders, check_quiet, check_colours, check_warnings, check_petsc_options, check_rerun, check_kill,
                   check_hindrance, check_side_by_side, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())

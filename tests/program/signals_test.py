@@ -25,7 +25,7 @@ STATUS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129, signal.SI
 
 def begin(folder, case, *options, ranks=1):
     """A run whose lines can be read as they come."""
-    command = [GFB, "--quiet", *options, case]
+    command = [GFB, *options, case]
     if ranks > 1:
         command = [MPIEXEC, "-n", str(ranks), *command]
     return subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -81,7 +81,7 @@ def check_resumed(checks, folder):
     """A sweep that is stopped again and again has the answers of one that is not."""
     (folder/"whole").mkdir()
     (folder/"short.nml").write_text(SHORT, encoding="utf-8")
-    whole = subprocess.run([GFB, "--quiet", "--output", "whole", "short.nml"], cwd=folder, capture_output=True,
+    whole = subprocess.run([GFB, "--output", "whole", "short.nml"], cwd=folder, capture_output=True,
                            check=False, timeout=SECONDS)
     resumed = 0
     for number in (4, 9):

@@ -21,7 +21,7 @@ def check_scene(checks, scene, folder):
     """A scene, and once more from where it ended where it can be resumed."""
     case = write_case(folder, scene.name, scene.case)
     for options in ((), ("--restart",))[:1 + scene.restart]:
-        answer = run_file(GFB, case, folder, options=("--quiet", *scene.options, *options), seconds=SECONDS)
+        answer = run_file(GFB, case, folder, options=(*scene.options, *options), seconds=SECONDS)
         found = [line for line in (answer.log + answer.complaint).splitlines() if any(word in line for word in WRONG)]
         checks.that(f"{scene.words} {' '.join(options)}: status {answer.status} {' '.join(found)[:300]}",
                     answer.status == scene.status and not found)

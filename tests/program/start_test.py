@@ -21,7 +21,7 @@ SWEEP = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for
 
 def call(folder, *words, ranks=1, **settings):
     """Status and complaints of a run under settings of the environment."""
-    command = [GFB, "--quiet", *words]
+    command = [GFB, *words]
     if ranks > 1:
         command = [MPIEXEC, "-n", str(ranks), *command]
     done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False,
@@ -64,7 +64,7 @@ def check_folder(checks, folder):
 def disturbed(folder, disturb):
     """Status of a long job of two ranks, and its ranks: it is disturbed at its second point, by its process and its last rank."""
     (folder/"long.nml").write_text(case_text(SWEEP), encoding="utf-8")
-    with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "--quiet", "long.nml"], cwd=folder, stdin=subprocess.DEVNULL,
+    with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "long.nml"], cwd=folder, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8",
                           env={**ENVIRONMENT, **os.environ}) as process:
         for line in process.stdout:

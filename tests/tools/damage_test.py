@@ -66,7 +66,7 @@ class DamageTest(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         case = pathlib.Path(folder.name)/"case.nml"
         case.write_text(CASE, encoding="utf-8")
-        subprocess.run([os.environ["GFB"], "--quiet", "--output", folder.name, case], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([os.environ["GFB"], "--output", folder.name, case], check=True, stdout=subprocess.DEVNULL)
         cls.files = {path.name: path.read_bytes() for path in pathlib.Path(folder.name).iterdir()}
 
     def setUp(self):

@@ -182,7 +182,7 @@ class BearingTest(unittest.TestCase):
 
     def test_foils_of_gfb(self):
         (self.folder/"beams.nml").write_text(BEAMS, encoding="utf-8")
-        subprocess.run([os.environ["GFB"], "--quiet", "--output", self.folder, self.folder/"beams.nml"], check=True,
+        subprocess.run([os.environ["GFB"], "--output", self.folder, self.folder/"beams.nml"], check=True,
                        stdout=subprocess.DEVNULL)
         for name in ("beams.top_foil.vtkhdf", "beams.bump_foil.vtkhdf", "beams.film.vtkhdf"):
             self.assertEqual(call(self.folder, name), (0, f"drawn: {name}.png\n"))
@@ -381,7 +381,7 @@ class PlotTest(unittest.TestCase):
         for edge in ("none", "leading"):
             case = self.folder/f"small_{edge}.nml"
             case.write_text(SMALL.format(edge=edge), encoding="utf-8")
-            subprocess.run([os.environ["GFB"], "--quiet", "--output", self.folder, case], check=True,
+            subprocess.run([os.environ["GFB"], "--output", self.folder, case], check=True,
                            stdout=subprocess.DEVNULL)
             slipping = 0
             with h5py.File(case.with_suffix(".h5"), "r") as file:

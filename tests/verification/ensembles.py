@@ -103,7 +103,7 @@ def check_sweeps(checks, folder):
     for name, case in SWEEPS.items():
         path = write_case(folder, name.replace(" ", "_").replace(",", ""), **case)
         points = len(case["groups"]["sweep"]["values"])
-        whole = run_file(path, folder/"whole", options=["--quiet"])
+        whole = run_file(path, folder/"whole", options=[])
         sweep = case["groups"]["sweep"]
         checks.that(f"{name}: the sweep takes its values", tuple(whole.history()[sweep["parameter"]]) == sweep["values"])
         for ranks, groups in WAYS.get(name, ((2, 2),)):
@@ -157,7 +157,7 @@ def check_failures(checks, folder):
     """A stretch without an answer."""
     values = (10.0, 50.0, 1.0e7, 20.0)
     path = write_case(folder, "carried", load=LOAD, groups={"sweep": {"parameter": "load", "values": values[:2]}})
-    good = run_file(path, folder/"good", options=["--quiet"])
+    good = run_file(path, folder/"good", options=[])
     path.rename(folder/"beyond.nml")
     for file in (folder/"good").glob("carried.*"):
         file.rename(file.with_name(file.name.replace("carried", "beyond")))
@@ -193,7 +193,7 @@ def check_table(checks, folder):
              "springs": {"load": LOAD, "foil": "elastic_foundation", "groups": {"model": SPRINGS}}, "blocked": {"load": LOAD}}
     paths = [write_case(folder, name, **case) for name, case in cases.items()]
     names = [path.name for path in paths]
-    alone = {path.stem: run_file(path, folder/"alone", options=["--quiet"], status=2 if path.stem == "beyond" else 0)
+    alone = {path.stem: run_file(path, folder/"alone", options=[], status=2 if path.stem == "beyond" else 0)
              for path in paths}
     for groups, ranks in ((1, 1), (2, 2), (2, 4)):
         words = f"table, {groups} group(s) of {ranks} rank(s)"

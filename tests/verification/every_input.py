@@ -97,7 +97,7 @@ def check_input(checks, folder, name, ranks, as_is):
     path.write_text(text, encoding="utf-8")
     one, shapes = None, {}
     for count in ranks:
-        answer = run_file(path, pathlib.Path(folder)/str(count), ranks=count, options=["--quiet"])
+        answer = run_file(path, pathlib.Path(folder)/str(count), ranks=count, options=[])
         if one is None:
             one, shapes = answer, shapes_of(answer)
             continue

@@ -76,7 +76,7 @@ def run_file(path, folder, ranks=1, options=(), status=0):
     return answer
 
 
-def solve(folder, name, content, ranks=1, options=("--quiet",), status=0):
+def solve(folder, name, content, ranks=1, options=(), status=0):
     """Writes a case file from its groups and runs it."""
     return run_file(write_case(folder, name, content), folder, ranks, options, status)
 

@@ -48,7 +48,7 @@ def check_same(checks, folder):
 
 def run_with(path, folder, *petsc):
     """Status and log of a case with options of PETSc's."""
-    done = subprocess.run([GFB, "--quiet", "--output", str(folder), str(path), "--petsc", *petsc],
+    done = subprocess.run([GFB, "--output", str(folder), str(path), "--petsc", *petsc],
                           capture_output=True, text=True, timeout=SECONDS, check=False)
     return done.returncode, done.stdout
 

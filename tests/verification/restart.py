@@ -84,7 +84,7 @@ def is_step(line):
 
 def command_of(path, folder, ranks, restart):
     """Command line of a run."""
-    command = [GFB, "--quiet", "--output", str(folder), *(["--restart"] if restart else []), str(path)]
+    command = [GFB, "--output", str(folder), *(["--restart"] if restart else []), str(path)]
     return command if ranks == 1 else [MPIEXEC, "-n", str(ranks), *command]
 
 
@@ -219,7 +219,7 @@ def check_kills(checks, folder, name, content, chance, ranks=(1, 1, 1, 1), whole
     file = place/f"{name}.restart.h5"
     there = file.exists()
     (place/".gfb-file-1-0").write_bytes(b"a file that a killed run had begun")
-    killed = run_file(path, place, ranks=ranks[KILLS], options=["--quiet", "--restart"])
+    killed = run_file(path, place, ranks=ranks[KILLS], options=["--restart"])
     off, where = difference(answer, killed, cost=alike)
     checks.below(f"{name}: numbers of the last run, {ranks[KILLS]} rank(s), and of one that nothing stopped ({where})",
                  off, 0.0 if alike else RANKS)
@@ -234,7 +234,7 @@ def check_refusals(checks, folder, content):
     path = write_case(folder, "refused", content)
     place = pathlib.Path(folder)/"refused"
     file = place/"refused.restart.h5"
-    none = run_file(path, place, options=["--quiet", "--restart"])
+    none = run_file(path, place, options=["--restart"])
     checks.that("without a file the run says so and starts from the beginning",
                 "there is no" in none.log and "starts from the beginning" in none.log and RESUMED not in none.log)
     kill_for_sure(path, place, 1, 2, 0.0, False)
@@ -243,7 +243,7 @@ def check_refusals(checks, folder, content):
     def refused(words, status, *sentences):
         """The present file does not serve."""
         before = file.read_bytes()
-        answer = run_file(path, place, options=["--quiet", "--restart"], status=status)
+        answer = run_file(path, place, options=["--restart"], status=status)
         checks.that(f"{words}: {answer.complaint.strip()}", all(one in answer.complaint for one in sentences))
         checks.that(f"{words}: the file stays as it is", file.read_bytes() == before)
 
@@ -279,14 +279,14 @@ def check_refusals(checks, folder, content):
     file.write_bytes(kept)
     text = path.read_text(encoding="utf-8")
     path.write_text("! only a comment is new\n" + text, encoding="utf-8")
-    answer = run_file(path, place, options=["--quiet", "--restart"])
+    answer = run_file(path, place, options=["--restart"])
     checks.that("a new comment in the case file changes nothing", RESUMED in answer.log)
     file.write_bytes(kept)
-    answer = run_file(path, place, options=["--quiet"])
+    answer = run_file(path, place, options=[])
     checks.that("without --restart a file that is there is named, and the run begins anew",
                 "warning" in answer.log and file.name in answer.log and RESUMED not in answer.log)
     (file/"full").mkdir(parents=True)
-    answer = run_file(path, place, options=["--quiet"])
+    answer = run_file(path, place, options=[])
     checks.that("a restart file that cannot be written does not end the run",
                 "restart.h5: the file cannot be put in its place" in answer.log
                 and "the run continues without it" in answer.log)

@@ -82,7 +82,7 @@ def main():
         sys.exit(SKIPPED)
     checks, speed = Checks(), RPM*math.pi/30.0
     with tempfile.TemporaryDirectory() as folder:
-        answer = run_file(GFB, write_case(folder, "rotor", CASE), folder, options=("--quiet",))
+        answer = run_file(GFB, write_case(folder, "rotor", CASE), folder, options=())
         checks.that(f"gfb: status {answer.status}", answer.status == 0)
         mass, ratio = answer["critical_mass"], answer["whirl_ratio"]
         written = subprocess.run([sys.executable, TOOL, f"{answer.stem}.h5", "--ross", f"{answer.stem}.toml"], check=False)

@@ -55,7 +55,7 @@ def solve(folder, name, ranks=1, status=0, bearing=BEARING, options=(), quiet=Tr
         content[group] = None if keys is None else {**content.get(group, {}), **keys}
     if content["scene"]["analysis"] == "equilibrium":
         content["operation"].setdefault("load", LOAD)
-    return gfb_run.solve(folder, name, content, ranks, [*(["--quiet"] if quiet else []), *options], status)
+    return gfb_run.solve(folder, name, content, ranks, [*([] if quiet else ["--verbose"]), *options], status)
 
 
 def held(eccentricity, **operation):

@@ -19,7 +19,7 @@ HELD = {"support": "held"}  # the checks here are those of the linear structure
 MICROMETRE = 1.0e-6
 
 
-def solve(folder, name, ranks=1, status=0, options=("--quiet",), **groups):
+def solve(folder, name, ranks=1, status=0, options=(), **groups):
     """Writes a case of the reference strip with changed groups, and runs it; corner lines cannot lift
     where no load is given."""
     content = {"scene": {"analysis": "strip"}, "bump_foil": dict(FOIL), "model": {},

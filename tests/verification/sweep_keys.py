@@ -98,7 +98,7 @@ def killed_after(path, folder, words):
     """Kills a run as soon as its log has some words."""
     log = folder/"killed.log"
     with open(log, "w", encoding="utf-8") as out, \
-            subprocess.Popen([GFB, "--quiet", "--output", str(folder), str(path)], stdout=out) as process:
+            subprocess.Popen([GFB, "--output", str(folder), str(path)], stdout=out) as process:
         begun = time.monotonic()
         while words not in log.read_text(encoding="utf-8") and process.poll() is None:
             if time.monotonic() - begun > SECONDS:
@@ -112,18 +112,18 @@ def check_restart_and_groups(checks, folder):
     content = with_keys(ENGINEER, sweep_of("bump_foil%thickness", (8.0e-5, 9.0e-5, 1.0e-4, 1.1e-4))
                         | {"output": {"restart_every": 1}})
     path = write_case(folder, "pieces", content)
-    whole = run_file(path, folder, options=("--quiet",)).history()
+    whole = run_file(path, folder, options=()).history()
     resumed_folder = pathlib.Path(folder)/"resumed"
     resumed_folder.mkdir()
     killed_after(path, resumed_folder, "point 2 of 4")
     if (resumed_folder/"pieces.restart.h5").exists():
-        resumed = run_file(path, resumed_folder, options=("--quiet", "--restart")).history()
+        resumed = run_file(path, resumed_folder, options=("--restart",)).history()
         checks.that("killed and resumed: the same digits", set(resumed) == set(whole) and all(
             numpy.array_equal(resumed[name], whole[name], equal_nan=True) for name in whole))
     else:
         checks.that("killed and resumed: the run had ended", (resumed_folder/"pieces.h5").exists())
     shutil.rmtree(resumed_folder)
-    divided = run_file(path, folder, ranks=2, options=("--quiet", "--groups", "2")).history()
+    divided = run_file(path, folder, ranks=2, options=("--groups", "2")).history()
     for name in ("key_value", "minimum_gap", "leading_edge_lift", "branch_changed", "started_anew"):
         checks.below(f"two groups of ranks: {name}", largest_difference(divided[name], whole[name]), LIMIT)
 

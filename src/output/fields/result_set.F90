@@ -74,7 +74,7 @@ contains
     call share_failure(error)
     if (allocated(error)) return
     call log%line('')
-    call log%line('results: '//names//', .used.nml')
+    call log%tell('results: '//names//', .used.nml')
   end subroutine write_result_set
 
   !> Writes the small files too and gives all of them their names, the summary last; none stays unfinished.

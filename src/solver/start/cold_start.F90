@@ -70,7 +70,7 @@ contains
       helped = report%converged
       call destroy_newton(coarse_newton)
     end if
-    call log%detail('film '//text(plan%circumferential)//' x '//text(plan%axial))
+    call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
     problem%scene => scene
     problem%target = target
     problem%settings = path_settings

@@ -72,7 +72,7 @@ contains
     do i = 1, size(list)
       associate (start => starts(list(i)))
         problem%others_left = any(starts(list(i + 1:))%soft%release /= never)
-        call problem%newton%log%detail('start: '//trim(start%name))
+        call problem%newton%log%stage('start: '//trim(start%name))
         call start%try(problem, start%soft, report, ends)
         if (start%counts) call keep_nearest(problem, report, nearest)
         problem%shown = ends .and. .not. (report%converged .or. start%counts)

@@ -136,7 +136,7 @@ contains
             return
           end if
           if (.not. vibration%converged) then
-            call log%line('warning: amplitude '//text(point%amplitude(k), digits)//' m along '//'xy'(along:along)// &
+            call log%warning('amplitude '//text(point%amplitude(k), digits)//' m along '//'xy'(along:along)// &
                           ': contacts have not converged in '//text(vibration%passes)//' passes')
           end if
           point%at_amplitude(:, along, k, i) = vibration%coefficient

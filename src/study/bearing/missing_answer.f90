@@ -39,7 +39,7 @@ contains
       return
     end if
     associate (point => report%reached, force => bearing%reaction())
-      call log%line(reason%words())
+      call log%tell(reason%words())
       if (has_stiff_edges(scene)) then
         call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
                       'not deflect and may touch first; ''axial_mean'' in &model lets them')

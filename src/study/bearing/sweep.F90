@@ -214,6 +214,6 @@ contains
     if (point > 1 .and. left > 0) then
       line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'
     end if
-    call context%log%line(line)
+    call context%log%stage(line)
   end subroutine show_progress
 end module gfb_sweep

@@ -162,7 +162,7 @@ contains
       reason%of = load%steps_up + load%steps_down
       reason%detail = detail
     end associate
-    call self%context%log%line(reason%words())
+    call self%context%log%tell(reason%words())
   end subroutine explain
 
   !> Share of the full load at a step.

@@ -79,7 +79,7 @@ contains
       if (.not. self%converged) then
         self%reason%code = reason_few_modes
         self%reason%at = found
-        call context%log%line(self%reason%words())
+        call context%log%tell(self%reason%words())
       end if
       allocate (self%result%arrays(0), self%result%reduced(0))
       if (scene%modes%part == part_strip) then

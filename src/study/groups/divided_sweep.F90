@@ -233,7 +233,6 @@ contains
 
     terminal = context
     terminal%log%active = job%leads
-    terminal%log%verbose = .false.
     call terminal%take_case(scene%name, error)
     if (allocated(error)) then
       status = max(status, error%status)

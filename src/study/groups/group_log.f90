@@ -29,6 +29,9 @@ contains
       call remove_file(path) ! a link in its place is not followed
       open (newunit=unit, file=path, action='write', status='new', iostat=status)
       context%log%unit = unit
+      context%log%colours = .false.
+      allocate (context%log%warnings)
+      context%log%warnings%lines = ''
     end if
     if (any_rank(status /= 0)) then
       context%log = run_log_type(active=.false.)
@@ -40,6 +43,8 @@ contains
   subroutine close_group_log(log)
     type(run_log_type), intent(in) :: log !! as it was opened
 
-    if (log%active) close (log%unit)
+    if (.not. log%active) return
+    call log%repeat_warnings()
+    close (log%unit)
   end subroutine close_group_log
 end module gfb_group_log

@@ -38,7 +38,7 @@ def run_bounded(gfb, path, folder, seconds):
         resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5))
 
     with open(pathlib.Path(folder)/"log", "w+", encoding="utf-8", errors="replace") as log:
-        process = subprocess.Popen(command_of(gfb, path, folder, options=("--quiet",)), stdin=subprocess.DEVNULL,
+        process = subprocess.Popen(command_of(gfb, path, folder, options=()), stdin=subprocess.DEVNULL,
                                    stdout=log, stderr=subprocess.STDOUT, preexec_fn=bound,
                                    env={**ENVIRONMENT, **os.environ})
         _, status, usage = os.wait4(process.pid, 0)  # its own usage, whatever else runs
