@@ -125,16 +125,17 @@ module gfb_result_table
       asked=.true., joins=.true., nodal=.true.), &
     result_type('maximum_peclet', '1', number, bearing, 'largest cell Peclet number of the film'), &
     result_type('leading_edge_lift', 'm', number, bearing, &
-      'way of the top foil''s edge towards the shaft, at z = 0', &
+      'displacement of the top foil''s edge towards the shaft, at z = 0', &
       'foils of shells or beams: displacement of the top foil''s edge towards the shaft, at '// &
       'z = 0, and (`_edge`) at the ends of the bearing', compared=.true.), &
     result_type('leading_edge_lift_edge', 'm', number, bearing, &
-      'way of the top foil''s edge towards the shaft, at the ends of the bearing', &
+      'displacement of the top foil''s edge towards the shaft, at the ends of the bearing', &
       compared=.true., joins=.true.), &
     result_type('trailing_edge_lift', 'm', number, bearing, &
-      'way of the top foil''s edge towards the shaft, at z = 0', compared=.true., joins=.true.), &
+      'displacement of the top foil''s edge towards the shaft, at z = 0', &
+      compared=.true., joins=.true.), &
     result_type('trailing_edge_lift_edge', 'm', number, bearing, &
-      'way of the top foil''s edge towards the shaft, at the ends of the bearing', &
+      'displacement of the top foil''s edge towards the shaft, at the ends of the bearing', &
       compared=.true., joins=.true.), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &
@@ -243,8 +244,7 @@ module gfb_result_table
     result_type('load_factor', '1', number, load_step, 'share of the full load'), &
     result_type('force', 'N', number, load_step, 'on all crests'), &
     result_type('plate_travel', 'm', number, load_step, &
-      'way of the upper plate towards the sleeve', &
-      'displacement of the upper plate towards the sleeve'), &
+      'travel of the upper plate towards the sleeve'), &
     result_type('sleeve_<state>', '1', total, load_step, 'contact nodes in this state', &
       'contact nodes on corner (`sleeve`) and crest lines (`top`) in this state'), &
     result_type('top_<state>', '1', total, load_step, 'contact nodes in this state', &

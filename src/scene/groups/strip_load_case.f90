@@ -61,7 +61,7 @@ contains
     call read_pressures(keys, load, bumps, needed .and. load%kind == load_crest_pressure)
     call read_maximum('maximum_force', load%maximum_force, 'N', 'largest force on the upper plate')
     call read_maximum('maximum_displacement', load%maximum_displacement, 'm', &
-                      'largest displacement of the upper plate towards the strip')
+                      'largest travel of the upper plate towards the strip')
     call keys%integer_key('steps_up', load%steps_up, 'load steps up to the full load', &
                           from_to(1.0_wp, most_steps))
     if (load%kind == load_plates) load%steps_down = load%steps_up

@@ -15,7 +15,7 @@ module gfb_memory_check
   private
   public :: show_memory, check_memory
 
-  real(wp), parameter :: megabyte = 1.0e6_wp !! [B]
+  real(wp), parameter :: megabyte = 1.0e6_wp, gigabyte = 1.0e9_wp !! [B]
 
 contains
 
@@ -26,9 +26,10 @@ contains
     real(wp) :: total
 
     total = rank_memory(bytes, rank_count())
-    call log%line('memory: about '//megabytes(total)//' in all, '// &
-                  megabytes(total/rank_count())//' a rank, within a factor '// &
-                  text(stated_factor, 2))
+    call log%line('memory: about '//megabytes(total)//' in all ('// &
+                  text(total/stated_factor/gigabyte, 2)//' to '// &
+                  text(total*stated_factor/gigabyte, 2)//' GB), '// &
+                  megabytes(total/rank_count())//' a rank')
     if (is_too_much(bytes)) then
       call log%warning('this machine has '//megabytes(node_room())//' for the '// &
                        text(ranks_on_node())//' rank(s) on it')
