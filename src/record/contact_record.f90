@@ -96,7 +96,8 @@ contains
     if (size(top(1)%values) > 0) call add_arrays(arrays, top)
   end function contact_arrays
 
-  !> The arrays of one surface; a column a node, a row a step.
+  !> The arrays of one surface, over the whole width also where one half was solved; a column a node,
+  !> a row a step.
   subroutine surface_arrays(contacts, slaves, record, steps, surface, group, arrays)
     type(contact_set_type), intent(in) :: contacts
     class(foil_surface_type), intent(in) :: slaves
@@ -117,19 +118,23 @@ contains
       'slip that the friction law sees, along the motion', &
       'slip that the friction law sees, along the axis', '0 open, 1 sticks, 2 slips']
     real(wp), allocatable :: position(:, :), values(:, :)
+    !> the field has the other sign in the half that was not solved
+    logical, parameter :: odd(fields) = [.false., .false., .true., .false., .true., .false.]
     integer, allocatable :: number(:), own(:), all_nodes(:)
+    logical, allocatable :: mirrored(:)
     integer :: i, total, field
 
     associate (point => contacts%point, mesh => slaves%mesh)
       own = pack([(i, i=1, size(point))], point%law == surface)
       number = (point(own)%line - 1)*mesh%rows + modulo(point(own)%node - 1, mesh%rows) + 1
       total = largest_number(pack(point%line, point%law == surface))*mesh%rows
-      all_nodes = [(i, i=1, total)]
+      call whole_width(total/mesh%rows, mesh%rows, mesh%half, all_nodes, mirrored)
       allocate (position(3, size(own)))
       position(1, :) = real(point(own)%line, wp)
       position(2:3, :) = mesh%position([1, 3], point(own)%node)
     end associate
     values = fetch_entries(max(1, total), number, position, all_nodes)
+    where (mirrored) values(3, :) = 0.0_wp - values(3, :) ! no minus zero
     call fill_array(group//'/line', '1', 'number of the contact line', values(1:1, :), arrays(1))
     call fill_array(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :), &
                     arrays(2))
@@ -138,9 +143,28 @@ contains
     do field = 1, fields
       values = fetch_entries(max(1, total), number, &
                              transpose(record%value(field, own, :steps)), all_nodes)
+      do i = 1, size(mirrored)
+        if (mirrored(i) .and. odd(field)) values(:, i) = 0.0_wp - values(:, i)
+      end do
       values = transpose(values)
       call fill_array(group//'/'//trim(name(field)), trim(unit(field)), trim(meaning(field)), &
                       values, arrays(3 + field), by_step=.true.)
     end do
   end subroutine surface_arrays
+
+  !> The nodes of all contact lines from end to end of the foil, and which of them stand for their
+  !> mirror images at z < 0.
+  pure subroutine whole_width(lines, rows, half, node, mirrored)
+    integer, intent(in) :: lines, rows !! contact lines; nodes of each that were solved
+    logical, intent(in) :: half !! they are those of z >= 0
+    integer, allocatable, intent(out) :: node(:) !! number among those that were solved
+    logical, allocatable, intent(out) :: mirrored(:)
+    integer, allocatable :: across(:)
+    integer :: i, k
+
+    across = [(k, k=1, rows)]
+    if (half) across = [(k, k=rows, 2, -1), across]
+    node = [((i*rows + across(k), k=1, size(across)), i=0, lines - 1)]
+    mirrored = [((half .and. k < rows, k=1, size(across)), i=0, lines - 1)]
+  end subroutine whole_width
 end module gfb_contact_record
