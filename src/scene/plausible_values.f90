@@ -35,6 +35,10 @@ module gfb_plausible_values
     range_type('bore', 'profile_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('gas', 'viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
     range_type('gas', 'ambient_pressure', 1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
+    range_type('gas', 'mean_free_path', 1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm'), &
+    range_type('gas', 'temperature', 50.0_wp, 3000.0_wp, 'K', ''), &
+    range_type('gas', 'molar_mass', 1.0e-3_wp, 0.5_wp, 'kg/mol', 'g/mol'), &
+    range_type('gas', 'critical_pressure', 1.0e5_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
     range_type('operation', 'speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
     range_type('operation', 'eccentricity', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
     range_type('operation', 'tilt', 0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg'), &
@@ -74,7 +78,8 @@ module gfb_plausible_values
     unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
     unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &
     unit_type('krpm', 1.0e3_wp), unit_type('%', 1.0e-2_wp), &
-    unit_type('g/cm^3', 1.0e3_wp), unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp)]
+    unit_type('g/mol', 1.0e-3_wp), unit_type('g/cm^3', 1.0e3_wp), &
+    unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp)]
 
   !> No gas film carries a larger load over p_a D L [1].
   real(wp), parameter :: most_carried = 50.0_wp

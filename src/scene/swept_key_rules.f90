@@ -81,8 +81,12 @@ contains
     computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
     problem = ''
     select case (group)
-    case ('bearing', 'gas')
+    case ('bearing')
       return
+    case ('gas')
+      if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then
+        problem = 'a law or a table gives the viscosity'
+      end if
     case ('bore')
       if (.not. scene%bore%present) problem = 'the file has no group &bore'
     case ('operation')

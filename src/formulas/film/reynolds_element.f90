@@ -9,7 +9,8 @@ module gfb_reynolds_element
                                biquadratic_nodes
   implicit none (type, external)
   private
-  public :: reynolds_residual, reynolds_jacobian, upwind_weight, cell_peclet
+  public :: reynolds_residual, reynolds_jacobian, upwind_weight, upwind_weight_derivative, &
+            cell_peclet
 
   !> The gas between the surfaces, and how its equation is weighted.
   type, public :: film_flow_type

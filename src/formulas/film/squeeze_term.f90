@@ -3,16 +3,19 @@
 !> In time the element's equation is \( r_a(p, h) + dq_a/dt = 0 \), with the residual \( r_a \) of
 !> `gfb_reynolds_element` and
 !>
-!> $$ q_a = \int_{\Omega^e} w_a \, p h \, d\Omega, \quad
+!> $$ q_a = \int_{\Omega^e} w_a \, r h \, d\Omega, \quad
 !>    w_a = N_a + \frac{\alpha \ell}{2} \frac{\partial N_a}{\partial x}, $$
 !>
+!> with the density r of `gfb_gas_law`, which is p where the gas is ideal;
 !> the second part of \( w_a \) with upwinding (SUPG) only: it weights the rate as it weights the
 !> rest of the strong residual, or both were not consistent. About a steady state the weights are
 !> that state's, because the rate that their own change would weight is zero there.
 module gfb_squeeze_term
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
-  use gfb_reynolds_element, only: film_flow_type, cell_peclet, upwind_weight
+  use gfb_gas_law, only: gas_law_type, gas_density
+  use gfb_general_film, only: general_peclet
+  use gfb_reynolds_element, only: film_flow_type, upwind_weight
   implicit none (type, external)
   private
   public :: squeeze_weights, squeeze_content, squeeze_jacobian
@@ -20,9 +23,10 @@ module gfb_squeeze_term
 contains
 
   !> The weights at the Gauss points of a steady state, of which there are as many as nodes.
-  pure function squeeze_weights(geometry, flow, pressure, gap, excess) result(weight)
+  pure function squeeze_weights(geometry, flow, law, pressure, gap, excess) result(weight)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
+    type(gas_law_type), intent(in) :: law !! of the gas
     real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! film thickness at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
@@ -35,8 +39,8 @@ contains
     if (.not. flow%upwind) return
     do point = 1, size(excess)
       associate (shape => shapes(:, point), length => geometry%stream_length(point))
-        peclet = cell_peclet(flow, length, dot_product(shape, pressure), &
-                             dot_product(shape, gap) + excess(point))
+        peclet = general_peclet(law, flow, length, dot_product(shape, pressure), &
+                                dot_product(shape, gap) + excess(point))
         weight(:, point) = shape &
           + 0.5_wp*length*upwind_weight(peclet)*geometry%gradient(1, :, point)
       end associate
@@ -44,30 +48,33 @@ contains
   end function squeeze_weights
 
   !> The content q with given weights.
-  pure function squeeze_content(geometry, weight, pressure, gap, excess) result(content)
+  pure function squeeze_content(geometry, law, weight, pressure, gap, excess) result(content)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(gas_law_type), intent(in) :: law !! of the gas
     real(wp), intent(in) :: weight(:, :) !! (nodes, points), see `squeeze_weights` [1]
     real(wp), intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
     real(wp), intent(in) :: gap(:)       !! film thickness at the nodes [m]
     real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
     real(wp) :: content(size(pressure))  !! one a node [Pa m3]
-    real(wp) :: shapes(size(pressure), size(pressure))
+    real(wp) :: shapes(size(pressure), size(pressure)), r, r_p, r_pp
     integer :: point
 
     shapes = film_shapes(size(pressure))
     content = 0.0_wp
     do point = 1, size(excess)
       associate (shape => shapes(:, point))
-        content = content + geometry%area(point)*dot_product(shape, pressure)* &
+        call gas_density(law, dot_product(shape, pressure), r, r_p, r_pp)
+        content = content + geometry%area(point)*r* &
                   (dot_product(shape, gap) + excess(point))*weight(:, point)
       end associate
     end do
   end function squeeze_content
 
   !> Exact derivatives of `squeeze_content` by the nodal pressures and gaps, and by the excess.
-  pure subroutine squeeze_jacobian(geometry, weight, pressure, gap, excess, by_pressure, by_gap, &
-                                   by_excess)
+  pure subroutine squeeze_jacobian(geometry, law, weight, pressure, gap, excess, by_pressure, &
+                                   by_gap, by_excess)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(gas_law_type), intent(in) :: law !! of the gas
     real(wp), intent(in) :: weight(:, :) !! (nodes, points), see `squeeze_weights` [1]
     real(wp), intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
     real(wp), intent(in) :: gap(:)       !! film thickness at the nodes [m]
@@ -75,7 +82,7 @@ contains
     real(wp), intent(out) :: by_pressure(:, :) !! (nodes, nodes) dq_a/dp_b [m3]
     real(wp), intent(out) :: by_gap(:, :)      !! (nodes, nodes) dq_a/dh_b [Pa m2]
     real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2]
-    real(wp) :: shapes(size(pressure), size(pressure)), h
+    real(wp) :: shapes(size(pressure), size(pressure)), h, r, r_p, r_pp
     integer :: point, b
 
     shapes = film_shapes(size(pressure))
@@ -84,9 +91,10 @@ contains
     do point = 1, size(excess)
       associate (shape => shapes(:, point), held => geometry%area(point)*weight(:, point))
         h = dot_product(shape, gap) + excess(point)
-        by_excess(:, point) = dot_product(shape, pressure)*held
+        call gas_density(law, dot_product(shape, pressure), r, r_p, r_pp)
+        by_excess(:, point) = r*held
         do b = 1, size(shape)
-          by_pressure(:, b) = by_pressure(:, b) + h*shape(b)*held
+          by_pressure(:, b) = by_pressure(:, b) + r_p*h*shape(b)*held
           by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, point)
         end do
       end associate

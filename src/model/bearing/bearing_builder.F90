@@ -79,6 +79,7 @@ contains
                           bearing, error, division%film)
     if (allocated(error)) return
     call put_bore(bearing%pad(1)%film, scene%bore%profile)
+    bearing%pad(1)%film%law = scene%gas%law
     associate (contact => scene%shaft_contact)
       bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate

@@ -3,7 +3,7 @@ module gfb_film_measures
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: most_film_nodes
   use gfb_film_load, only: film_forces, film_force, film_friction
-  use gfb_reynolds_element, only: film_flow_type, cell_peclet
+  use gfb_general_film, only: film_flow_type, general_friction, general_peclet
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
@@ -48,9 +48,15 @@ contains
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element))
         excess = film%excess(element, point)
-        drag = drag + film%copies* &
-               film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
-                             excess(:size(nodes)))
+        if (film%law%plain) then
+          drag = drag + film%copies* &
+                 film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
+                               excess(:size(nodes)))
+        else
+          drag = drag + film%copies* &
+                 general_friction(film%geometry(element), flow, film%law, pressure(nodes), &
+                                  gap(nodes), excess(:size(nodes)))
+        end if
       end associate
     end do
   end function film_drag
@@ -88,9 +94,9 @@ contains
       associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
         do i = 1, size(film%shape, 2)
-          peclet = max(peclet, abs(cell_peclet(flow, geometry%stream_length(i), &
-                                               dot_product(film%shape(:, i), pressure(nodes)), &
-                                               dot_product(film%shape(:, i), gap(nodes)))))
+          peclet = max(peclet, abs(general_peclet(film%law, flow, geometry%stream_length(i), &
+                                                  dot_product(film%shape(:, i), pressure(nodes)), &
+                                                  dot_product(film%shape(:, i), gap(nodes)))))
         end do
       end associate
     end do

@@ -8,6 +8,8 @@ module gfb_gas_film
   use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess, &
                               entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
+  use gfb_gas_law, only: gas_law_type
+  use gfb_general_film, only: general_residual, general_jacobian
   use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian
   use gfb_film_mesh, only: film_mesh_type, gather_elements
   use gfb_operating_point, only: operating_point_type
@@ -20,6 +22,7 @@ module gfb_gas_film
   !> Film elements and nodes of this rank.
   type, public :: gas_film_type
     type(film_flow_type) :: flow          !! of a shaft at rest, see `flow_at`
+    type(gas_law_type) :: law             !! of the gas
     real(wp) :: radius = 0.0_wp           !! of the bearing [m]
     real(wp) :: clearance = 0.0_wp        !! C [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
@@ -264,8 +267,13 @@ contains
         p(:n) = pressure(nodes)
         h(:n) = gap(nodes)
         excess = self%excess(element, point)
-        call reynolds_residual(self%geometry(element), flow, p(:n), h(:n), excess(:n), &
-                               no_source(:n), share(:n))
+        if (self%law%plain) then
+          call reynolds_residual(self%geometry(element), flow, p(:n), h(:n), excess(:n), &
+                                 no_source(:n), share(:n))
+        else
+          call general_residual(self%geometry(element), flow, self%law, p(:n), h(:n), excess(:n), &
+                                share(:n))
+        end if
         residual(nodes) = residual(nodes) + share(:n)
       end associate
     end do
@@ -294,8 +302,13 @@ contains
       p(:n) = pressure(nodes)
       h(:n) = gap(nodes)
       excess = self%excess(element, point)
-      call reynolds_jacobian(self%geometry(element), self%flow_at(point), p(:n), h(:n), &
-                             excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
+      if (self%law%plain) then
+        call reynolds_jacobian(self%geometry(element), self%flow_at(point), p(:n), h(:n), &
+                               excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
+      else
+        call general_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), &
+                              h(:n), excess(:n), by_pressure, by_gap, by_excess)
+      end if
       by_shaft = 0.0_wp
       do i = 1, n
         do k = 1, size(by_shaft, 2)

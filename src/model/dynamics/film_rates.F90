@@ -111,7 +111,7 @@ contains
       p = pressure(nodes)
       h = gap(nodes)
       excess = reshape(film%excess(element, point), [size(h)])
-      call squeeze_jacobian(geometry, squeeze_weights(geometry, film%flow_at(point), p, h, excess), &
+      call squeeze_jacobian(geometry, film%law, squeeze_weights(geometry, film%flow_at(point), film%law, p, h, excess), &
                             p, h, excess, by_pressure, by_gap, by_excess)
     end associate
   end subroutine element_squeeze

@@ -1,18 +1,46 @@
 !> `&gas`: the gas in the film.
 module gfb_gas_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
+                         density_peng_robinson, density_table
+  use gfb_monotone_table, only: monotone_table, table_at
+  use gfb_peng_robinson, only: peng_robinson, amount_at, gas_constant
   use gfb_scene_case, only: is_bearing, misplaced_group
-  use gfb_value_rules, only: positive
+  use gfb_text, only: text
+  use gfb_value_rules, only: any_value, not_negative, positive, rule_type
   implicit none (type, external)
   private
   public :: gas_case_type, read_gas_case
 
-  !> The gas, ideal and of constant temperature.
+  character(len=*), parameter :: group = 'gas'
+  integer, parameter :: second_word = 2 !! of each choice: not the simplest
+  character(len=*), parameter :: viscosity_words(*) = [character(len=10) :: 'constant', &
+                                                       'sutherland']
+  character(len=*), parameter :: state_words(*) = [character(len=13) :: 'ideal', 'peng_robinson']
+  character(len=*), parameter :: turbulence_words(*) = [character(len=6) :: 'none', 'ng_pan']
+  real(wp), parameter :: same = 0.01_wp !! a viscosity beside a law differs by less, relative [1]
+
+  !> The gas, of constant temperature.
   type :: gas_case_type
-    real(wp) :: viscosity = 0.0_wp         !! dynamic [Pa s]
+    real(wp) :: viscosity = 0.0_wp         !! dynamic, at ambient pressure [Pa s]
     real(wp) :: ambient_pressure = 0.0_wp  !! absolute [Pa]
+    logical :: has_viscosity_law = .false. !! or a table: `viscosity` is not needed
+    type(gas_law_type) :: law              !! how density, viscosity and flow depend on the pressure
   end type gas_case_type
+
+  !> What else the group says.
+  type :: gas_keys_type
+    integer :: viscosity_law = 1, state = 1, turbulence = 1 !! words
+    real(wp) :: temperature = 0.0_wp          !! [K]
+    real(wp) :: molar_mass = 0.0_wp           !! [kg/mol]
+    real(wp) :: critical_temperature = 0.0_wp !! [K]
+    real(wp) :: critical_pressure = 0.0_wp    !! [Pa]
+    real(wp) :: acentric_factor = 0.0_wp      !! [1]
+    logical :: table = .false.     !! densities are given
+    logical :: viscosities = .false. !! and viscosities
+    real(wp), allocatable :: pressure(:), density(:), viscosity(:) !! [Pa], [kg/m3], [Pa s]
+  end type gas_keys_type
 
 contains
 
@@ -21,14 +49,244 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(gas_case_type), intent(out) :: gas !! what `&gas` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: needed
+    type(gas_keys_type) :: said
+    logical :: needed, by_law, given
+    integer :: mistakes !! before the group
 
+    mistakes = keys%complaints%count
     needed = is_bearing(analysis)
-    call keys%start_group('gas', required=needed, optional=.not. needed, &
+    call keys%start_group(group, required=needed, optional=.not. needed, &
                           misplaced=misplaced_group(analysis, needed))
-    call keys%real_key('viscosity', gas%viscosity, 'Pa s', 'dynamic viscosity', positive, needed)
+    said%table = keys%holds(group, 'density_table_pressure')
+    said%viscosities = keys%holds(group, 'density_table_viscosity')
+    by_law = said%viscosities .or. keys%holds(group, 'viscosity_law')
+    call keys%real_key('viscosity', gas%viscosity, 'Pa s', 'dynamic viscosity, at '// &
+                       '`ambient_pressure` where it depends on it', positive, &
+                       needed .and. .not. by_law, &
+                       default='required without a law or a table of it', given=given)
     call keys%real_key('ambient_pressure', gas%ambient_pressure, 'Pa', &
                        'absolute pressure at the edges of the pad', positive, needed)
+    call keys%choice_key('viscosity_law', said%viscosity_law, viscosity_words, &
+                         'viscosity as given, or that of air at `temperature`')
+    if (by_law .and. needed .and. .not. given .and. .not. said%viscosities .and. &
+        said%viscosity_law == 1) then
+      call keys%complain(group, 'viscosity_law', 'needs the key viscosity, or another word')
+    end if
+    by_law = said%viscosities .or. said%viscosity_law == second_word
+    gas%has_viscosity_law = by_law
+    call keys%real_key('mean_free_path', gas%law%mean_free_path, 'm', 'mean free path of the '// &
+                       'molecules at `ambient_pressure`, for slip at the surfaces; 0: no slip', &
+                       not_negative)
+    call read_state(keys, said, needed, gas%law%viscosity_exponent)
+    call read_table(keys, said, needed)
     call keys%finish_group()
+    if (.not. needed .or. keys%complaints%count > mistakes) return
+    if (.not. is_complete(said, gas)) return
+    call check_keys(keys, said, gas)
+    if (keys%complaints%count > mistakes) return
+    call make_law(said, gas)
+    if (by_law .and. given) call check_viscosity(keys, gas)
+    gas%viscosity = gas%law%viscosity
   end subroutine read_gas_case
+
+  !> Density by an equation of state, and what turbulence needs.
+  subroutine read_state(keys, said, needed, viscosity_exponent)
+    type(case_keys_type), intent(inout) :: keys
+    type(gas_keys_type), intent(inout) :: said
+    logical, intent(in) :: needed
+    real(wp), intent(inout) :: viscosity_exponent !! [1]
+    logical :: real_gas, turbulent, ideal_turbulence
+
+    call keys%choice_key('equation_of_state', said%state, state_words, &
+                         'density of an ideal gas, or by Peng and Robinson')
+    call keys%choice_key('turbulence', said%turbulence, turbulence_words, &
+                         'laminar film, or the factors of Ng and Pan')
+    real_gas = said%state == second_word
+    turbulent = said%turbulence == second_word
+    ideal_turbulence = turbulent .and. .not. (real_gas .or. said%table)
+    call key('temperature', said%temperature, 'K', 'temperature of the gas, even and constant', &
+             positive, real_gas .or. ideal_turbulence .or. said%viscosity_law == second_word, &
+             real_gas .or. said%table .or. turbulent .or. said%viscosity_law == second_word, &
+             "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, or "// &
+             'turbulence of an ideal gas')
+    call key('molar_mass', said%molar_mass, 'kg/mol', 'mass of a mole of the gas', positive, &
+             turbulent .and. .not. said%table, real_gas .or. ideal_turbulence, &
+             "equation_of_state = 'peng_robinson', or turbulence of an ideal gas")
+    call key('critical_temperature', said%critical_temperature, 'K', 'of the gas', positive, &
+             real_gas, real_gas, "equation_of_state = 'peng_robinson'")
+    call key('critical_pressure', said%critical_pressure, 'Pa', 'of the gas', positive, real_gas, &
+             real_gas, "equation_of_state = 'peng_robinson'")
+    call key('acentric_factor', said%acentric_factor, '1', 'of the gas', any_value, real_gas, &
+             real_gas, "equation_of_state = 'peng_robinson'")
+    call key('viscosity_exponent', viscosity_exponent, '1', 'viscosity of a real gas is in '// &
+             'proportion to this power of its density', any_value, .false., &
+             (real_gas .or. said%table) .and. .not. said%viscosities, &
+             'a real gas whose viscosity is not in its table')
+
+  contains
+
+    !> A key that some gases need, and others have no use for.
+    subroutine key(name, value, unit, meaning, rule, must, may, who)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: value
+      type(rule_type), intent(in) :: rule
+      logical, intent(in) :: must, may    !! it is required; it has a use
+      character(len=*), intent(in) :: who !! has a use for it
+      logical :: given
+
+      call keys%real_key(name, value, unit, meaning, rule, must .and. needed, &
+                         default='for '//who, given=given)
+      if (given .and. .not. may) call keys%complain(group, name, 'needs '//who)
+    end subroutine key
+  end subroutine read_state
+
+  !> Density and viscosity by a table over the pressure.
+  subroutine read_table(keys, said, needed)
+    type(case_keys_type), intent(inout) :: keys
+    type(gas_keys_type), intent(inout) :: said
+    logical, intent(in) :: needed
+    character(len=*), parameter :: alone = 'needs density_table_pressure'
+
+    call keys%real_list_key('density_table_pressure', said%pressure, longest_list, 'Pa', &
+                            'pressures of a table of the gas at its temperature, rising', &
+                            positive, .false., 'no table')
+    if (keys%last_key_is_right()) call check_rising('density_table_pressure', said%pressure)
+    call keys%real_list_key('density_table_density', said%density, longest_list, 'kg/m^3', &
+                            'densities there, rising', positive, said%table .and. needed, &
+                            'required with density_table_pressure')
+    if (keys%last_key_is_right()) then
+      call check_size('density_table_density', said%density)
+      call check_rising('density_table_density', said%density)
+    end if
+    call keys%real_list_key('density_table_viscosity', said%viscosity, longest_list, 'Pa s', &
+                            'viscosities there', positive, .false., '`viscosity`')
+    if (keys%last_key_is_right()) call check_size('density_table_viscosity', said%viscosity)
+
+  contains
+
+    !> As many values as pressures.
+    subroutine check_size(name, values)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: values(:)
+
+      if (.not. said%table) then
+        call keys%complain(group, name, alone)
+      else if (size(values) /= size(said%pressure)) then
+        call keys%complain(group, name, 'must have one value a pressure: '// &
+                           text(size(said%pressure))//', not '//text(size(values)))
+      end if
+    end subroutine check_size
+
+    !> Each value is greater than the one before.
+    subroutine check_rising(name, values)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: values(:)
+      integer :: i
+
+      if (size(values) < 2) call keys%complain(group, name, 'needs two values at least')
+      do i = 2, size(values)
+        if (values(i) > values(i - 1)) cycle
+        call keys%complain(group, name, 'must be greater than the value before it', i)
+        return
+      end do
+    end subroutine check_rising
+  end subroutine read_table
+
+  !> Whether no key is missing, which is told of later.
+  pure function is_complete(said, gas) result(complete)
+    type(gas_keys_type), intent(in) :: said
+    type(gas_case_type), intent(in) :: gas
+    logical :: complete
+    logical :: real_gas
+
+    real_gas = said%state == second_word
+    complete = gas%ambient_pressure > 0.0_wp
+    complete = complete .and. (gas%viscosity > 0.0_wp .or. said%viscosities .or. &
+                               said%viscosity_law == second_word)
+    if (real_gas .or. said%viscosity_law == second_word) then
+      complete = complete .and. said%temperature > 0.0_wp
+    end if
+    if (real_gas) complete = complete .and. said%critical_temperature > 0.0_wp .and. &
+                             said%critical_pressure > 0.0_wp
+    if (said%table) complete = complete .and. size(said%density) == size(said%pressure)
+    if (said%turbulence == second_word .and. .not. said%table) then
+      complete = complete .and. said%molar_mass > 0.0_wp .and. said%temperature > 0.0_wp
+    end if
+  end function is_complete
+
+  !> What the keys ask of each other.
+  subroutine check_keys(keys, said, gas)
+    type(case_keys_type), intent(inout) :: keys
+    type(gas_keys_type), intent(in) :: said
+    type(gas_case_type), intent(in) :: gas
+
+    if (said%table .and. said%state == second_word) then
+      call keys%complain(group, 'equation_of_state', 'has no use with a table: '// &
+                         'density_table_density gives the density')
+    end if
+    if (said%viscosities .and. said%viscosity_law == second_word) then
+      call keys%complain(group, 'viscosity_law', 'has no use with density_table_viscosity, '// &
+                         'which gives the viscosity')
+    end if
+    if (said%state == second_word .and. .not. said%temperature > said%critical_temperature) then
+      call keys%complain(group, 'temperature', 'must be above critical_temperature, '// &
+                         text(said%critical_temperature)//' K: a colder gas may condense in '// &
+                         'the film; a table up to its saturation line serves there')
+    end if
+    if (.not. said%table) return
+    if (gas%ambient_pressure < said%pressure(1) .or. &
+        gas%ambient_pressure > said%pressure(size(said%pressure))) then
+      call keys%complain(group, 'ambient_pressure', 'must lie in the table of the gas, '// &
+                         text(said%pressure(1))//' to '// &
+                         text(said%pressure(size(said%pressure)))//' Pa')
+    end if
+  end subroutine check_keys
+
+  !> The gas that the keys describe.
+  subroutine make_law(said, gas)
+    type(gas_keys_type), intent(in) :: said
+    type(gas_case_type), intent(inout) :: gas
+    type(gas_state_type) :: ambient
+    real(wp) :: density, slope, curvature !! at ambient pressure [kg/m3] or [mol/m3]
+
+    associate (law => gas%law)
+      law%ambient_pressure = gas%ambient_pressure
+      law%viscosity = gas%viscosity
+      if (said%viscosity_law == second_word) law%viscosity = sutherland_viscosity(said%temperature)
+      law%turbulent = said%turbulence == second_word
+      law%ambient_density = 0.0_wp
+      if (said%table) then
+        law%density = density_table
+        law%density_curve = monotone_table(said%pressure, said%density)
+        call table_at(law%density_curve, gas%ambient_pressure, density, slope, curvature)
+        law%unit = gas%ambient_pressure/density
+        law%ambient_density = density
+        law%has_viscosity_curve = said%viscosities
+        if (said%viscosities) law%viscosity_curve = monotone_table(said%pressure, said%viscosity)
+      else if (said%state == second_word) then
+        law%density = density_peng_robinson
+        law%fluid = peng_robinson(said%temperature, said%critical_temperature, &
+                                  said%critical_pressure, said%acentric_factor)
+        call amount_at(law%fluid, gas%ambient_pressure, density, slope, curvature)
+        law%unit = gas%ambient_pressure/density
+        law%ambient_density = density*said%molar_mass
+      else if (law%turbulent) then
+        law%ambient_density = gas%ambient_pressure*said%molar_mass/(gas_constant*said%temperature)
+      end if
+      law%plain = .not. (law%mean_free_path > 0.0_wp .or. law%turbulent .or. said%table .or. &
+                         said%state == second_word)
+      ambient = gas_state(law, gas%ambient_pressure)
+      law%viscosity = ambient%mu
+    end associate
+  end subroutine make_law
+
+  !> A viscosity beside a law or a table must be theirs.
+  subroutine check_viscosity(keys, gas)
+    type(case_keys_type), intent(inout) :: keys
+    type(gas_case_type), intent(in) :: gas
+
+    if (abs(gas%viscosity - gas%law%viscosity) <= same*gas%law%viscosity) return
+    call keys%complain(group, 'viscosity', 'is not needed: the law or table gives '// &
+                       text(gas%law%viscosity, 4)//' Pa s at ambient_pressure; leave it out')
+  end subroutine check_viscosity
 end module gfb_gas_case

@@ -15,7 +15,7 @@ module gfb_bearing_plan
   use gfb_operation_case, only: angular_speed
   use gfb_sweep_case, only: sweep_speed
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_reynolds_element, only: film_flow_type, cell_peclet
+  use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_shaft_motion, only: entraining_speed
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_mesh_plan, only: bearing_plan_type
@@ -203,7 +203,8 @@ contains
     end if
     flow%viscosity = scene%gas%viscosity
     flow%entraining_speed = entraining_speed(angular_speed(speed_rpm), scene%bearing%radius)
-    peclet = cell_peclet(flow, pad_length(scene%bearing)/real(plan%circumferential, wp), &
-                         scene%gas%ambient_pressure, scene%bearing%clearance)
+    peclet = general_peclet(scene%gas%law, flow, &
+                            pad_length(scene%bearing)/real(plan%circumferential, wp), &
+                            scene%gas%ambient_pressure, scene%bearing%clearance)
   end function concentric_peclet
 end module gfb_bearing_plan

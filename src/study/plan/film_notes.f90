@@ -4,6 +4,8 @@ module gfb_film_notes
   use gfb_aligned_mesh, only: kinks_inside
   use gfb_bore_profile, only: bore_kinks, bore_peak
   use gfb_film_mesh, only: film_mesh_type
+  use gfb_gas_case, only: gas_case_type
+  use gfb_gas_law, only: density_table
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_text, only: text
@@ -11,16 +13,67 @@ module gfb_film_notes
   private
   public :: show_film_notes
 
+  real(wp), parameter :: thin = 10.0e-6_wp       !! gap below which slip may matter [m]
+  real(wp), parameter :: air_path = 0.066e-6_wp  !! mean free path of air at one atmosphere [m]
+  real(wp), parameter :: atmosphere = 101325.0_wp !! [Pa]
+  real(wp), parameter :: laminar = 2000.0_wp     !! Reynolds number up to which films may be [1]
+
 contains
 
-  !> Tells what the scene's bore means for the mesh.
-  subroutine show_film_notes(scene, mesh, log)
+  !> Tells what the bore means for the mesh, and what of the gas is left out or left its range.
+  subroutine show_film_notes(scene, mesh, speed, minimum_gap, pressure, log)
     type(scene_type), intent(in) :: scene !! of a bearing
     type(film_mesh_type), intent(in) :: mesh !! of its film
+    real(wp), intent(in) :: speed       !! of the shaft [rad/s]
+    real(wp), intent(in) :: minimum_gap !! of the answer [m]
+    real(wp), intent(in) :: pressure(2) !! smallest and largest of the answer [Pa]
     type(run_log_type), intent(in) :: log !! where lines go
 
     if (scene%bore%present) call show_bore(scene, mesh, log)
+    call show_slip(scene%gas, minimum_gap, log)
+    call show_turbulence(scene, speed, log)
+    if (scene%gas%law%density == density_table) then
+      associate (table => scene%gas%law%density_curve%place)
+        if (pressure(1) >= table(1) .and. pressure(2) <= table(size(table))) return
+        call log%warning('the pressure leaves the table of the gas, '//text(table(1))//' to '// &
+                         text(table(size(table)))//' Pa: beyond its ends density and '// &
+                         'viscosity are extrapolated')
+      end associate
+    end if
   end subroutine show_film_notes
+
+  !> How much slip would matter where it is left out: the flow grows by 6 lambda/h.
+  subroutine show_slip(gas, minimum_gap, log)
+    type(gas_case_type), intent(in) :: gas
+    real(wp), intent(in) :: minimum_gap !! [m]
+    type(run_log_type), intent(in) :: log
+    real(wp) :: more
+
+    if (gas%law%mean_free_path > 0.0_wp .or. .not. minimum_gap > 0.0_wp) return
+    if (minimum_gap > thin) return
+    more = 6.0_wp*air_path*(atmosphere/gas%ambient_pressure)/minimum_gap
+    call log%line('slip             not modelled; in air it would raise the flow through the '// &
+                  'smallest gap by '//text(100.0_wp*more, 2)//' % (mean_free_path in &gas)')
+  end subroutine show_slip
+
+  !> The film's Reynolds number, where the density is known.
+  subroutine show_turbulence(scene, speed, log)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: speed !! [rad/s]
+    type(run_log_type), intent(in) :: log
+    real(wp) :: number
+
+    associate (law => scene%gas%law, bearing => scene%bearing)
+      number = law%ambient_density*speed*bearing%radius*bearing%clearance/law%viscosity
+      if (law%turbulent) then
+        call log%line('turbulence       Reynolds number '//text(number, 3)// &
+                      ' over the clearance, at ambient pressure')
+      else if (number > laminar) then
+        call log%warning('the Reynolds number over the clearance is '//text(number, 3)// &
+                         ": such a film is turbulent; turbulence = 'ng_pan' in &gas models it")
+      end if
+    end associate
+  end subroutine show_turbulence
 
   !> Height of the bore, and where its kinks lie.
   subroutine show_bore(scene, mesh, log)
