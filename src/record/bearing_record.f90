@@ -65,7 +65,7 @@ contains
     call add_counts(newton%iterations, newton%factorizations, row%quantity)
     if (.not. allocated(record%history)) allocate (record%history(0))
     record%history = [record%history, row]
-    call record_foil_contacts(bearing%pad(1)%foil, size(record%history), &
+    call record_foil_contacts(bearing, size(record%history), &
                               max(1, size(scene%sweep%values)), record%contacts)
   end subroutine add_row
 

@@ -10,6 +10,7 @@ module gfb_bearing_restart
   use gfb_natural_order, only: natural_order_type, bearing_order, path_order
   use gfb_operating_point, only: operating_point_type, remember_point
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: pad_contacts, set_upwind
   use gfb_newton, only: newton_type, forget_factors
   use gfb_arc, only: create_arc
   use gfb_arc_memory, only: remember_arc, resume_arc
@@ -58,9 +59,12 @@ contains
     type(memory_type), intent(inout) :: memory !! that packs or unpacks
     type(bearing_system_type), intent(inout) :: bearing !! written where the memory unpacks
     type(newton_type), intent(inout) :: newton          !! the same
+    logical :: upwind
 
     call memory%visit('shaft_fixed', bearing%shaft_fixed)
-    call memory%visit('upwind', bearing%pad(1)%film%flow%upwind)
+    upwind = bearing%pad(1)%film%flow%upwind
+    call memory%visit('upwind', upwind)
+    call set_upwind(bearing, upwind)
     call remember_point(memory, bearing%point)
     call memory%visit('newton_iterations', newton%iterations)
     call memory%visit('factorizations', newton%factorizations)
@@ -73,13 +77,27 @@ contains
     type(newton_type), intent(inout) :: newton
     type(result_file_type), intent(inout) :: file
     type(memory_type) :: memory
+    integer :: i
 
     call remember_bearing(memory, bearing, newton)
     call put_memory(memory, '/bearing', 'operating point, switches and counters', file)
     call put_vector(bearing_order(bearing), bearing%state, '/bearing/state', &
                     'scaled unknowns: film, foil, shaft', file)
-    call put_contacts(bearing%pad(1)%foil%contacts, bearing%pad(1)%foil%contacts%rows, '/bearing/contacts', file)
+    do i = 1, size(bearing%pad)
+      associate (contacts => bearing%pad(i)%foil%contacts)
+        call put_contacts(contacts, contacts%rows, contacts_of(i), file)
+      end associate
+    end do
   end subroutine put_state
+
+  !> The group of a pad's contacts.
+  pure function contacts_of(pad) result(group)
+    integer, intent(in) :: pad !! its number
+    character(len=:), allocatable :: group
+
+    group = '/bearing/contacts'
+    if (pad > 1) group = group//'_'//text(pad)
+  end function contacts_of
 
   !> Where a branch has led.
   subroutine put_way(bearing, branch, file)
@@ -157,7 +175,7 @@ contains
     call put_memory(memory, '/record', 'history, what else is known of the last answer, tilt response', file)
     if (.not. allocated(record%history)) return
     if (size(record%history) == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
-    call put_contact_record(bearing%pad(1)%foil%nodal_contacts(), bearing%pad(1)%foil%contacts%rows, record%contacts, &
+    call put_contact_record(pad_contacts(bearing), bearing%pad(1)%foil%contacts%rows, record%contacts, &
                             size(record%history), '/record/contacts', file)
   end subroutine put_record
 
@@ -217,12 +235,17 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     type(memory_type) :: memory
+    integer :: i
 
     call read_memory('/bearing', file, memory)
     call remember_bearing(memory, bearing, newton)
     call end_memory(memory, file)
     call read_vector(bearing_order(bearing), '/bearing/state', file, bearing%state)
-    call read_contacts(bearing%pad(1)%foil%contacts%rows, '/bearing/contacts', file, bearing%pad(1)%foil%contacts)
+    do i = 1, size(bearing%pad)
+      associate (contacts => bearing%pad(i)%foil%contacts)
+        call read_contacts(contacts%rows, contacts_of(i), file, contacts)
+      end associate
+    end do
   end subroutine read_state
 
   !> The reverse of `put_record`.
@@ -237,7 +260,7 @@ contains
     call end_memory(memory, file)
     if (file%failed) return
     if (size(record%history) == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
-    call read_contact_record(bearing%pad(1)%foil%nodal_contacts(), bearing%pad(1)%foil%contacts%rows, size(record%history), &
+    call read_contact_record(pad_contacts(bearing), bearing%pad(1)%foil%contacts%rows, size(record%history), &
                              '/record/contacts', file, record%contacts)
   end subroutine read_record
 end module gfb_bearing_restart

@@ -6,7 +6,8 @@ module gfb_contact_record
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top, normal_line_force
-  use gfb_foil_model, only: foil_model_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: pad_contacts
   implicit none (type, external)
   private
   public :: record_contacts, contact_arrays, record_foil_contacts, foil_contact_arrays
@@ -22,18 +23,19 @@ module gfb_contact_record
 
 contains
 
-  !> Keeps the contacts of a foil at a point; nothing where it has none.
-  subroutine record_foil_contacts(foil, point, points, record)
-    class(foil_model_type), intent(in) :: foil !! under the film
+  !> Keeps the contacts of all pads' foils at a point; nothing where it has none.
+  subroutine record_foil_contacts(bearing, point, points, record)
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: point  !! number of this one
     integer, intent(in) :: points !! that there will be, as far as is known
     type(contact_record_type), intent(inout) :: record !! gets the point
-    if (foil%has_contacts()) call record_contacts(foil%nodal_contacts(), point, points, record)
+    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    call record_contacts(pad_contacts(bearing), point, points, record)
   end subroutine record_foil_contacts
 
-  !> The contacts of a foil at all points; none where it has none.
-  function foil_contact_arrays(foil, record, points) result(arrays)
-    class(foil_model_type), intent(in) :: foil !! whose contacts were recorded
+  !> The contacts of all pads' foils at all points; none where they have none.
+  function foil_contact_arrays(bearing, record, points) result(arrays)
+    type(bearing_system_type), intent(in) :: bearing !! whose contacts were recorded
     type(contact_record_type), intent(in) :: record !! of all points
     integer, intent(in) :: points !! recorded
     type(case_array_type), allocatable :: arrays(:)
@@ -41,10 +43,10 @@ contains
     integer :: i
 
     allocate (arrays(0))
-    surface = foil%surfaces()
+    surface = bearing%pad(1)%foil%surfaces()
     do i = 1, size(surface)
       if (.not. surface(i)%has_contacts) cycle
-      call add_arrays(arrays, contact_arrays(foil%nodal_contacts(), surface(i), record, points))
+      call add_arrays(arrays, contact_arrays(pad_contacts(bearing), surface(i), record, points))
     end do
   end function foil_contact_arrays
 

@@ -25,16 +25,18 @@ module gfb_natural_order
 
 contains
 
-  !> Order of a bearing's state: film node by node, foil, shaft.
+  !> Order of a bearing's state: of each pad film node by node, foil; shaft.
   function bearing_order(bearing) result(order)
     type(bearing_system_type), intent(in) :: bearing !! with its numbering
     type(natural_order_type) :: order
     integer, allocatable :: film(:), foil(:)
-    integer :: i
+    integer :: i, k
 
     film = film_numbers(bearing%pad(1)%mesh)
     foil = bearing%pad(1)%foil%natural_numbers()
     order%number = [film, largest_number(film) + foil]
+    order%total = largest_number(order%number)
+    order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
     order%total = largest_number(order%number)
     if (.not. bearing%floats) return
     if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, shaft_unknowns)]

@@ -1,7 +1,8 @@
 !> What the groups of a scene ask of each other.
 module gfb_scene_rules
   use gfb_kinds, only: wp, long
-  use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic
+  use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic, pad_angle, pad_turn, &
+                              preload_angle
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, &
                                 has_flats, bumps_overlap
   use gfb_case_keys, only: case_keys_type
@@ -318,31 +319,40 @@ contains
     type(bearing_case_type), intent(in) :: bearing
     type(operation_case_type), intent(in) :: operation
     real(wp) :: approach
-    real(wp) :: z
+    real(wp) :: z, e(2)
+    integer :: pad
 
-    associate (e => operation%eccentricity, tilt => operation%tilt)
-      z = 0.5_wp*bearing%length
-      approach = max(approach_at_end(bearing, e + z*[tilt(2), -tilt(1)]), &
-                     approach_at_end(bearing, e - z*[tilt(2), -tilt(1)]))
-    end associate
+    approach = -huge(approach)
+    do pad = 1, bearing%pads
+      e = operation%eccentricity
+      if (bearing%preload > 0.0_wp) then
+        e = e - bearing%preload*bearing%clearance*[cos(preload_angle(bearing, pad)), &
+                                                   sin(preload_angle(bearing, pad))]
+      end if
+      associate (tilt => operation%tilt)
+        z = 0.5_wp*bearing%length
+        approach = max(approach, approach_at_end(bearing, pad, e + z*[tilt(2), -tilt(1)]), &
+                       approach_at_end(bearing, pad, e - z*[tilt(2), -tilt(1)]))
+      end associate
+    end do
   end function approach_to_pad
 
   !> Displacement towards the pad at one end of the bearing; towards the
   !> pad's edges where the thinnest gap would not be on the pad.
-  pure function approach_at_end(bearing, eccentricity) result(approach)
+  pure function approach_at_end(bearing, pad, eccentricity) result(approach)
     type(bearing_case_type), intent(in) :: bearing
+    integer, intent(in) :: pad !! its number
     real(wp), intent(in) :: eccentricity(2) !! of the sleeve relative to the shaft at that end [m]
     real(wp) :: approach
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-    real(wp) :: thinnest
+    real(wp) :: thinnest, edge(2)
 
-    thinnest = modulo(atan2(-eccentricity(2), -eccentricity(1)), turn)
-    if (thinnest >= bearing%leading_edge_angle) then
+    edge = bearing%leading_edge_angle + pad_turn(bearing, pad) + [0.0_wp, pad_angle(bearing)]
+    thinnest = atan2(-eccentricity(2), -eccentricity(1))
+    if (modulo(thinnest - edge(1), turn) <= edge(2) - edge(1)) then
       approach = norm2(eccentricity)
     else
-      associate (angle => bearing%leading_edge_angle)
-        approach = max(-eccentricity(1), -eccentricity(1)*cos(angle) - eccentricity(2)*sin(angle))
-      end associate
+      approach = maxval(-eccentricity(1)*cos(edge) - eccentricity(2)*sin(edge))
     end if
   end function approach_at_end
 end module gfb_scene_rules

@@ -7,7 +7,7 @@
 module gfb_bearing
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks, fetch_entries
+  use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
   use gfb_shaft_motion, only: shaft_unknowns
@@ -19,14 +19,14 @@ module gfb_bearing
   use gfb_pad, only: pad_type
   implicit none (type)
   private
-  public :: number_unknowns, scale_unknowns, film_values
+  public :: number_unknowns, scale_unknowns
 
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
     logical :: floats = .false.            !! (e_x, e_y) are unknowns
     logical :: shaft_fixed = .false.       !! they are, but fixed at the point's eccentricity
-    type(pad_type), allocatable :: pad(:)  !! today one
+    type(pad_type), allocatable :: pad(:)  !! equal ones
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before e_x
@@ -40,6 +40,9 @@ module gfb_bearing
     procedure :: add_up => add_up_unknowns
     procedure :: local_size
     procedure :: film_nodes
+    procedure :: film_pressure
+    procedure :: put_pressure
+    procedure :: film_force
     procedure :: is_meshed
     procedure :: gap => bearing_gap
     procedure :: solid_pressure
@@ -190,20 +193,6 @@ contains
     force = sum_over_ranks(self%local_force(unknown, self%gap(unknown)))
   end function reaction
 
-  !> A field of the first pad's film, known at each rank's nodes, at any nodes of the whole mesh.
-  function film_values(bearing, value, wanted) result(found)
-    class(bearing_type), intent(in) :: bearing !! pads and shaft
-    real(wp), intent(in) :: value(:)     !! at the local film nodes, in any unit [SI]
-    integer, intent(in) :: wanted(:)     !! nodes of the whole mesh
-    real(wp) :: found(size(wanted))
-    real(wp) :: own(1, count(bearing%pad(1)%mesh%owned))
-
-    associate (mesh => bearing%pad(1)%mesh)
-      own(1, :) = pack(value, mesh%owned)
-      found = pack(fetch_entries(bearing%pad(1)%whole%nodes(), pack(mesh%mesh_node, mesh%owned), own, wanted), .true.)
-    end associate
-  end function film_values
-
   !> Local unknowns at a state, in SI.
   subroutine get_unknowns(self, unknown, state)
     class(bearing_type), intent(in) :: self !! the bearing
@@ -249,6 +238,47 @@ contains
     integer :: nodes
     nodes = self%pad(size(self%pad))%last_node
   end function film_nodes
+
+  !> Pressures at this rank's film nodes, pad by pad, among local unknowns [Pa].
+  pure function film_pressure(self, unknown) result(pressure)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: pressure(self%film_nodes())
+    integer :: i
+
+    do i = 1, size(self%pad)
+      associate (pad => self%pad(i))
+        pressure(pad%first_node + 1:pad%last_node) = unknown(pad%first + 1:pad%first + pad%last_node - pad%first_node)
+      end associate
+    end do
+  end function film_pressure
+
+  !> Puts pressures at this rank's film nodes, pad by pad, among local unknowns.
+  pure subroutine put_pressure(self, pressure, unknown)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: pressure(:)   !! at all film nodes [Pa]
+    real(wp), intent(inout) :: unknown(:) !! local, in SI
+    integer :: i
+
+    do i = 1, size(self%pad)
+      associate (pad => self%pad(i))
+        unknown(pad%first + 1:pad%first + pad%last_node - pad%first_node) = pressure(pad%first_node + 1:pad%last_node)
+      end associate
+    end do
+  end subroutine put_pressure
+
+  !> This rank's share of force and torque of pressures at the film nodes of all pads [N], [N m].
+  pure function film_force(self, pressure) result(force)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: pressure(:) !! at all film nodes [Pa]
+    real(wp) :: force(film_forces)
+    integer :: i
+
+    force = self%pad(1)%film%force(pressure(:self%pad(1)%last_node))
+    do i = 2, size(self%pad)
+      force = force + self%pad(i)%film%force(pressure(self%pad(i)%first_node + 1:self%pad(i)%last_node))
+    end do
+  end function film_force
 
   !> Whether foils have meshes of their own.
   pure function is_meshed(self) result(meshed)

@@ -6,12 +6,12 @@ module gfb_bearing_answer
   use gfb_film_load, only: film_forces
   use gfb_film_measures, only: force_without_suction, film_drag, film_integral, film_peclet, &
                                film_midplane_gap
-  use gfb_bearing, only: film_values
+  use gfb_operating_point, only: operating_point_type
+  use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, film_block, full_rows
-  public :: remember_answer
+  public :: bearing_answer, remember_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -39,6 +39,8 @@ module gfb_bearing_answer
     real(wp) :: solid_torque = 0.0_wp              !! with which they brake the shaft [N m]
     real(wp) :: maximum_solid_pressure = 0.0_wp    !! [Pa]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
+    real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
+    real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
   end type bearing_answer_type
 
 contains
@@ -48,25 +50,33 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     type(bearing_answer_type) :: answer
 
-    real(wp) :: unknown(bearing%local_size()), largest(7)
+    real(wp) :: unknown(bearing%local_size())
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
-    real(wp) :: total(2*film_forces + 1)
+    real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(7, size(bearing%pad))
+    real(wp) :: total(size(sums, 1)), largest(size(most, 1))
+    integer :: i
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
-    pressure = unknown(:size(gap))
-    associate (film => bearing%pad(1)%film, whole => bearing%pad(1)%whole)
-      total = sum_over_ranks([film%force(pressure), force_without_suction(film, pressure), &
-                              film_drag(film, pressure, gap, bearing%position(unknown))])
-      largest(1) = -minval(gap)
-      largest(2) = -film_midplane_gap(film, gap)
-      largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
-      largest(4) = maxval(pressure)
-      largest(5) = -minval(pressure)
-      largest(6) = film_peclet(film, bearing%point, pressure, gap, 0.0_wp)
-      largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
-      largest = largest_over_ranks(largest)
-    end associate
+    pressure = bearing%film_pressure(unknown)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call read_film(bearing, pad, pressure(pad%first_node + 1:pad%last_node), &
+                       gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), &
+                       sums(:, i), most(:, i))
+      end associate
+    end do
+    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    most = reshape(largest_over_ranks(pack(most, .true.)), shape(most))
+    total = sums(:, 1)
+    do i = 2, size(bearing%pad)
+      total = total + sums(:, i)
+    end do
+    largest = maxval(most, 2)
+    if (size(bearing%pad) > 1) then
+      answer%pad_force = sums(1:2, :)
+      answer%pad_gap = -most(1, :)
+    end if
     if (bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
     if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
@@ -83,22 +93,57 @@ contains
     answer%rough_peclet = largest(7)
   end function bearing_answer
 
+  !> Sums and largest values of this rank's part of a pad's film.
+  subroutine read_film(bearing, pad, pressure, gap, position, sums, largest)
+    type(bearing_system_type), intent(in) :: bearing
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: pressure(:) !! at the pad's nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the pad's nodes [m]
+    type(operating_point_type), intent(in) :: position !! with the shaft's position
+    real(wp), intent(out) :: sums(:)    !! force, that without suction, drag
+    real(wp), intent(out) :: largest(:) !! in the order of the answer's parts
+
+    associate (film => pad%film, whole => pad%whole)
+      sums = [film%force(pressure), force_without_suction(film, pressure), &
+              film_drag(film, pressure, gap, position)]
+      largest(1) = -minval(gap)
+      largest(2) = -film_midplane_gap(film, gap)
+      largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
+      largest(4) = maxval(pressure)
+      largest(5) = -minval(pressure)
+      largest(6) = film_peclet(film, bearing%point, pressure, gap, 0.0_wp)
+      largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
+    end associate
+  end subroutine read_film
+
   !> What the shaft's asperities carry, and how they rub: the shaft turns, or begins to.
   subroutine read_solid_contact(bearing, unknown, answer)
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
-    real(wp) :: pressure(size(bearing%pad(1)%mesh%mesh_node)), sums(film_forces + 1), largest(1)
+    real(wp) :: pressure(bearing%film_nodes()), sums(film_forces + 1, size(bearing%pad))
+    real(wp) :: total(film_forces + 1), largest(1)
+    integer :: i
 
     pressure = bearing%solid_pressure(unknown)
+    do i = 1, size(bearing%pad)
+      associate (film => bearing%pad(i)%film, first => bearing%pad(i)%first_node + 1, &
+                 last => bearing%pad(i)%last_node)
+        sums(:film_forces, i) = film%force(film%ambient_pressure + pressure(first:last))
+        sums(film_forces + 1, i) = film_integral(film, pressure(first:last))
+      end associate
+    end do
+    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    total = sums(:, 1)
+    do i = 2, size(bearing%pad)
+      total = total + sums(:, i)
+    end do
+    if (allocated(answer%pad_force)) answer%pad_force = answer%pad_force + sums(1:2, :)
     associate (film => bearing%pad(1)%film)
-      sums(:film_forces) = film%force(film%ambient_pressure + pressure)
-      sums(film_forces + 1) = film_integral(film, pressure)
-      sums = sum_over_ranks(sums)
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.
-      answer%solid_force = sums(:film_forces)
-      answer%solid_torque = bearing%pad(1)%contact%friction*film%radius*sums(film_forces + 1)
+      answer%solid_force = total(:film_forces)
+      answer%solid_torque = bearing%pad(1)%contact%friction*film%radius*total(film_forces + 1)
       answer%maximum_solid_pressure = largest(1)
     end associate
   end subroutine read_solid_contact
@@ -109,17 +154,42 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
-    real(wp) :: lift(size(bearing%pad(1)%mesh%mesh_node)), middle, share(2), sums(8)
+    real(wp) :: share(2), sums(8)
+    integer :: i
+
+    sums = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call add_lifts(pad, -pad%foil%deflection(unknown(pad%first + 1:pad%last)), sums)
+      end associate
+    end do
+    sums = sum_over_ranks(sums)
+    answer%has_foils = .true.
+    answer%leading_edge_lift = sums(:2)/sums(3:4)
+    answer%trailing_edge_lift = sums(5:6)/sums(7:8)
+    share = bearing%pad(1)%foil%crest_lengths()
+    do i = 2, size(bearing%pad)
+      share = share + bearing%pad(i)%foil%crest_lengths()
+    end do
+    share = sum_over_ranks(share)
+    if (share(2) > 0.0_wp) answer%lifted_length = share(1)/share(2)
+  end subroutine read_lifts
+
+  !> Adds this rank's lifts of the edges of a pad's top foil, and how many nodes they are of.
+  pure subroutine add_lifts(pad, lift, sums)
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: lift(:)    !! at the pad's nodes [m]
+    !> at the midplane and the ends: lifts of the leading edge, nodes; of the trailing edge, nodes
+    real(wp), intent(inout) :: sums(:)
+    real(wp) :: middle, share(2)
     integer :: i, station, row
 
-    lift = -bearing%pad(1)%foil%deflection(unknown)
-    sums = 0.0_wp
-    associate (whole => bearing%pad(1)%whole)
+    associate (whole => pad%whole)
       middle = minval(abs(whole%row_axial))
       do i = 1, size(lift)
-        if (.not. bearing%pad(1)%mesh%owned(i)) cycle
-        station = (bearing%pad(1)%mesh%mesh_node(i) - 1)/whole%rows() + 1
-        row = bearing%pad(1)%mesh%mesh_node(i) - (station - 1)*whole%rows()
+        if (.not. pad%mesh%owned(i)) cycle
+        station = (pad%mesh%mesh_node(i) - 1)/whole%rows() + 1
+        row = pad%mesh%mesh_node(i) - (station - 1)*whole%rows()
         if (station /= 1 .and. station /= whole%stations()) cycle
         share = [merge(1.0_wp, 0.0_wp, abs(whole%row_axial(row)) <= middle), &
                  merge(1.0_wp, 0.0_wp, row == whole%rows() .or. (row == 1 .and. .not. whole%half))]
@@ -132,49 +202,7 @@ contains
         end if
       end do
     end associate
-    sums = sum_over_ranks(sums)
-    answer%has_foils = .true.
-    answer%leading_edge_lift = sums(:2)/sums(3:4)
-    answer%trailing_edge_lift = sums(5:6)/sums(7:8)
-    share = sum_over_ranks(bearing%pad(1)%foil%crest_lengths())
-    if (share(2) > 0.0_wp) answer%lifted_length = share(1)/share(2)
-  end subroutine read_lifts
-
-  !> Rows of the whole width, also where half of it is solved.
-  pure function full_rows(bearing) result(position)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    real(wp), allocatable :: position(:) !! z [m]
-
-    associate (z => bearing%pad(1)%whole%row_axial)
-      if (bearing%pad(1)%whole%half) then
-        position = [-z(size(z):2:-1), z]
-      else
-        position = z
-      end if
-    end associate
-  end function full_rows
-
-  !> This rank's consecutive part of a film field on the whole pad: station by station, rows of the
-  !> whole width, a ring closed by its first station.
-  subroutine film_block(bearing, value, first, last, block)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    real(wp), intent(in) :: value(:)   !! at the local film nodes, in any unit [SI]
-    integer, intent(in) :: first, last !! nodes of the pad this rank takes, from 1
-    real(wp), allocatable, intent(out) :: block(:) !! of these nodes, in the same unit [SI]
-
-    integer, allocatable :: wanted(:)
-    integer :: i, rows, row, station
-
-    rows = size(full_rows(bearing))
-    allocate (wanted(last - first + 1))
-    do i = first, last
-      station = modulo((i - 1)/rows, bearing%pad(1)%whole%stations())
-      row = modulo(i - 1, rows) + 1
-      if (bearing%pad(1)%whole%half) row = abs(row - bearing%pad(1)%whole%rows()) + 1
-      wanted(i - first + 1) = station*bearing%pad(1)%whole%rows() + row
-    end do
-    block = film_values(bearing, value, wanted)
-  end subroutine film_block
+  end subroutine add_lifts
 
   !> Packs or unpacks an answer.
   pure subroutine remember_answer(memory, answer)

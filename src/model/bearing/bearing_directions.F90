@@ -16,21 +16,27 @@ contains
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp) :: lift
     real(wp) :: unknown(bearing%local_size()), total(1)
+    integer :: i
 
     call bearing%get_unknowns(unknown)
-    total = sum_over_ranks([bearing%pad(1)%edge%lift(unknown)])
-    lift = total(1)
+    total = 0.0_wp
+    do i = 1, size(bearing%pad)
+      total = total + bearing%pad(i)%edge%lift(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last))
+    end do
+    total = sum_over_ranks(total)
+    lift = total(1)/size(bearing%pad)
   end function edge_lift
 
   !> Smallest gap over the top foil's free edge at the present state, over all ranks [m].
   function edge_room(bearing) result(room)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp) :: room
-    real(wp) :: unknown(bearing%local_size()), gap(size(bearing%pad(1)%mesh%mesh_node)), smallest(1)
+    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), smallest(1)
+    integer :: i
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
-    smallest = largest_over_ranks([maxval(-gap(bearing%pad(1)%edge%node))])
+    smallest = largest_over_ranks([maxval([(-gap(bearing%pad(i)%first_node + bearing%pad(i)%edge%node), i=1, size(bearing%pad))])])
     room = -smallest(1)
   end function edge_room
 
@@ -45,10 +51,18 @@ contains
   subroutine edge_direction(bearing, direction)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: direction !! scaled
+    real(wp) :: rate(bearing%local_size())
     PetscErrorCode :: ierr
+    integer :: i
 
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call bearing%exchange%add(bearing%pad(1)%edge%lift_rates(bearing%local_size())*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
+    rate = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        rate(pad%first + 1:pad%last) = pad%edge%lift_rates(pad%last - pad%first)/size(bearing%pad)
+      end associate
+    end do
+    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
   end subroutine edge_direction
 
   !> Which contacts open or close first on the path from the present state to another.
@@ -61,15 +75,27 @@ contains
     logical, intent(out) :: closes       !! one of them closes
     real(wp) :: here(bearing%local_size()), ahead(bearing%local_size()), rate(bearing%local_size()), first(1), total(1)
     PetscErrorCode :: ierr
+    integer :: i
 
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(ahead, other)
-    first = -largest_over_ranks([-bearing%pad(1)%foil%next_contact_change(here, ahead)])
+    first = huge(first)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        first = min(first, pad%foil%next_contact_change(here(pad%first + 1:pad%last), ahead(pad%first + 1:pad%last)))
+      end associate
+    end do
+    first = -largest_over_ranks(-first)
     share = first(1)
     rate = 0.0_wp
     distance = 0.0_wp
     closes = .false.
-    if (share < huge(share)) call bearing%pad(1)%foil%add_penetration_rates(here, ahead, share, rate, distance, closes)
+    do i = 1, merge(size(bearing%pad), 0, share < huge(share))
+      associate (pad => bearing%pad(i))
+        call pad%foil%add_penetration_rates(here(pad%first + 1:pad%last), ahead(pad%first + 1:pad%last), share, &
+                                            rate(pad%first + 1:pad%last), distance, closes)
+      end associate
+    end do
     closes = any_rank(closes)
     total = sum_over_ranks([distance])
     distance = total(1)/bearing%pad(1)%film%clearance
@@ -83,11 +109,14 @@ contains
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: diagonal !! scaled
     real(wp) :: value(bearing%local_size())
+    integer :: i
 
     value = 0.0_wp
-    associate (first => bearing%pad(1)%foil%first + 1, last => bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns())
-      value(first:last) = bearing%pad(1)%foil%unknown_scale/bearing%pad(1)%foil%equation_scale
-    end associate
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        value(pad%first + pad%foil%first + 1:pad%last) = pad%foil%unknown_scale/pad%foil%equation_scale
+      end associate
+    end do
     call bearing%exchange%put(value, diagonal)
   end subroutine foil_unit
 end module gfb_bearing_directions

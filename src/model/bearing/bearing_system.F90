@@ -14,7 +14,7 @@ module gfb_bearing_system
   use gfb_operating_point, only: operating_point_type
   use gfb_local_exchange, only: create_exchange
   use gfb_film_matrix, only: no_shaft, add_shaft_stiffness
-  use gfb_pad, only: create_pad_film, complete_pad
+  use gfb_pad, only: pad_place_type, create_pad_film, complete_pad, place_pads
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   use gfb_pad_matrix, only: fill_pad_constant, fill_pad
   implicit none (type)
@@ -24,6 +24,8 @@ module gfb_bearing_system
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
+    !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
+    ISLocalToGlobalMapping, allocatable, private :: numbers(:)
     type(tVec), private :: left, right !! work space: sizes of equations, inverted; sizes of unknowns
     type(cost_events_type), private :: events !! of PETSc's log
   contains
@@ -40,7 +42,7 @@ module gfb_bearing_system
 
 contains
 
-  !> Distributes the film's mesh and sets up this rank's share of the film, that of the only pad.
+  !> Distributes the film's mesh and sets up this rank's share of the film, that of the first pad.
   !>
   !> Fails when the mesh cannot be cut, or an element is folded over.
   subroutine create_film_part(whole, clearance, ambient_pressure, viscosity, upwind, bearing, error, column_part)
@@ -59,14 +61,16 @@ contains
   end subroutine create_film_part
 
   !> Puts film, foil and shaft together; the foil moves into the system.
-  subroutine create_bearing_system(bearing, foil, floats)
+  subroutine create_bearing_system(bearing, foil, floats, place)
     type(bearing_system_type), intent(inout) :: bearing !! with its film
     class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
+    type(pad_place_type), intent(in), optional :: place(:) !! of the pads, which are equal; default: one
     PetscErrorCode :: ierr
 
     call register_cost_events(bearing%events)
     call complete_pad(foil, bearing%events, bearing%pad(1))
+    if (present(place)) call place_pads(place, bearing%pad)
     bearing%floats = floats
     bearing%dense_rows = floats
     call number_unknowns(bearing)
@@ -75,6 +79,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, bearing%right, ierr))
     call create_exchange(bearing%blocks%global, bearing%state, bearing%exchange)
     call create_bearing_matrix(bearing)
+    call create_numbers(bearing)
     call scale_unknowns(bearing)
     call bearing%exchange%put(bearing%unknown_scale, bearing%right)
     if (bearing%is_meshed()) call fill_constant(bearing)
@@ -93,6 +98,32 @@ contains
     call bearing%blocks%create_matrix(entries, bearing%jacobian)
   end subroutine create_bearing_matrix
 
+  !> The numbers by which each pad fills the matrix: as if it were the only one.
+  subroutine create_numbers(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
+    integer(pint), allocatable :: global(:)
+    PetscErrorCode :: ierr
+    integer :: i
+
+    if (size(bearing%pad) == 1) return
+    allocate (bearing%numbers(0:size(bearing%pad)))
+    do i = 0, size(bearing%pad)
+      global = bearing%blocks%global
+      if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), global(bearing%first_shaft + 1:)]
+      PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
+    end do
+  end subroutine create_numbers
+
+  !> From now on the matrix is filled by the local numbers of a pad and the shaft's behind them; 0: by the bearing's.
+  subroutine number_by(bearing, i)
+    type(bearing_system_type), intent(inout) :: bearing
+    integer, intent(in) :: i !! of the pad, or 0
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(bearing%numbers)) return
+    PetscCallA(MatSetLocalToGlobalMapping(bearing%jacobian, bearing%numbers(i), bearing%numbers(i), ierr))
+  end subroutine number_by
+
   !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
   subroutine fill_constant(bearing)
     type(bearing_system_type), intent(inout) :: bearing
@@ -100,19 +131,22 @@ contains
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_number(bearing), bearing%jacobian)
+      call number_by(bearing, i)
+      call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_number(bearing, i), bearing%jacobian)
     end do
+    call number_by(bearing, 0)
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(bearing%first_shaft, 0.0_wp, bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
 
-  !> Local unknowns before e_x, where the shaft has any.
-  pure function shaft_number(bearing) result(number)
+  !> Local unknowns of a pad, before e_x among the numbers by which it fills the matrix, where the shaft has any.
+  pure function shaft_number(bearing, i) result(number)
     class(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: i !! of the pad
     integer :: number
-    number = merge(bearing%first_shaft, no_shaft, bearing%floats)
+    number = merge(bearing%pad(i)%last - bearing%pad(i)%first, no_shaft, bearing%floats)
   end function shaft_number
 
   !> Force over displacement that keeps a fixed shaft at its position, 0 where it floats [N/m].
@@ -236,11 +270,13 @@ contains
       PetscCallA(MatZeroEntries(self%jacobian, ierr))
     end if
     do i = 1, size(self%pad)
+      call number_by(self, i)
       associate (pad => self%pad(i))
         call fill_pad(pad, self%position(unknown, point), unknown(pad%first + 1:pad%last), &
-                      gap(pad%first_node + 1:pad%last_node), shaft_number(self), fixed, self%events, self%jacobian)
+                      gap(pad%first_node + 1:pad%last_node), shaft_number(self, i), fixed, self%events, self%jacobian)
       end associate
     end do
+    call number_by(self, 0)
     if (self%floats .and. self%last_rank) then
       call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
     end if
@@ -338,9 +374,12 @@ contains
     if (self%is_meshed()) then
       PetscCallA(MatDestroy(self%constant, ierr))
     end if
-    do i = 1, size(self%pad)
-      call self%pad(i)%foil%destroy()
-    end do
+    call self%pad(1)%foil%destroy() ! the others' is the same
+    if (allocated(self%numbers)) then
+      do i = 0, size(self%pad)
+        PetscCallA(ISLocalToGlobalMappingDestroy(self%numbers(i), ierr))
+      end do
+    end if
     call self%exchange%destroy()
     PetscCallA(VecDestroy(self%right, ierr))
     PetscCallA(VecDestroy(self%left, ierr))

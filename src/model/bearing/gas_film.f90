@@ -25,6 +25,7 @@ module gfb_gas_film
     type(gas_law_type) :: law             !! of the gas
     real(wp) :: radius = 0.0_wp           !! of the bearing [m]
     real(wp) :: clearance = 0.0_wp        !! C [m]
+    real(wp) :: shift(2) = 0.0_wp         !! of the pad's centre, adds to the eccentricity [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
@@ -194,10 +195,11 @@ contains
     class(gas_film_type), intent(in) :: self !! this rank's film
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
-    real(wp) :: gap(size(deflection))
+    real(wp) :: gap(size(deflection)), eccentricity(2)
 
-    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance, point%eccentricity(1), &
-                                 point%eccentricity(2), point%tilt(1), point%tilt(2))
+    eccentricity = point%eccentricity + self%shift
+    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance, eccentricity(1), &
+                                 eccentricity(2), point%tilt(1), point%tilt(2))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
@@ -212,8 +214,8 @@ contains
     excess = 0.0_wp
     do i = 1, size(self%shape, 2)
       associate (motion => self%motion_excess(:, i, element))
-        excess(i) = dot_product(point%eccentricity, motion(1:2)) + point%tilt(2)*motion(4) &
-          + point%tilt(1)*motion(3)
+        excess(i) = dot_product(point%eccentricity + self%shift, motion(1:2)) &
+          + point%tilt(2)*motion(4) + point%tilt(1)*motion(3)
       end associate
     end do
     if (allocated(self%bore)) then

@@ -22,7 +22,13 @@ module gfb_pad
   use gfb_free_edge, only: free_edge_type, find_free_edge
   implicit none (type)
   private
-  public :: create_pad_film, complete_pad
+  public :: create_pad_film, complete_pad, place_pads
+
+  !> Where a pad stands.
+  type, public :: pad_place_type
+    real(wp) :: turn = 0.0_wp     !! from the first pad [rad]
+    real(wp) :: shift(2) = 0.0_wp !! of its centre of curvature relative to the bearing's, seen as an eccentricity [m]
+  end type pad_place_type
 
   !> A pad on this rank.
   type, public :: pad_type
@@ -91,6 +97,49 @@ contains
     pad%last = pad%first + nodes + pad%foil%local_unknowns()
     pad%last_node = pad%first_node + nodes
   end subroutine complete_pad
+
+  !> Adds the pads that are equal to the first one.
+  subroutine place_pads(place, pads)
+    type(pad_place_type), intent(in) :: place(:) !! of all pads
+    type(pad_type), allocatable, intent(inout) :: pads(:) !! the first one, complete
+    type(pad_type), allocatable :: all_pads(:)
+    integer :: i
+
+    pads(1)%film%shift = place(1)%shift
+    if (size(place) == 1) return
+    allocate (all_pads(size(place)))
+    all_pads(1) = pads(1)
+    do i = 2, size(place)
+      call create_equal_pad(all_pads(1), place(i), all_pads(i - 1), all_pads(i))
+    end do
+    call move_alloc(all_pads, pads)
+  end subroutine place_pads
+
+  !> A further pad, equal to the first one but for its place. What PETSc holds of their foils is one and the same: the
+  !> first pad's, which frees it.
+  subroutine create_equal_pad(first, place, before, pad)
+    type(pad_type), intent(in) :: first  !! complete
+    type(pad_place_type), intent(in) :: place
+    type(pad_type), intent(in) :: before !! whose unknowns stand before the new one's
+    type(pad_type), intent(out) :: pad
+    type(error_type), allocatable :: error
+    integer :: unknowns, nodes
+
+    unknowns = first%last - first%first
+    nodes = first%last_node - first%first_node
+    pad = first
+    pad%first = before%last
+    pad%last = pad%first + unknowns
+    pad%first_node = before%last_node
+    pad%last_node = pad%first_node + nodes
+    pad%whole%station_angle = first%whole%station_angle + place%turn
+    associate (film => first%film)
+      call create_gas_film(pad%whole, pad%mesh%mesh_node, pad%mesh%element_nodes, film%clearance, film%ambient_pressure, &
+                           film%flow%viscosity, film%flow%upwind, pad%film, error)
+    end associate
+    if (allocated(error)) error stop 'a pad that is equal to a good one is not'
+    pad%film%shift = place%shift
+  end subroutine create_equal_pad
 
   !> Gap at this rank's nodes [m].
   pure function pad_gap(self, point, unknown) result(gap)

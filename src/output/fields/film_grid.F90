@@ -4,7 +4,7 @@ module gfb_film_grid
   use gfb_output_case, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_answer, only: film_block, full_rows
+  use gfb_film_fields, only: film_block, full_rows
   use gfb_grid_file, only: block_bounds
   use gfb_strip_grid, only: strip_grid
   use gfb_result_set, only: result_grid_type, add_grid_field
@@ -20,28 +20,28 @@ contains
     type(output_case_type), intent(in) :: output !! which fields are asked for
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written; gets the film
 
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     type(result_grid_type) :: film
     real(wp) :: unknown(bearing%local_size())
-    real(wp), allocatable :: position_x(:)
+    integer :: i
 
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
     call bearing%get_unknowns(unknown)
     film%name = 'film'
-    associate (whole => bearing%pad(1)%whole, nodes => size(bearing%pad(1)%mesh%mesh_node))
-      position_x = whole%radius*(whole%station_angle - whole%station_angle(1))
-      if (whole%periodic) position_x = [position_x, whole%radius*turn]
-      film%grid = strip_grid(position_x, full_rows(bearing), this_rank(), rank_count())
-      call add('theta', 'rad', 'angle around the bearing', bearing%pad(1)%film%angle)
-      if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', unknown(:nodes))
-      if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
-      if (output%deflection) then
-        call add('deflection', 'm', 'of the foil, away from the shaft', bearing%pad(1)%foil%deflection(unknown))
-      end if
-      if (bearing%pad(1)%contact%present) then
-        call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
-      end if
-    end associate
+    film%grid = strip_grid(positions_along(bearing), size(bearing%pad), full_rows(bearing), this_rank(), rank_count())
+    call add('theta', 'rad', 'angle around the bearing', [(bearing%pad(i)%film%angle, i=1, size(bearing%pad))])
+    if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', bearing%film_pressure(unknown))
+    if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
+    if (output%deflection) then
+      call add('deflection', 'm', 'of the foil, away from the shaft', &
+               [(bearing%pad(i)%foil%deflection(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last)), i=1, size(bearing%pad))])
+    end if
+    if (bearing%pad(1)%contact%present) then
+      call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
+    end if
+    if (size(bearing%pad) > 1) then
+      call add('pad', '1', 'number of the pad', &
+               [(spread(real(i, wp), 1, size(bearing%pad(i)%film%angle)), i=1, size(bearing%pad))])
+    end if
     allocate (film%cell_field(0))
     call add_rank(bearing, film)
     grids = [grids, film]
@@ -61,7 +61,20 @@ contains
     end subroutine add
   end subroutine add_film_grid
 
-  !> Adds the rank that has the elements.
+  !> Where the stations of all pads lie along the motion, from the leading edge of the first one [m].
+  pure function positions_along(bearing) result(position)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), allocatable :: position(:)
+    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+    integer :: i
+
+    associate (first => bearing%pad(1)%whole)
+      position = [(first%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, size(bearing%pad))]
+      if (first%periodic) position = [position, first%radius*turn]
+    end associate
+  end function positions_along
+
+  !> Adds the rank that has the elements; equal pads are divided alike.
   subroutine add_rank(bearing, film)
     type(bearing_system_type), intent(in) :: bearing
     type(result_grid_type), intent(inout) :: film
@@ -78,7 +91,7 @@ contains
       do i = first, last
         column = modulo(i - 1, columns) + 1
         if (whole%half) column = merge(column - half, half + 1 - column, column > half)
-        wanted(i - first + 1) = (i - 1)/columns*half + column
+        wanted(i - first + 1) = modulo((i - 1)/columns, whole%circumferential())*half + column
       end do
       rows = whole%rows()
       mine = mesh%mesh_node(mesh%element_nodes(1, :)) ! the corner with the smallest station and row

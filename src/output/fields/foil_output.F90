@@ -1,6 +1,7 @@
 !> The surfaces of a bearing's foil, with displacements, stresses and contacts.
 module gfb_foil_output
   use gfb_kinds, only: wp
+  use gfb_text, only: text
   use gfb_bearing_system, only: bearing_system_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_result_set, only: result_grid_type
@@ -11,7 +12,8 @@ module gfb_foil_output
 
 contains
 
-  !> Adds the surfaces that the foil has at the present state; a foil without a mesh has none.
+  !> Adds the surfaces that the foil has at the present state, of several pads under names with their numbers; a foil
+  !> without a mesh has none.
   subroutine add_foil_grids(bearing, grids)
     type(bearing_system_type), intent(in) :: bearing !! at the state to be written
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written
@@ -20,17 +22,25 @@ contains
     type(surface_motion_type), allocatable :: motion(:)
     type(result_grid_type) :: grid
     real(wp) :: unknown(bearing%local_size())
-    integer :: i
+    character(len=:), allocatable :: behind !! the surface's name
+    integer :: i, k
 
     call bearing%get_unknowns(unknown)
     surface = bearing%pad(1)%foil%surfaces()
-    motion = bearing%pad(1)%foil%motions(unknown)
-    do i = 1, size(surface)
-      call create_foil_grid(surface(i), surface(i)%name, grid)
-      call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
-      call add_stress(surface(i), motion(i)%stress, grid)
-      if (surface(i)%has_contacts) call add_contacts(bearing%pad(1)%foil%nodal_contacts(), surface(i), grid)
-      grids = [grids, grid]
+    if (size(surface) == 0) return
+    behind = ''
+    do k = 1, size(bearing%pad)
+      associate (pad => bearing%pad(k))
+        if (size(bearing%pad) > 1) behind = '_'//text(k)
+        motion = pad%foil%motions(unknown(pad%first + 1:pad%last))
+        do i = 1, size(surface)
+          call create_foil_grid(surface(i), surface(i)%name//behind, grid)
+          call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
+          call add_stress(surface(i), motion(i)%stress, grid)
+          if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)
+          grids = [grids, grid]
+        end do
+      end associate
     end do
   end subroutine add_foil_grids
 end module gfb_foil_output

@@ -1,4 +1,4 @@
-!> `&bearing`: the pad.
+!> `&bearing`: the pad, or several equal ones.
 module gfb_bearing_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
@@ -6,20 +6,25 @@ module gfb_bearing_case
   implicit none (type, external)
   private
   public :: bearing_case_type, read_bearing_case, pad_angle, pad_length
+  public :: pad_turn, preload_angle
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
-  real(wp), parameter :: full_turn = 2.0_wp*acos(-1.0_wp) !! [rad]
+  real(wp), parameter, public :: full_turn = 2.0_wp*acos(-1.0_wp) !! [rad]
 
   !> The pad.
   type :: bearing_case_type
     real(wp) :: radius = 0.0_wp              !! of the shaft [m]
     real(wp) :: length = 0.0_wp              !! along the axis [m]
     real(wp) :: clearance = 0.0_wp           !! radial [m]
-    real(wp) :: leading_edge_angle = 0.0_wp  !! where the pad begins; it ends at 2 pi [rad]
+    real(wp) :: leading_edge_angle = 0.0_wp  !! where the first pad begins [rad]
     integer :: leading_edge_condition = leading_edge_slit
+    integer :: pads = 1                      !! equal ones, equally spaced
+    real(wp) :: arc = 0.0_wp                 !! of one of them; 0: it ends at 2 pi [rad]
+    real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
+    real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   end type bearing_case_type
 
 contains
@@ -55,7 +60,25 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     real(wp) :: angle
     angle = full_turn - bearing%leading_edge_angle
+    if (bearing%arc > 0.0_wp) angle = bearing%arc
   end function pad_angle
+
+  !> Angle from the first pad to another [rad].
+  elemental function pad_turn(bearing, pad) result(angle)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    integer, intent(in) :: pad !! its number, from 1
+    real(wp) :: angle
+    angle = full_turn*real(pad - 1, wp)/real(bearing%pads, wp)
+  end function pad_turn
+
+  !> Where the preload narrows the gap of a pad most, theta_p [rad].
+  elemental function preload_angle(bearing, pad) result(angle)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    integer, intent(in) :: pad !! its number, from 1
+    real(wp) :: angle
+    angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
+            + bearing%preload_offset*pad_angle(bearing)
+  end function preload_angle
 
   !> Length of the unrolled pad [m].
   elemental function pad_length(bearing) result(length)

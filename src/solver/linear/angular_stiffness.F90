@@ -12,7 +12,9 @@ module gfb_angular_stiffness
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_load, only: film_forces
   use gfb_solid_contact, only: contact_pressure_rate
+  use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: set_lending
   use gfb_shaft_columns, only: shaft_column
   use gfb_newton, only: newton_type
   use gfb_direct_solver, only: use_factors, make_factors
@@ -63,9 +65,9 @@ contains
   subroutine linearise_exactly(bearing)
     type(bearing_system_type), intent(inout) :: bearing
 
-    call bearing%pad(1)%foil%set_lending(.false.)
+    call set_lending(bearing, .false.)
     call bearing%linearise(bearing%state)
-    call bearing%pad(1)%foil%set_lending(.true.)
+    call set_lending(bearing, .true.)
   end subroutine linearise_exactly
 
   !> A direct solver of the bearing's matrix, with the orderings of Newton's method.
@@ -91,10 +93,8 @@ contains
 
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(change, response)
-    associate (film => bearing%pad(1)%film)
-      force = sum_over_ranks(film%force(film%ambient_pressure + change(:size(film%angle)) &
-                                        + solid_change(bearing, axis, here, change)))
-    end associate
+    force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + bearing%film_pressure(change) &
+                                              + solid_change(bearing, axis, here, change)))
     torque = force(3:4)
   end function torque_of
 
@@ -104,21 +104,36 @@ contains
     integer, intent(in) :: axis          !! of the tilt
     real(wp), intent(in) :: here(:)      !! local unknowns, in SI
     real(wp), intent(in) :: change(:)    !! of them, against the tilt [per radian]
-    real(wp) :: pressure(size(bearing%pad(1)%film%angle)) !! [Pa/rad]
+    real(wp) :: pressure(bearing%film_nodes()) !! [Pa/rad]
     real(wp) :: gap(size(pressure))
-    integer :: node
+    integer :: i
 
     pressure = 0.0_wp
     if (.not. bearing%pad(1)%contact%present) return
-    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
-      gap = -film%motion(tilts + axis, :)
-      if (bearing%floats) then
-        gap = gap + change(bearing%first_shaft + 1)*film%motion(1, :) + change(bearing%first_shaft + 2)*film%motion(2, :)
-      end if
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        gap(pad%first_node + 1:pad%last_node) = pad_change(pad, axis, change(pad%first + 1:pad%last), &
+                                                           change(bearing%first_shaft + 1:))
+      end associate
+    end do
+    pressure = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(here))*gap
+  end function solid_change
+
+  !> How the gap over a pad changes: its foil, the shaft and the tilt move.
+  pure function pad_change(pad, axis, change, shaft_change) result(gap)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: axis             !! of the tilt
+    real(wp), intent(in) :: change(:)       !! of the pad's unknowns, against the tilt [per radian]
+    real(wp), intent(in) :: shaft_change(:) !! of the shaft's, where it has any [m/rad]
+    real(wp) :: gap(size(pad%film%angle))   !! [m/rad]
+    integer :: node
+
+    gap = -pad%film%motion(tilts + axis, :)
+    if (size(shaft_change) > 0) gap = gap + shaft_change(1)*pad%film%motion(1, :) + shaft_change(2)*pad%film%motion(2, :)
+    associate (foil => pad%foil)
       do node = 1, size(gap)
         if (foil%source(node) > 0) gap(node) = gap(node) + foil%rate(node)*change(foil%source(node))
       end do
     end associate
-    pressure = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(here))*gap
-  end function solid_change
+  end function pad_change
 end module gfb_angular_stiffness

@@ -13,8 +13,9 @@ module gfb_answer_transfer
   use gfb_foil_model, only: foil_model_type
   use gfb_meshed_foil, only: top_surface
   use gfb_foil_builder, only: axial, about_tangent
-  use gfb_bearing, only: film_values
+  use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_film_fields, only: film_values
   implicit none (type)
   private
   public :: transfer_answer
@@ -37,29 +38,36 @@ contains
     type(bearing_system_type), intent(in) :: small      !! with its answer
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
     real(wp) :: coarse(small%local_size()), unknown(bearing%local_size())
-    real(wp) :: share(corners, size(bearing%pad(1)%mesh%mesh_node))
-    integer :: around(corners, size(bearing%pad(1)%mesh%mesh_node))
+    real(wp) :: share(corners, bearing%film_nodes())
+    integer :: around(corners, bearing%film_nodes())
     type(foil_surface_type), allocatable :: surface(:), small_surface(:)
-    integer :: nodes, small_nodes, i
+    integer :: i, k
 
     call small%get_unknowns(coarse)
-    nodes = size(bearing%pad(1)%mesh%mesh_node)
-    small_nodes = size(small%pad(1)%mesh%mesh_node)
     unknown = 0.0_wp
     call find_film_places(small, bearing, around, share)
     surface = bearing%pad(1)%foil%surfaces()
     small_surface = small%pad(1)%foil%surfaces()
     if (size(surface) > 0 .and. size(small_surface) == size(surface)) then
-      unknown(:nodes) = merge(film_field(small, coarse(:small_nodes), around, share), 0.0_wp, bearing%pad(1)%mesh%owned)
+      call bearing%put_pressure(merge(film_field(small, small%film_pressure(coarse), around, share), 0.0_wp, &
+                                      [(bearing%pad(i)%mesh%owned, i=1, size(bearing%pad))]), unknown)
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = merge(small%eccentricity(), 0.0_wp, bearing%last_rank)
-      do i = 1, size(surface)
-        call transfer_surface(small, small_surface(i), coarse, bearing, surface(i), i, unknown)
+      do k = 1, size(bearing%pad)
+        associate (from => small%pad(k), to => bearing%pad(k))
+          do i = 1, size(surface)
+            call transfer_surface(from, small_surface(i), coarse(from%first + 1:from%last), to, surface(i), i, &
+                                  unknown(to%first + 1:to%last))
+          end do
+        end associate
       end do
       call bearing%add_up(unknown, bearing%state)
     else
-      unknown(:nodes) = film_field(small, coarse(:small_nodes) + small%solid_pressure(coarse), around, share)
-      call bearing%pad(1)%foil%estimate(unknown)
-      unknown(:nodes) = film_field(small, coarse(:small_nodes), around, share)
+      call bearing%put_pressure(film_field(small, small%film_pressure(coarse) + small%solid_pressure(coarse), around, share), &
+                                unknown)
+      do k = 1, size(bearing%pad)
+        call bearing%pad(k)%foil%estimate(unknown(bearing%pad(k)%first + 1:bearing%pad(k)%last))
+      end do
+      call bearing%put_pressure(film_field(small, small%film_pressure(coarse), around, share), unknown)
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = small%eccentricity()
       call bearing%set_unknowns(unknown)
     end if
@@ -68,23 +76,28 @@ contains
   !> Where the bearing's film nodes lie in the smaller film; mirrored where that is half.
   subroutine find_film_places(small, bearing, around, share)
     type(bearing_system_type), intent(in) :: small, bearing
-    integer, intent(out) :: around(:, :) !! (4, nodes) nodes of the smaller film's whole mesh
+    integer, intent(out) :: around(:, :) !! (4, nodes of all pads) nodes of the smaller films' whole meshes
     real(wp), intent(out) :: share(:, :) !! (4, nodes) of each [1]
     real(wp) :: z
-    integer :: node
+    integer :: i, node
 
-    do node = 1, size(share, 2)
-      z = bearing%pad(1)%film%axial(node)
-      if (small%pad(1)%whole%half) z = abs(z)
-      call find_film_place(small%pad(1)%whole, bearing%pad(1)%film%angle(node), z, around(:, node), share(:, node))
+    do i = 1, size(bearing%pad)
+      associate (to => bearing%pad(i), from => small%pad(i)%whole, before => bearing%pad(i)%first_node)
+        do node = 1, size(to%film%axial)
+          z = to%film%axial(node)
+          if (from%half) z = abs(z)
+          call find_film_place(from, to%film%angle(node), z, around(:, before + node), share(:, before + node))
+          around(:, before + node) = around(:, before + node) + (i - 1)*from%nodes()
+        end do
+      end associate
     end do
   end subroutine find_film_places
 
   !> A field of the smaller film at those places.
   function film_field(small, value, around, share) result(field)
     type(bearing_system_type), intent(in) :: small
-    real(wp), intent(in) :: value(:)    !! at the smaller film's local nodes
-    integer, intent(in) :: around(:, :) !! (4, places) nodes of its whole mesh
+    real(wp), intent(in) :: value(:)    !! at the smaller films' local nodes
+    integer, intent(in) :: around(:, :) !! (4, places) nodes of their whole meshes
     real(wp), intent(in) :: share(:, :) !! (4, places) of each [1]
     real(wp) :: field(size(share, 2)), corner(corners, size(share, 2))
 
@@ -95,11 +108,11 @@ contains
 
   !> The owned unknowns of one surface of the foils.
   subroutine transfer_surface(small, small_surface, coarse, bearing, surface, number, unknown)
-    type(bearing_system_type), intent(in) :: small, bearing
+    type(pad_type), intent(in) :: small, bearing !! a pad of each
     type(foil_surface_type), intent(in) :: small_surface, surface
-    real(wp), intent(in) :: coarse(:)     !! the smaller bearing's local unknowns, in SI
+    real(wp), intent(in) :: coarse(:)     !! the smaller pad's local unknowns, in SI
     integer, intent(in) :: number         !! which of the foils' surfaces it is
-    real(wp), intent(inout) :: unknown(:) !! the bearing's
+    real(wp), intent(inout) :: unknown(:) !! the pad's
     type(places_type) :: along, across
     integer, allocatable :: wanted(:), station(:), row(:)
     real(wp), allocatable :: value(:, :)
@@ -109,14 +122,14 @@ contains
     station = (wanted - 1)/surface%mesh%rows + 1
     row = modulo(wanted - 1, surface%mesh%rows) + 1
     if (number == top_surface) then
-      along = find_places(small%pad(1)%whole%radius*small%pad(1)%whole%station_angle, &
-                          bearing%pad(1)%whole%radius*bearing%pad(1)%whole%station_angle(station), .false.)
+      along = find_places(small%whole%radius*small%whole%station_angle, &
+                          bearing%whole%radius*bearing%whole%station_angle(station), .false.)
     else
       along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
     end if
-    across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial(row), small%pad(1)%whole%half)
-    value = interpolated(small%pad(1)%foil, small_surface, number, coarse, along, across)
-    call put_own(bearing%pad(1)%foil, number, wanted, value, unknown)
+    across = find_places(small%whole%row_axial, bearing%whole%row_axial(row), small%whole%half)
+    value = interpolated(small%foil, small_surface, number, coarse, along, across)
+    call put_own(bearing%foil, number, wanted, value, unknown)
   end subroutine transfer_surface
 
   !> Where positions lie among rising ones; mirrored ones where only positive ones are known.

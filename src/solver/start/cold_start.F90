@@ -11,6 +11,7 @@ module gfb_cold_start
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: set_upwind
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
@@ -81,7 +82,7 @@ contains
     if (problem%refused) problem%refusal = report
     call try_starts(problem, report)
     if (.not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())) then
-      bearing%pad(1)%film%flow%upwind = .true.
+      call set_upwind(bearing, .true.)
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call try_starts(problem, report)
     end if
@@ -121,6 +122,7 @@ contains
     type(newton_type), target :: rigid_newton
     type(scene_type) :: stiff
     real(wp), allocatable :: unknown(:)
+    integer :: i
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
@@ -134,11 +136,13 @@ contains
     newton%factorizations = rigid_newton%factorizations
     newton%factorizations_before = rigid_newton%factorizations
     bearing%point = target
-    bearing%pad(1)%film%flow%upwind = rigid%pad(1)%film%flow%upwind
+    call set_upwind(bearing, rigid%pad(1)%film%flow%upwind)
     call transfer_answer(rigid, bearing)
     allocate (unknown(bearing%local_size()))
     call bearing%get_unknowns(unknown)
-    unknown(bearing%pad(1)%foil%first + 1:bearing%pad(1)%foil%first + bearing%pad(1)%foil%local_unknowns()) = 0.0_wp ! at rest
+    do i = 1, size(bearing%pad)
+      unknown(bearing%pad(i)%first + bearing%pad(i)%foil%first + 1:bearing%pad(i)%last) = 0.0_wp ! at rest
+    end do
     call bearing%set_unknowns(unknown)
     call create_partitioned(bearing, newton_settings, log, sides)
     if (report%converged) then

@@ -11,6 +11,7 @@ module gfb_contact_start
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: film_forces
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: set_hardness, set_adhesion
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before, trial_settings
@@ -77,8 +78,8 @@ contains
     newton%settings%residual_tolerance = max(wanted%residual_tolerance, rough%residual_tolerance)
     newton%settings%step_tolerance = max(wanted%step_tolerance, rough%step_tolerance)
     newton%settings%maximum_iterations = min(wanted%maximum_iterations, rough%maximum_iterations)
-    call bearing%pad(1)%foil%set_hardness(bearing%pad(1)%foil%softest())
-    call bearing%pad(1)%foil%set_adhesion(1.0_wp)
+    call set_hardness(bearing, bearing%pad(1)%foil%softest())
+    call set_adhesion(bearing, 1.0_wp)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
     early = contacts%release == before
@@ -90,13 +91,13 @@ contains
     if (.not. early .and. (report%converged .or. .not. report%shaft_fixed)) then
       call lead_contacts(bearing, newton, releasing, contacts, report)
     end if
-    call bearing%pad(1)%foil%set_adhesion(0.0_wp)
+    call set_adhesion(bearing, 0.0_wp)
     real_contacts = .false.
     if (report%converged .or. .not. report%shaft_fixed) then
       call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
     end if
     newton%settings = wanted
-    call bearing%pad(1)%foil%set_hardness(1.0_wp)
+    call set_hardness(bearing, 1.0_wp)
     report%touched = .false. ! with soft contacts
     if (report%converged) then
       newton%settings%straight_steps = rough%straight_steps
@@ -158,11 +159,11 @@ contains
 
     if (change == releasing) then
       factor = merge(0.0_wp, 10.0_wp**(-gone), gone >= total)
-      call bearing%pad(1)%foil%set_adhesion(factor)
+      call set_adhesion(bearing, factor)
       call newton%log%detail('two-way contacts: '//text(factor, 3)//' of their stiffness against opening')
     else
       factor = merge(1.0_wp, 10.0_wp**(gone - total), gone >= total)
-      call bearing%pad(1)%foil%set_hardness(factor)
+      call set_hardness(bearing, factor)
       call newton%log%detail('contacts: '//text(factor, 3)//' of their stiffness')
     end if
   end subroutine set_contacts

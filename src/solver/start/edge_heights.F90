@@ -50,7 +50,7 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
     logical :: has
 
-    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
+    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0) .and. size(bearing%pad) == 1 ! each of several has its own
   end function has_free_edge
 
   !> The target with the edge fixed at its height at rest.

@@ -7,6 +7,7 @@ module gfb_rigid_start
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_pad_contacts, only: set_upwind
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_problem, only: start_problem_type, soft_contacts_type
@@ -60,7 +61,7 @@ contains
     call start%keep(bearing)
     position = bearing%eccentricity()
     unknown = 0.0_wp
-    unknown(:size(bearing%pad(1)%mesh%mesh_node)) = bearing%pad(1)%film%ambient_pressure
+    call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
     unknown(bearing%first_shaft + 1:) = position
     call bearing%set_unknowns(unknown)
     allowed = newton%settings%maximum_iterations
@@ -120,9 +121,9 @@ contains
     type(operating_point_type) :: wanted
     type(bearing_answer_type) :: answer
 
-    bearing%pad(1)%film%flow%upwind = .true.
+    call set_upwind(bearing, .true.)
     call find_position(bearing, newton, target, settings, report)
-    bearing%pad(1)%film%flow%upwind = .false.
+    call set_upwind(bearing, .false.)
     peclet = 0.0_wp
     if (.not. report%converged) return
     answer = bearing_answer(bearing)

@@ -95,23 +95,35 @@ contains
     type(operating_point_type), intent(in) :: wanted
     type(operating_point_type) :: free
     type(operating_point_type) :: centred
-    real(wp), dimension(size(bearing%pad(1)%film%angle)) :: undeflected, at_rest
-    real(wp) :: clearance, extremes(2)
+    real(wp) :: at_rest(bearing%film_nodes()), extremes(2)
 
     free = wanted
-    undeflected = 0.0_wp
     centred = wanted
     centred%eccentricity = 0.0_wp
     centred%tilt = 0.0_wp
-    at_rest = bearing%pad(1)%film%gap(centred, undeflected)
-    extremes = largest_over_ranks([-minval(at_rest), maxval(at_rest - bearing%pad(1)%film%gap(wanted, undeflected))])
-    clearance = -extremes(1) ! less than C where the bore is no circle
-    associate (approach => extremes(2))
+    at_rest = undeflected_gap(bearing, centred)
+    extremes = largest_over_ranks([-minval(at_rest), maxval(at_rest - undeflected_gap(bearing, wanted))])
+    associate (clearance => -extremes(1), approach => extremes(2)) ! the former less than C with a preload or a bore that is no circle
       if (approach < clearance) return
       free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach
       free%tilt = wanted%tilt*room_at_rest*clearance/approach
     end associate
   end function free_position
+
+  !> Gap at this rank's nodes, pad by pad, while no foil is deflected [m].
+  pure function undeflected_gap(bearing, point) result(gap)
+    type(bearing_system_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: point
+    real(wp) :: gap(bearing%film_nodes())
+    integer :: i
+
+    gap = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        gap(pad%first_node + 1:pad%last_node) = pad%film%gap(point, gap(pad%first_node + 1:pad%last_node))
+      end associate
+    end do
+  end function undeflected_gap
 
   !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly.
   subroutine put_at_rest(bearing, position)
@@ -123,7 +135,7 @@ contains
     bearing%point%speed = 0.0_wp
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
-    unknown(:size(bearing%pad(1)%mesh%mesh_node)) = bearing%pad(1)%film%ambient_pressure
+    call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
     if (bearing%floats) unknown(bearing%first_shaft + 1:) = position%eccentricity
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest
@@ -139,7 +151,8 @@ contains
     bearing%point%eccentricity = target%eccentricity
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
-      free = scene%bearing%clearance - max(bore_peak(scene%bore%profile), 0.0_wp) - 0.5_wp*scene%bearing%length*norm2(target%tilt)
+      free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(bore_peak(scene%bore%profile), 0.0_wp) &
+        - 0.5_wp*scene%bearing%length*norm2(target%tilt)
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
@@ -160,21 +173,20 @@ contains
     real(wp) :: eccentricity(2)
     integer, parameter :: halvings = 40
     type(operating_point_type) :: there
-    real(wp) :: undeflected(size(bearing%pad(1)%film%angle)), gap(size(undeflected)), direction(2)
+    real(wp) :: gap(bearing%film_nodes()), direction(2)
     real(wp) :: near, far, middle, force(film_forces), smallest(1)
     integer :: i
 
     there = target
-    undeflected = 0.0_wp
     direction = -target%load/norm2(target%load)
     near = 0.0_wp
     far = bearing%pad(1)%film%clearance
     do i = 1, halvings
       middle = 0.5_wp*(near + far)
       there%eccentricity = middle*direction
-      gap = bearing%pad(1)%film%gap(there, undeflected)
+      gap = undeflected_gap(bearing, there)
       smallest = largest_over_ranks([-minval(gap)])
-      force = sum_over_ranks(bearing%pad(1)%film%force(bearing%pad(1)%film%ambient_pressure + contact_pressure(bearing%pad(1)%contact, gap)))
+      force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + contact_pressure(bearing%pad(1)%contact, gap)))
       if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load) < norm2(target%load)**2) then
         near = middle
       else

@@ -47,7 +47,7 @@ contains
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
     call add_result(list, 'determinant_sign', sign_of_determinant)
-    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    if (size(bearing%pad) > 1 .or. .not. bearing%pad(1)%foil%has_contacts()) return
     call find_edge_stiffness(bearing, newton, known, stiffness)
     if (known) call add_result(list, 'edge_stiffness', stiffness)
   end subroutine judge_answer

@@ -95,7 +95,7 @@ contains
     result%ranks = rank_count()
     result%origin = context%origin()
     associate (record => self%sweep%record)
-      result%contacts = record_arrays(scene, self%sweep%bearing%pad(1)%foil, record, size(record%history))
+      result%contacts = record_arrays(scene, self%sweep%bearing, record, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
       call write_bearing(scene, context, self%sweep, result, summary, error)
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)

@@ -58,7 +58,7 @@ contains
                       newton%factorizations - newton%factorizations_before, &
                       wall_time() - context%start_time, peak_memory())))
     call write_result_set(scene, context%folder, .true., context%origin(), summary, record%history, &
-                          foil_contact_arrays(bearing%pad(1)%foil, record%contacts, size(record%history)), grids, context%csv, context%log, error)
+                          foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, context%csv, context%log, error)
   end subroutine write_branches
 
   !> A row and the surfaces of every equilibrium.

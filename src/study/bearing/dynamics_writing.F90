@@ -9,7 +9,7 @@ module gfb_dynamics_writing
   use gfb_bearing_record, only: bearing_record_type, sweep_name
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_contact_record, only: foil_contact_arrays
-  use gfb_foil_model, only: foil_model_type
+  use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamics_record, only: dynamics_arrays, dynamics_table
   use gfb_text_file, only: write_text_file
   use gfb_run_context, only: run_context_type
@@ -20,14 +20,14 @@ module gfb_dynamics_writing
 contains
 
   !> What a record has beside its history: contacts, coefficients, modes.
-  function record_arrays(scene, foil, record, points) result(arrays)
+  function record_arrays(scene, bearing, record, points) result(arrays)
     type(scene_type), intent(in) :: scene !! what is asked for
-    class(foil_model_type), intent(in) :: foil !! whose contacts were recorded
+    type(bearing_system_type), intent(in) :: bearing !! whose contacts were recorded
     type(bearing_record_type), intent(in) :: record !! of all points
     integer, intent(in) :: points !! of it, from the first
     type(case_array_type), allocatable :: arrays(:)
 
-    arrays = foil_contact_arrays(foil, record%contacts, points)
+    arrays = foil_contact_arrays(bearing, record%contacts, points)
     call add_arrays(arrays, dynamics_arrays(record%dynamics, scene%sweep%present, points))
   end function record_arrays
 

@@ -13,6 +13,7 @@ module gfb_key_path
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_bearing
+  use gfb_pad_contacts, only: set_upwind
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton, &
                         forget_factors, destroy_newton
@@ -194,7 +195,7 @@ contains
     if (allocated(error)) error stop 'a mesh that was divided cannot be divided again'
     call create_newton(newton, bearing, 'bearing_', settings, log)
     bearing%point = operating_point(there%operation)
-    bearing%pad(1)%film%flow%upwind = carried%upwind
+    call set_upwind(bearing, carried%upwind)
     call compare_nodes(carried, bearing, fits)
     if (fits) then
       call bearing%set_unknowns(carried%unknown)

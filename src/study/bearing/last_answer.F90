@@ -29,10 +29,11 @@ contains
     class(last_answer_type), intent(inout) :: self !! the kept answer
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(newton_type), intent(in) :: newton !! its solver
+    integer :: i
 
     self%known = .true.
     call self%state%keep(bearing)
-    self%contact = bearing%pad(1)%foil%contacts%point
+    self%contact = [(bearing%pad(i)%foil%contacts%point, i=1, size(bearing%pad))]
     self%counts = [newton%iterations, newton%factorizations, newton%factorizations_before]
   end subroutine keep
 
@@ -41,9 +42,13 @@ contains
     class(last_answer_type), intent(in) :: self !! the kept answer
     type(bearing_system_type), intent(inout) :: bearing !! that had it
     type(newton_type), intent(inout) :: newton !! its solver; gets the counts it had
+    integer :: contacts, i
 
     call self%state%put_back(bearing)
-    bearing%pad(1)%foil%contacts%point = self%contact
+    contacts = size(self%contact)/size(bearing%pad)
+    do i = 1, size(bearing%pad)
+      bearing%pad(i)%foil%contacts%point = self%contact((i - 1)*contacts + 1:i*contacts)
+    end do
     newton%iterations = self%counts(1)
     newton%factorizations = self%counts(2)
     newton%factorizations_before = self%counts(3)

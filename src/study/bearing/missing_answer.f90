@@ -68,7 +68,7 @@ contains
     character(len=:), allocatable :: words
     real(wp) :: unknown(bearing%local_size()), smallest, place(2)
     real(wp), allocatable :: gap(:)
-    integer :: node
+    integer :: node, pad
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
@@ -76,8 +76,9 @@ contains
     place = -huge(place)
     node = minloc(gap, 1)
     if (node > 0) then
-      associate (film => bearing%pad(1)%film)
-        if (gap(node) <= smallest) place = [film%angle(node), film%axial(node)]
+      pad = count(bearing%pad%first_node < node)
+      associate (film => bearing%pad(pad)%film, here => node - bearing%pad(pad)%first_node)
+        if (gap(node) <= smallest) place = [film%angle(here), film%axial(here)]
       end associate
     end if
     place = largest_over_ranks(place)

@@ -165,7 +165,7 @@ contains
       stretch%factorizations_finest = study%factorizations_finest
       stretch%row = sweep%record%history(:found)
       stretch%next = sweep%record%history(found + 1:)
-      stretch%contacts = record_arrays(sweep%scene, sweep%bearing%pad(1)%foil, sweep%record, found)
+      stretch%contacts = record_arrays(sweep%scene, sweep%bearing, sweep%record, found)
       stretch%onset = sweep%record%dynamics%onset
     end associate
     if (found == points) return
