@@ -101,6 +101,9 @@ module gfb_result_table
     result_type('force_<a>', 'N', number, bearing, '{film} force on the sleeve, <a>', &
       'force of the film, and of solid contact, on the sleeve; in equilibrium equal to `load`', &
       asked=.true.), &
+    result_type('force_<a>_<n>', 'N', number, bearing, &
+      'share of pad n in the force on the sleeve, <a>', &
+      'of several pads: share of each in `force_x`, `force_y`'), &
     result_type('torque_<a>', 'N m', number, bearing, '{film} torque on the shaft about <a>', &
       'torque of the film, and of solid contact, on the shaft', asked=.true.), &
     result_type('torque_<a>_without_suction', 'N m', number, bearing, &
@@ -113,6 +116,8 @@ module gfb_result_table
       asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
       asked=.true., compared=.true., nodal=.true.), &
+    result_type('minimum_gap_<n>', 'm', number, bearing, 'smallest film thickness over pad n', &
+      'of several pads: smallest film thickness over each', nodal=.true.), &
     result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
       'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true., &
       nodal=.true.), &

@@ -61,6 +61,10 @@ contains
       call fail(error, scene%file//": --branches has no use with analysis = 'linear_dynamics'")
       return
     end if
+    if (scene%bearing%pads > 1) then
+      call fail(error, scene%file//': --branches needs a bearing of one pad: count = 1 in &pads')
+      return
+    end if
     select case (scene%general%analysis)
     case (analysis_strip, analysis_modes) ! they have one answer, which is found as ever
     case default

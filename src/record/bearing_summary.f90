@@ -54,6 +54,7 @@ contains
     call add_result(list, 'maximum_pressure', answer%maximum_pressure)
     call add_result(list, 'minimum_pressure', answer%minimum_pressure)
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
+    if (allocated(answer%pad_gap)) call add_pads(answer, list)
     if (answer%has_foils) call add_foil_edges(answer, list)
     if (answer%has_solid_contact) call add_solid_contact(answer, list)
   end function answer_quantities
@@ -76,6 +77,19 @@ contains
     call add_result(list, 'torque_y_without_suction', answer%force_without_suction(4))
     call add_result(list, 'friction_torque', answer%friction_torque, braking)
   end subroutine add_loads
+
+  !> Adds what each of several pads does.
+  subroutine add_pads(answer, list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    integer :: i
+
+    do i = 1, size(answer%pad_gap)
+      call add_result(list, 'force_x_'//text(i), answer%pad_force(1, i))
+      call add_result(list, 'force_y_'//text(i), answer%pad_force(2, i))
+      call add_result(list, 'minimum_gap_'//text(i), answer%pad_gap(i))
+    end do
+  end subroutine add_pads
 
   !> Adds what asperities of the shaft do.
   subroutine add_solid_contact(answer, list)

@@ -4,6 +4,7 @@ module gfb_scene_checks
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_case_keys, only: case_keys_type
   use gfb_dynamics_case, only: check_dynamics
+  use gfb_pads_rules, only: check_pads
   use gfb_plausible_values, only: check_plausible
   use gfb_rotor_case, only: check_rotor
   use gfb_scene, only: scene_type
@@ -35,6 +36,8 @@ contains
     call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, &
                         scene%contact%may_rub, scene%contact%friction_law, scene%sweep, &
                         scene%accuracy%present)
+    call check_pads(keys, scene%bearing, scene%operation, scene%dynamics, scene%model, &
+                    scene%solver, scene%sweep)
     call check_rotor(keys, scene%rotor, scene%operation, scene%sweep)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
                      scene%model)

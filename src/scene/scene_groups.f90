@@ -13,6 +13,7 @@ module gfb_scene_groups
   use gfb_modes_case, only: read_modes_case, part_half_arc, part_arc, part_flat, &
                             part_strip, part_top_foil
   use gfb_operation_case, only: read_operation_case
+  use gfb_pads_case, only: read_pads_case
   use gfb_output_case, only: read_output_case
   use gfb_rotor_case, only: read_rotor_case
   use gfb_scene, only: scene_type
@@ -53,6 +54,7 @@ contains
       arc = modes .and. (part == part_half_arc .or. part == part_arc)
       call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
                              is_bearing(analysis), bearing_misplaced(analysis, part))
+      call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
       call read_bore_case(keys, scene%bore, scene%bearing%clearance, analysis)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)

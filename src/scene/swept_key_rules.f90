@@ -81,7 +81,7 @@ contains
     computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
     problem = ''
     select case (group)
-    case ('bearing')
+    case ('bearing', 'pads')
       return
     case ('gas')
       if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then

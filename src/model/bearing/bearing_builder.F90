@@ -5,7 +5,7 @@ module gfb_bearing_builder
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
-  use gfb_bearing_case, only: pad_angle, leading_edge_periodic
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations, shape_on_pad
@@ -21,6 +21,7 @@ module gfb_bearing_builder
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_pad, only: pad_place_type
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
@@ -85,8 +86,23 @@ contains
     end associate
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
-    call create_bearing_system(bearing, foil, floats)
+    call create_bearing_system(bearing, foil, floats, pad_places(scene%bearing))
   end subroutine build_on_mesh
+
+  !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
+  !> \( m C \cos(\theta - \theta_p) \).
+  pure function pad_places(bearing) result(place)
+    type(bearing_case_type), intent(in) :: bearing
+    type(pad_place_type) :: place(bearing%pads)
+    integer :: i
+
+    do i = 1, size(place)
+      place(i)%turn = pad_turn(bearing, i)
+      associate (angle => preload_angle(bearing, i))
+        if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
+      end associate
+    end do
+  end function pad_places
 
   !> The parts of film and foils: what touches belongs to one part.
   !>

@@ -71,7 +71,11 @@ contains
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
-    plan%memory = film_memory(nodes)
+    if (scene%bearing%pads > 1) then
+      call log%line('pads: '//text(scene%bearing%pads)// &
+                    ', each with such a film and foils of its own')
+    end if
+    plan%memory = film_memory(nodes*scene%bearing%pads)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
@@ -105,11 +109,13 @@ contains
     rows = solved_rows(plan)
     reduced = scene%model%reduction == reduction_guyan
     call count_bumps(scene, rows, reduced, stations, unknowns)
-    plan%memory = bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
+    plan%memory = scene%bearing%pads* &
+                  bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
     if (allocated(scene%model%reduction_reason)) then
       call log%line('bumps: '//scene%model%reduction_reason)
     end if
-    call log%line('foils: about '//text(nint(unknowns) + node_unknowns*nodes)// &
+    call log%line('foils: about '// &
+                  text(scene%bearing%pads*(nint(unknowns) + node_unknowns*nodes))// &
                   ' unknowns before supports')
   end subroutine show_foil_sizes
 
