@@ -137,9 +137,9 @@ contains
     case ('modes')
       groups = ' '
     case ('linear_dynamics')
-      groups = ' bore shaft_contact sweep rotor '
+      groups = ' pads bore shaft_contact sweep rotor '
     case default
-      groups = ' bore shaft_contact sweep accuracy '
+      groups = ' pads bore shaft_contact sweep accuracy '
     end select
   end function offered
 
@@ -170,6 +170,7 @@ contains
 
     words = '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//next// &
             '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//next// &
+            '&pads preload=0.1 /'//next// &
             '&bore waves=3 wave_amplitude=1.0e-6 /'//next// &
             '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
             "fixed_edge='trailing' /"//next// &
