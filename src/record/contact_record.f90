@@ -98,8 +98,8 @@ contains
     if (size(top(1)%values) > 0) call add_arrays(arrays, top)
   end function contact_arrays
 
-  !> The arrays of one surface, over the whole width also where one half was solved; a column a node,
-  !> a row a step.
+  !> The arrays of one surface, the whole width also where one half was solved; a column a
+  !> node, a row a step.
   subroutine surface_arrays(contacts, slaves, record, steps, surface, group, arrays)
     type(contact_set_type), intent(in) :: contacts
     class(foil_surface_type), intent(in) :: slaves
