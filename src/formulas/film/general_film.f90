@@ -25,9 +25,8 @@ module gfb_general_film
     type(jet_type) :: along, across !! conductances G_x, G_z [Pa m3/(Pa s)]
   end type point_type
 
-  ! Fits to the theory of Ng and Pan: a and b of the factors 12/(12 + a Re^b) of the flow along and
-  ! across the motion. That of the shear, 1 + a Re^b: Constantinescu V N. On turbulent lubrication.
-  ! Proc. IMechE 173 (1959) 881-900.
+  ! Fits to [NgPan1965]: a and b of the factors 12/(12 + a Re^b) of the flow along and across the
+  ! motion; that of the shear is 1 + a Re^b [Constantinescu1959].
   real(wp), parameter :: along_factor(2) = [0.0136_wp, 0.90_wp]
   real(wp), parameter :: across_factor(2) = [0.0043_wp, 0.96_wp]
   real(wp), parameter :: shear_factor(2) = [0.0012_wp, 0.94_wp]
@@ -44,10 +43,8 @@ contains
   !> $$ G = \frac{r h^3}{12 \mu} \Bigl( 1 + \frac{6 \lambda}{h} \Bigr) k(Re), \quad
   !>    \lambda = \lambda_a \frac{p_a}{p} $$
   !>
-  !> with the density r of `gfb_gas_law`. Sources: Burgdorfer A. The influence of the molecular mean
-  !> free path on the performance of hydrodynamic gas lubricated bearings. J. Basic Eng. 81 (1959)
-  !> 94-98; Ng C-W, Pan C H T. A linearized turbulent lubrication theory. J. Basic Eng. 87 (1965)
-  !> 675-682. Weighting (SUPG) as in `gfb_reynolds_element`.
+  !> with the density r of `gfb_gas_law`. Sources: [Burgdorfer1959] for slip, [NgPan1965] for the
+  !> factors k. Weighting (SUPG) as in `gfb_reynolds_element`.
   pure subroutine general_residual(geometry, flow, law, pressure, gap, excess, residual)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! speed and weighting of the film

@@ -1,8 +1,7 @@
 !> A table with a smooth curve through it that never overshoots: monotone piecewise cubics.
 !>
-!> Source: Fritsch F N, Butland J. A method for constructing local monotone piecewise cubic
-!> interpolants. SIAM J. Sci. Stat. Comput. 5 (1984) 300-304 (the PCHIP of SLATEC and SciPy). Value
-!> and slope are continuous, the curvature jumps at the points.
+!> Source: [FritschButland1984] (the PCHIP of SLATEC and SciPy). Value and slope are continuous, the
+!> curvature jumps at the points.
 module gfb_monotone_table
   use gfb_kinds, only: wp
   implicit none (type, external)

@@ -2,9 +2,8 @@
 !>
 !> $$ p = \frac{R T c}{1 - b c} - \frac{a c^2}{1 + 2 b c - b^2 c^2} $$
 !>
-!> with the amount c in a volume. Source: Peng D-Y, Robinson D B. A new two-constant equation of
-!> state. Ind. Eng. Chem. Fundam. 15 (1976) 59-64. Above the critical temperature p rises with c, so
-!> that each pressure has one c.
+!> with the amount c in a volume. Source: [PengRobinson1976]. Above the critical temperature p rises
+!> with c, so that each pressure has one c.
 module gfb_peng_robinson
   use gfb_kinds, only: wp
   implicit none (type, external)
