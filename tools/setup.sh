@@ -9,7 +9,8 @@ venv=$root/build/venv
 run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin
   petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libopenblas0-serial python3)
 # shellcheck disable=SC2034 # used by those who source this
-test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib findent
+test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib python3-xarray
+  python3-jinja2 findent
   ca-certificates)
 libraries='gfortran, a C compiler, CMake 3.21, Ninja, pkg-config, Open MPI or another MPI, PETSc 3.18 with
   MUMPS, SLEPc 3.18, HDF5 for that MPI with its Fortran interface, METIS, BLAS and LAPACK, Python 3'

@@ -1,1 +1,25 @@
-"""The Python behind tools/bench, tools/gallery, tools/plot and tools/manual, and behind the tests that run gfb."""
+"""gfb from Python: `gfb.read`, `gfb.Case`, `gfb.run`, `gfb.study`; and what is behind the commands of tools/.
+
+What a name needs is imported where it is asked for: the commands of tools/ do without xarray."""
+
+import importlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gfb.case import Case, CaseError
+    from gfb.door import Result, RunError, run, study
+    from gfb.reading import read
+
+__all__ = ["Case", "CaseError", "Result", "RunError", "read", "run", "study"]
+__version__ = "0.1.0"
+
+_HOMES = {"Case": "gfb.case", "CaseError": "gfb.case", "Result": "gfb.door", "RunError": "gfb.door",
+          "study": "gfb.door", "read": "gfb.reading"}
+
+
+def __getattr__(name: str) -> object:
+    if name == "run":
+        return importlib.import_module("gfb.run")
+    if name in _HOMES:
+        return getattr(importlib.import_module(_HOMES[name]), name)
+    raise AttributeError(f"module 'gfb' has no attribute '{name}'")

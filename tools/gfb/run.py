@@ -6,8 +6,11 @@ import pathlib
 import resource
 import shutil
 import subprocess
+import sys
 import time
+import types
 
+from gfb.namelist import namelist_value
 from gfb.results import Answer, read_petsc_log, read_summary
 from gfb.tool import ROOT, stop
 
@@ -48,19 +51,6 @@ def case_text(groups):
             lines = "".join(f"  {key} = {namelist_value(value)}\n" for key, value in keys.items() if value is not None)
             text += f"&{group}\n{lines}/\n"
     return text
-
-
-def namelist_value(value):
-    """A Python value as a namelist writes it."""
-    if isinstance(value, str):
-        return "'" + value.replace("'", "''") + "'"
-    if isinstance(value, bool):
-        return ".true." if value else ".false."
-    if isinstance(value, float):
-        return repr(float(value))  # NumPy's floats too
-    if isinstance(value, int):
-        return repr(value)
-    return ", ".join(map(namelist_value, value))
 
 
 def write_case(folder, name, groups):
@@ -140,3 +130,14 @@ def run_logged(gfb, groups, folder, name, may_stop=False):
 def start_time(gfb, repetitions=3):
     """CPU time of a call that computes nothing, the smallest of a few [s]."""
     return min(call([gfb, "--version"]).cpu for _ in range(repetitions))
+
+
+class _Callable(types.ModuleType):
+    """This module, which as `gfb.run(case)` is the function of gfb.door, too."""
+
+    def __call__(self, *values, **options):
+        from gfb import door  # its packages only where they are needed
+        return door.run(*values, **options)
+
+
+sys.modules[__name__].__class__ = _Callable

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""gfb from Python: reading, cases, runs, studies."""
+
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
+import gfb  # noqa: E402
+from gfb.results import Unreadable, read_history  # noqa: E402
+from gfb.tool import ROOT  # noqa: E402
+
+SMALL = {"scene": {"title": "it's small", "analysis": "equilibrium"},
+         "bearing": {"radius": 0.02, "length": 0.04, "clearance": 2.0e-5},
+         "gas": {"viscosity": 2.0e-5, "ambient_pressure": 1.0e5},
+         "operation": {"speed_rpm": 20000.0, "load": (-20.0, 0.0)},
+         "model": {"foil": "rigid"}, "mesh": {"circumferential_elements": 48, "axial_elements": 8}}
+
+
+class PythonTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_run_and_read(self):
+        result = gfb.run(gfb.Case(SMALL), self.folder, "small")
+        data = result.data
+        self.assertTrue(result.converged)
+        self.assertEqual(float(data.minimum_gap), result["minimum_gap"])
+        self.assertEqual((data.minimum_gap.dims, data.minimum_gap.units), ((), "m"))
+        self.assertIn("smallest", data.minimum_gap.long_name)
+        self.assertEqual(data.attrs["analysis"], "equilibrium")
+        film = result.film
+        self.assertEqual(film.gap.dims, ("theta", "z"))
+        self.assertAlmostEqual(float(film.gap.min()), result["minimum_gap"], delta=1e-18)
+        self.assertEqual(gfb.Case.parse(data.attrs["case_file"]), gfb.Case(SMALL))
+
+    def test_sweep(self):
+        case = gfb.Case(SMALL)
+        case["sweep%parameter"], case["sweep%values"] = "load", [20.0, 30.0]
+        result = gfb.run(case, self.folder, "sweep", options=("--csv",))
+        numpy.testing.assert_array_equal(result.data.minimum_gap, read_history(f"{result.stem}.h5")["minimum_gap"])
+        self.assertEqual(result.data["load"].dims, ("point",))
+
+    def test_no_answer(self):
+        case = gfb.Case(SMALL)
+        case["operation%load"] = (-1.0e9, 0.0)
+        result = gfb.run(case, self.folder)
+        self.assertFalse(result.converged)
+        self.assertIn("unconverged", result.stem.name)
+
+    def test_case(self):
+        case = gfb.Case(SMALL)
+        self.assertEqual(gfb.Case.parse(str(case)), case)
+        self.assertIn("in order", case.check())
+        case["bearing%clearence"] = 1.0e-5
+        with self.assertRaisesRegex(gfb.CaseError, "did you mean 'clearance'"):
+            case.check()
+        with self.assertRaises(gfb.CaseError):
+            gfb.run(case, self.folder)
+        with self.assertRaises(KeyError):
+            case["clearance"] = 1.0
+        for analysis in ("equilibrium", "strip"):
+            self.assertIn("in order", gfb.Case.template(analysis).check(strict=True))
+        with self.assertRaisesRegex(gfb.CaseError, "no such analysis"):
+            gfb.Case.template("nonsense")
+
+    def test_every_input_is_read_as_the_program_does(self):
+        for path in sorted((ROOT/"inputs").glob("*.nml")):
+            with self.subTest(path.name):
+                case = gfb.Case.read(path)
+                self.assertEqual(gfb.Case.parse(str(case)), case)
+                self.assertIn("scene%analysis", case)
+        values = gfb.Case.parse("&a b=3*1.0 c=.true., f d='x!/&' ! no\n e=1d-3 /")
+        self.assertEqual(values.groups["a"], {"b": (1.0, 1.0, 1.0), "c": (True, False), "d": "x!/&", "e": 1.0e-3})
+
+    def test_study(self):
+        values = {"bearing%clearance": [2.0e-5, 2.5e-5], "operation%speed_rpm": [20000.0, 24000.0]}
+        first = gfb.study(gfb.Case(SMALL), values, self.folder)
+        self.assertEqual(first.minimum_gap.shape, (2, 2))
+        self.assertEqual(first.minimum_gap.units, "m")
+        self.assertTrue((first.status == 0).all() and numpy.isfinite(first.minimum_gap).all())
+        before = {path: path.stat().st_mtime_ns for path in self.folder.glob("*.summary")}
+        again = gfb.study(gfb.Case(SMALL), values, self.folder)
+        self.assertTrue(first.equals(again))
+        self.assertEqual(before, {path: path.stat().st_mtime_ns for path in self.folder.glob("*.summary")})
+
+    def test_what_is_no_result(self):
+        (self.folder/"bad.h5").write_bytes(b"no HDF5")
+        with self.assertRaises(Unreadable):
+            gfb.read(self.folder/"bad.h5")
+        with self.assertRaises(FileNotFoundError):
+            gfb.read(self.folder/"none.h5")
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main()

@@ -1,0 +1,126 @@
+"""`gfb.run` and `gfb.study`: the program called from Python, once or over the values of keys."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import dataclasses
+import itertools
+import os
+import pathlib
+import subprocess
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy
+import xarray
+
+from gfb.case import Case, CaseError, program
+from gfb.reading import read
+from gfb.results import read_summary
+
+MEMBER_NAME = "{study}_{number:04d}"
+DONE, WRONG_INPUT, NOT_CONVERGED = 0, 1, 2
+
+
+class RunError(RuntimeError):
+    """A file or the machine failed, or the run was stopped; its text is the program's."""
+
+
+@dataclasses.dataclass
+class Result:
+    """What a run left behind."""
+
+    converged: bool
+    stem: pathlib.Path  # of the files, without ending
+    log: str
+
+    @property
+    def data(self) -> xarray.Dataset:
+        """The case's result file, as `gfb.read` gives it."""
+        return read(f"{self.stem}.h5")
+
+    @property
+    def film(self) -> xarray.Dataset:
+        """The film's fields."""
+        return read(f"{self.stem}.film.vtkhdf")
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """Name and value of every result."""
+        return read_summary(f"{self.stem}.summary")[0]
+
+    def __getitem__(self, name: str) -> Any:
+        return self.summary[name]
+
+
+def run(case: Case | str | os.PathLike[str], folder: str | os.PathLike[str] = "results", name: str = "case", ranks: int = 1,
+        options: Sequence[str] = (), gfb: str | os.PathLike[str] | None = None) -> Result:
+    """Runs a Case, which gets the name, or a case file. No answer is a Result that has not converged; raises CaseError
+    where the case is wrong, and RunError where a file or the machine failed."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = case.write(folder/f"{name}.nml") if isinstance(case, Case) else pathlib.Path(case)
+    command = [program(gfb), *options, "--output", str(folder), "--", str(path)]
+    if ranks > 1:
+        command = [os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", str(ranks), *command]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          env={"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ})
+    if done.returncode == WRONG_INPUT:
+        raise CaseError(done.stderr.strip())
+    if done.returncode not in (DONE, NOT_CONVERGED):
+        raise RunError(f"status {done.returncode}: {(done.stderr or done.stdout).strip()[-2000:]}")
+    ending = (".branches" if "--branches" in options else "") + (".unconverged" if done.returncode == NOT_CONVERGED else "")
+    return Result(done.returncode == DONE, folder/(path.stem + ending), done.stdout)
+
+
+def study(case: Case, values: Mapping[str, Sequence[Any]], folder: str | os.PathLike[str] = "study", name: str = "study",
+          processes: int = 1, gfb: str | os.PathLike[str] | None = None) -> xarray.Dataset:
+    """Runs a case for every combination of values of keys, `{"bearing%clearance": [3e-5, 4e-5], ...}`; a dataset of the
+    summaries with a dimension a key. `status` is the program's; numbers are NaN where there is no answer. Called again,
+    it computes what is not there yet. All combinations are checked before the first is computed."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    cases = []
+    for combination in itertools.product(*values.values()):
+        one = case.copy()
+        for key, value in zip(values, combination):
+            one[key] = value
+        cases.append(one)
+    for one in cases:
+        one.check(gfb=gfb)
+
+    def member(number: int) -> tuple[int, dict[str, Any], dict[str, str]]:
+        stem = folder/MEMBER_NAME.format(study=name, number=number + 1)
+        return find_member(cases[number], stem, gfb)
+
+    with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
+        found = list(pool.map(member, range(len(cases))))
+    return table(values, found)
+
+
+def find_member(case: Case, stem: pathlib.Path, gfb: str | os.PathLike[str] | None) -> tuple[int, dict[str, Any], dict[str, str]]:
+    """Status, summary and units of a member, computed where they are not there yet."""
+    path = stem.with_name(stem.name + ".nml")
+    summaries = {DONE: stem.with_name(stem.name + ".summary"), NOT_CONVERGED: stem.with_name(stem.name + ".unconverged.summary")}
+    known = path.exists() and path.read_text(encoding="utf-8") == str(case)
+    there = [status for status, file in summaries.items() if known and file.exists()]
+    if not there:
+        for file in summaries.values():
+            file.unlink(missing_ok=True)
+        there = [DONE if run(case, stem.parent, stem.name, gfb=gfb).converged else NOT_CONVERGED]
+    if there[0] != DONE:
+        return there[0], {}, {}
+    return DONE, *read_summary(summaries[DONE])
+
+
+def table(values: Mapping[str, Sequence[Any]], found: Sequence[tuple[int, dict[str, Any], dict[str, str]]]) -> xarray.Dataset:
+    """The dataset of a study."""
+    shape = tuple(map(len, values.values()))
+    dims = tuple(values)
+    names = [name for _, summary, _ in found for name, value in summary.items() if isinstance(value, float)]
+    variables = {"status": (dims, numpy.reshape([status for status, _, _ in found], shape))}
+    for name in dict.fromkeys(names):
+        unit = next(units[name] for _, summary, units in found if name in summary)
+        numbers = [summary.get(name, numpy.nan) for _, summary, _ in found]
+        variables[name] = (dims, numpy.reshape(numbers, shape), {"units": unit})
+    return xarray.Dataset(variables, coords={key: list(items) for key, items in values.items()})
