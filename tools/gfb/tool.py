@@ -55,9 +55,12 @@ class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         """Nothing is to be done."""
 
 
-def need_packages():
-    """Starts the tool again with a Python that has the packages, where this one has not; --help is answered without them."""
-    missing = [name for name in PACKAGES if importlib.util.find_spec(name) is None]
+def need_packages(*more):
+    """Starts the tool again with a Python that has the packages, and more where they are named, where this one has not.
+
+    --help is answered without them.
+    """
+    missing = [name for name in (*PACKAGES, *more) if importlib.util.find_spec(name) is None]
     if not missing:
         return
     tried = os.environ.get("GFB_TOOLS_PYTHON", "").split(":")
@@ -69,4 +72,4 @@ def need_packages():
         sys.meta_path.append(StandIns(missing))
         return
     stop(f"Python packages are missing: {', '.join(missing)}. tools/test installs them; with apt:\n"
-         "  apt-get install python3-numpy python3-h5py python3-matplotlib")
+         "  apt-get install " + " ".join(f"python3-{name}" for name in (*PACKAGES, *more)))

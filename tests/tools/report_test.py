@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""tools/report: one page of one or several results, and what it says of files that are none."""
+
+import html.parser
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
+import gfb  # noqa: E402
+from gfb.tool import ROOT  # noqa: E402
+
+VOID = {"meta", "link", "img", "br"}
+SMALL = {"scene": {"title": "small & <rigid>", "analysis": "equilibrium"},
+         "bearing": {"radius": 0.02, "length": 0.04, "clearance": 2.0e-5},
+         "gas": {"viscosity": 2.0e-5, "ambient_pressure": 1.0e5},
+         "operation": {"speed_rpm": 20000.0, "load": (-20.0, 0.0)},
+         "model": {"foil": "rigid"}, "mesh": {"circumferential_elements": 48, "axial_elements": 8}}
+
+
+class Page(html.parser.HTMLParser):
+    """Whether every tag is closed, what the page refers to, and its text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.sources, self.words, self.broken = [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.sources += [value for name, value in attrs if name in ("src", "href")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.broken.append(tag)
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def report(*words):
+    """Status and what was said."""
+    done = subprocess.run([sys.executable, ROOT/"tools/report", *map(str, words)], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+class ReportTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = pathlib.Path(place.name)
+        case = gfb.Case(SMALL)
+        cls.first = gfb.run(case, cls.folder, "first")
+        case["accuracy%quantity"], case["accuracy%target"] = "minimum_gap", 0.05
+        gfb.run(case, cls.folder, "second")
+        case = gfb.Case(SMALL)
+        case["sweep%parameter"], case["sweep%values"], case["bearing%clearance"] = "load", (20.0, 1.0e9), 2.5e-5
+        gfb.run(case, cls.folder, "beyond")
+
+    def page(self, *words):
+        """The page of some results."""
+        output = self.folder/"page.html"
+        status, said = report(*words, "-o", output)
+        self.assertEqual(status, 0, said)
+        page = Page(output.read_text(encoding="utf-8"))
+        self.assertEqual((page.open, page.broken), ([], []))
+        self.assertTrue(all(source.startswith("data:") for source in page.sources), "it needs another file")
+        return page, " ".join(" ".join(page.words).split())
+
+    def test_two_side_by_side(self):
+        page, words = self.page(self.folder/"first.h5", self.folder/"second.summary")
+        self.assertIn("small & <rigid>", words)
+        self.assertIn(f"{self.first['minimum_gap']:.6g}", words)
+        self.assertRegex(words, r"minimum_gap [0-9.e-]+ [0-9.e-]+ ± [0-9.e-]+ m smallest film thickness")
+        self.assertIn("48 x 8", words)
+        self.assertIn("program_version", words)
+        self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 2)
+
+    def test_a_sweep_without_an_answer(self):
+        _, words = self.page(self.folder/"beyond.unconverged")
+        self.assertIn("No answer was found", words)
+        self.assertRegex(words, r"bearing%clearance 2\.5e-05")
+
+    def test_default_name(self):
+        self.assertEqual(report(self.folder/"first")[0], 0)
+        self.assertTrue((self.folder/"first.html").exists())
+
+    def test_what_is_no_result(self):
+        (self.folder/"bad.h5").write_bytes(b"no HDF5")
+        for name, words in (("bad.h5", "not a whole file"), ("none.h5", "there is no such result")):
+            status, said = report(self.folder/name)
+            self.assertEqual((status, words in said, "Traceback" in said), (1, True, False), said)
+        status, said = report(self.folder/"first.h5", "-o", self.folder/"nowhere"/"page.html")
+        self.assertEqual((status, bool(re.search(r"page\.html: No such", said))), (3, True), said)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main()

@@ -1,0 +1,179 @@
+"""Makes one HTML page of results of gfb, which needs no other file.
+
+  tools/report CASE.h5 ...          or CASE.summary, or the name without an ending; several stand side by side
+
+The page has the answer with units and estimated errors, what the case files say and where they differ, what the scene
+needed and why (as gfb --check tells it), pictures, the points of a sweep or the load steps, and where the numbers come
+from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be written.
+"""
+
+import argparse
+import base64
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import jinja2
+
+from gfb.case import Case, program
+from gfb.results import Unreadable, open_results, read_summary, reading, text_of
+from gfb.tool import ROOT, stop
+
+PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
+                          trim_blocks=True, lstrip_blocks=True)
+ENDINGS = (".h5", ".summary")
+SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
+SECONDS = 300     # no picture takes that long
+MOST_ROWS = 400   # of a table of points
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", nargs="+", metavar="RESULT", help="CASE.h5, CASE.summary, or CASE")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="HTML", help="the page; default: beside the first result")
+    parser.add_argument("--gfb", help="the program, for what the scene needed; default: as gfb from Python finds it")
+    options = parser.parse_args()
+    stems = [stem_of(name) for name in options.results]
+    output = options.output or pathlib.Path(f"{stems[0]}.html")
+    try:
+        runs = [read_run(stem, options.gfb) for stem in stems]
+    except FileNotFoundError as error:
+        stop(f"{error.filename or error}: there is no such result")
+    except Unreadable as error:
+        stop(str(error))
+    page = PAGE.get_template("page.html").render(runs=runs, answer=answer_rows(runs), keys=key_rows(runs), origin=origin_rows(runs))
+    try:
+        output.write_text(page, encoding="utf-8")
+    except OSError as error:
+        stop(f"{output}: {error.strerror}", 3)
+    print(f"written: {output}")
+    return 0
+
+
+def stem_of(name):
+    """A result's name without its ending."""
+    for ending in ENDINGS:
+        name = name.removesuffix(ending)
+    return pathlib.Path(name)
+
+
+def read_run(stem, gfb):
+    """All that the page has of a result."""
+    path = pathlib.Path(f"{stem}.h5")
+    if not path.exists():
+        raise FileNotFoundError(2, "no such file", str(path))
+    with reading(path), open_results(path) as file:
+        summary = {name: of_dataset(file["summary"][name]) for name in in_order(stem, file["summary"])}
+        history = {name: data[...] for name, data in file["history"].items()}
+        heads = [(name, text_of(data.attrs["unit"])) for name, data in file["history"].items()]
+        case_file = text_of(file["scene/case_file"][()])
+        used = text_of(file["scene/used"][()])
+        origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
+        shows = [name for name in ("contact", "dynamics") if name in file]
+    points = len(next(iter(history.values()))) if history else 0
+    rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
+    return {"name": stem.name, "title": Case.parse(used).groups.get("scene", {}).get("title", ""), "summary": summary,
+            "converged": bool(summary["converged"]["value"]), "heads": heads, "rows": rows if points > 1 else [],
+            "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": Case.parse(used), "origin": origin,
+            "needs": needs_of(case_file, gfb), "pictures": pictures_of(stem, points, shows)}
+
+
+def in_order(stem, group):
+    """Names of the results, in the order of the summary file where it is there."""
+    path = pathlib.Path(f"{stem}.summary")
+    first = [name for name in read_summary(path)[0] if name in group] if path.exists() else []
+    return list(dict.fromkeys([*first, *group]))
+
+
+def of_dataset(data):
+    """Value, unit and meaning of a result."""
+    value = data[()]
+    return {"value": value if isinstance(data, h5py.Dataset) and data.dtype.kind == "f" else text_of(value),
+            "unit": text_of(data.attrs.get("unit", "")), "meaning": text_of(data.attrs.get("meaning", ""))}
+
+
+def number(value):
+    """A number for a table; nothing where there is none."""
+    return "" if value != value else f"{value:.6g}"
+
+
+def needs_of(case_file, gfb):
+    """What gfb --check says of the scene, on this machine."""
+    try:
+        done = subprocess.run([program(gfb), "--check", "-"], input=case_file, capture_output=True, text=True, check=False, timeout=SECONDS)
+    except (FileNotFoundError, subprocess.TimeoutExpired) as error:
+        return f"not known: {error}"
+    return (done.stdout + done.stderr).strip()
+
+
+# --- pictures ---
+
+def pictures_of(stem, points, shows):
+    """Title and picture of everything that tools/plot draws of a result; what it cannot draw is left out."""
+    wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
+    if points > 1:
+        wanted.append(("along the points or load steps", [f"{stem}.h5"]))
+    wanted += [(f"{show}", [f"{stem}.h5", "--show", show]) for show in shows]
+    with tempfile.TemporaryDirectory() as folder:
+        picture = pathlib.Path(folder)/"picture.png"
+        found = [(words, drawn(arguments, picture)) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
+    return [(words, data) for words, data in found if data]
+
+
+def drawn(arguments, picture):
+    """A picture of tools/plot as text; empty where there is none."""
+    picture.unlink(missing_ok=True)
+    command = [sys.executable, str(ROOT/"tools/plot"), *arguments, "-o", str(picture)]
+    try:
+        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=True, timeout=SECONDS)
+    except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
+        return ""
+    return base64.b64encode(picture.read_bytes()).decode()
+
+
+# --- tables ---
+
+def answer_rows(runs):
+    """Name, meaning, unit, and the value with its error of every run; errors have no row of their own."""
+    names = list(dict.fromkeys(name for run in runs for name in run["summary"]))
+    rows = []
+    for name in names:
+        if name.endswith("_error") and name.removesuffix("_error") in names:
+            continue
+        known = next(run["summary"][name] for run in runs if name in run["summary"])
+        rows.append({"name": name, "meaning": known["meaning"], "unit": known["unit"],
+                     "values": [value_words(run["summary"], name) for run in runs]})
+    return rows
+
+
+def value_words(summary, name):
+    """A result's value, with its estimated error where there is one."""
+    if name not in summary:
+        return ""
+    value = summary[name]["value"]
+    words = value if isinstance(value, str) else number(value)
+    error = summary.get(f"{name}_error")
+    return f"{words} ± {number(error['value'])}" if error else words
+
+
+def key_rows(runs):
+    """Every key that a case used, its value in every run, and whether they differ."""
+    names = list(dict.fromkeys(name for run in runs for name in run["used"]))
+    rows = []
+    for name in names:
+        values = [words_of(run["used"][name]) if name in run["used"] else "" for run in runs]
+        rows.append({"name": name, "values": values, "differs": len(set(values)) > 1})
+    return rows
+
+
+def words_of(value):
+    """The value of a key."""
+    return ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
+
+
+def origin_rows(runs):
+    """Where the numbers come from."""
+    names = list(dict.fromkeys(name for run in runs for name in run["origin"]))
+    return [(name, [run["origin"].get(name, "") for run in runs]) for name in names]
