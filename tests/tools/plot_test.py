@@ -20,7 +20,8 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 
-from gfb.plot import foil as plot_foil  # noqa: E402 (found only now)
+from gfb.plot import film as plot_film  # noqa: E402 (found only now)
+from gfb.plot import foil as plot_foil  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.plot import rotor as plot_rotor  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
@@ -197,13 +198,41 @@ class BearingTest(unittest.TestCase):
         found = numpy.array([bar.get_height() for bar in bars.containers[0]]) - lines[0].get_ydata()[above]
         self.assertLess(abs(found[:13]).max(), 0.01)  # in contact, to the penetration
         self.assertGreater(found[-3], 0.1)            # lifted off
-        self.assertEqual(call(self.folder, "beams.h5", "--show", "contact")[0], 0)
+        self.assertEqual(call(self.folder, "beams.h5", "--show", "contact")[1], "drawn: beams.h5.contact.png\n")
+        self.see_scene_and_edges()
+
+    def see_scene_and_edges(self):
+        """What the pictures take from beams.h5, and how they show it."""
+        path = self.folder/"beams.film.vtkhdf"
+        with h5py.File(path, "r") as file:
+            figure = plot_film.draw_film(path, file)
+        with h5py.File(self.folder/"beams.h5", "r") as file:
+            force = [file[f"summary/force_{axis}"][()] for axis in "xy"]
+            gap, angle = 1.0e6*file["summary/minimum_gap"][()], numpy.degrees(numpy.arctan2(*reversed(force))) % 360.0
+            table = plot_main.draw_history(self.folder/"beams.h5", file, []).axes[0].tables[0]
+        title = f"beams: film force {numpy.hypot(*force):.4g} N, 30,000 rpm, beams"
+        self.assertEqual(figure._suptitle.get_text(), title)
+        lines = next(chart for chart in figure.axes if chart.get_ylabel() == "film thickness [um]")
+        named = {line.get_label(): line for line in lines.lines}
+        self.assertEqual(list(named), ["midplane", "edges, z = +-19.05 mm", "direction of the load", f"thinnest, {gap:.3g} um"])
+        self.assertAlmostEqual(named["direction of the load"].get_xdata()[0], angle, places=6)
+        self.assertAlmostEqual(named[f"thinnest, {gap:.3g} um"].get_ydata()[0], gap, places=9)
+        words = [table[row, 0].get_text().get_text() for row in range(6)]
+        self.assertEqual(words[:5], ["force along x", "force along y", "e_x", "e_y", "attitude angle"])
+        with h5py.File(self.folder/"beams.top_foil.vtkhdf", "r") as file:
+            chart, _, scale = plot_foil.draw(self.folder/"beams.top_foil.vtkhdf", file, []).axes
+        self.assertEqual(scale._colorbar.norm.vmin, -scale._colorbar.norm.vmax)  # white is zero
+        (theta,) = chart.child_axes
+        self.assertEqual(theta.get_xlabel(), "theta [deg]")
+        (self.folder/"beams.h5").write_bytes(b"broken")
+        with h5py.File(path, "r") as file:  # it is not this file that is broken
+            self.assertEqual(plot_film.draw_film(path, file)._suptitle.get_text(), "beams")
 
     def test_calls(self):
         bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
-        for words in (("b.h5", "--show", "contact", "--step", "1,2"), ("b.h5", "--step", "2"),
-                      ("b.h5", "minimum_gap_midplane", "minimum_gap_edge", "--together")):
-            self.assertEqual(call(self.folder, *words), (0, "drawn: b.h5.png\n"))
+        for words, picture in ((("--show", "contact", "--step", "1,2"), "b.h5.contact.png"), (("--step", "2"), "b.h5.png"),
+                               (("minimum_gap_midplane", "minimum_gap_edge", "--together"), "b.h5.png")):
+            self.assertEqual(call(self.folder, "b.h5", *words), (0, f"drawn: {picture}\n"))
         for words, text in ((("b.h5", "--step", "3"), "no step 3; there are 1 to 2"),
                             (("b.h5", "--show", "bumps"), "not a strip under loads")):
             status, said = call(self.folder, *words)
@@ -397,6 +426,13 @@ class PlotTest(unittest.TestCase):
                         slipping += found[2]
             self.assertGreater(slipping, 0)
             self.assertEqual(call(self.folder, f"small_{edge}.h5", "--show", "contact")[0], 0)
+
+    def test_arrows_follow_the_loop(self):
+        for chart in self.figure([self.loop]).axes:
+            arrows = [(mark.xyann[0], mark.xy[0]) for mark in chart.texts if mark.arrow_patch is not None]
+            self.assertEqual(len(arrows), 2)
+            self.assertLess(arrows[0][0], arrows[0][1])     # travel grows
+            self.assertGreater(arrows[1][0], arrows[1][1])  # and shrinks
 
 
 if __name__ == "__main__":

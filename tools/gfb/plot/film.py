@@ -3,8 +3,9 @@
 import dataclasses
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import colors, pyplot
 
+from gfb.plot.scene import draw_edges, round_numbers, scene_of
 from gfb.results import attribute
 from gfb.tool import stop
 
@@ -13,7 +14,8 @@ READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad"
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
-BANDS = 20  # colours of a map
+BANDS = 20  # colours of a map, about
+SIGNED = {"deflection"}  # fields with colours on both sides of zero
 
 
 @dataclasses.dataclass
@@ -67,32 +69,61 @@ def draw_film(path, file):
         stop(f"{path}: no pressure, gap or deflection in it")
     figure, axes = pyplot.subplots(len(names), 2, figsize=(10.0, 2.5*len(names) + 0.5), squeeze=False,
                                    layout="constrained", sharex=True)
-    axial, middle = 1.0e3*film.z, film.middle
+    axial, middle, scene = 1.0e3*film.z, film.middle, scene_of(path)
     at_middle = abs(axial[middle]) <= ROUND_OFF*(axial[-1] - axial[0])
     for (chart, lines), name in zip(axes, names):
         values, unit = film.readable(name)
-        draw_map(figure, chart, film, values, BANDS)
+        draw_map(figure, chart, film, values, BANDS, **(around_zero(values) if name in SIGNED else {}))
         chart.set_title(f"{WORDS[name]} [{unit}]", fontsize=10)
         lines.plot(film.theta, values[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
-        for edge, style in ((-1, "--"), (0, ":")):
-            lines.plot(film.theta, values[:, edge], style, label=f"edge, z = {axial[edge]:.4g} mm")
+        draw_edges(lines, film.theta, values, axial)
+        mark_load((chart, lines), film, scene)
+        if name == "gap":
+            mark_thinnest(chart, lines, film, values, unit)
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
         lines.grid(alpha=0.3)
         lines.legend(fontsize=8)
     for one in axes[-1]:
         label_theta(one, film)
-    figure.suptitle(path.name.removesuffix(".film.vtkhdf"), fontsize=11)
+    figure.suptitle(scene.title(path), fontsize=11)
     return figure
 
 
+def around_zero(values):
+    """Colours of a field with a sign: white is zero."""
+    largest = float(numpy.abs(values).max())
+    return {"cmap": "RdBu_r", "norm": colors.Normalize(-largest, largest)}
+
+
+def mark_load(charts, film, scene):
+    """A line where the load presses the shaft."""
+    if scene.load_angle is None:
+        return
+    place = film.theta[0] + (scene.load_angle - film.theta[0]) % 360.0
+    for chart in charts:
+        chart.axvline(place, color="k", linewidth=0.9, linestyle="-.", label="direction of the load")
+
+
+def mark_thinnest(chart, lines, film, values, unit):
+    """A ring where the film is thinnest."""
+    ties = values <= values.min()*(1.0 + ROUND_OFF)  # a gap that is the same along z is marked in the middle
+    station, row = numpy.unravel_index(numpy.argmin(numpy.where(ties, numpy.abs(film.z), numpy.inf)), values.shape)
+    place = film.theta[station], 1.0e3*film.z[row]
+    chart.plot(*place, "o", color="w", markeredgecolor="k", markersize=6.0, clip_on=False, zorder=5)
+    lines.plot(film.theta[station], values[station, row], "o", color="w", markeredgecolor="k", markersize=6.0, zorder=5,
+               label=f"thinnest, {values[station, row]:.3g} {unit}")
+
+
 def draw_map(figure, chart, film, values, levels, **look):
-    """Colours over theta and z, with their scale."""
-    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart)
+    """Colours over theta and z, with their scale; levels: the borders of the colours, or about how many."""
+    if numpy.ndim(levels) == 0 and numpy.ptp(values) > 0.0:
+        levels = round_numbers(levels).tick_values(values.min(), values.max())
+    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart, ticks=round_numbers(6))
     chart.set_ylabel("z [mm]")
 
 
 def label_theta(chart, film):
     """The axis along the motion."""
     chart.set_xlabel("theta [deg]")
-    chart.set_xticks(numpy.arange(0.0, 361.0, 60.0))
+    chart.set_xticks(numpy.arange(60.0*numpy.ceil(film.theta[0]/60.0), film.theta[-1] + 1.0, 60.0))
     chart.set_xlim(film.theta[0], film.theta[-1])

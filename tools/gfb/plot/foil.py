@@ -3,8 +3,10 @@
 import math
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import colors, pyplot
 
+from gfb.plot.film import around_zero
+from gfb.plot.scene import draw_edges, round_numbers, scene_of, theta_above
 from gfb.tool import stop
 
 SHARE = 0.4        # of the foil's height: how far the picture moves the node that sinks most, at most
@@ -42,12 +44,14 @@ def draw(path, file, columns):
     shape = (len(points)//rows, rows, 3)
     points = points.reshape(shape)
     fields = {name: file[f"VTKHDF/PointData/{name}"][...].reshape(shape) for name in columns or there[:1]}
+    scene = scene_of(path)
     if list(fields) == ["displacement"]:
         flat = not numpy.ptp(points[:, :, 1]) > ROUND_OFF*numpy.ptp(points[:, :, 0])
-        figure = (draw_sheet if flat else draw_strip)(points, fields["displacement"])
+        figure = (draw_sheet if flat else draw_strip)(points, fields["displacement"], scene)
     else:
-        figure = draw_modes(points, fields)
-    figure.suptitle(path.name.removesuffix(".vtkhdf"), fontsize=11)
+        figure = draw_modes(points, fields, scene)
+    what = path.name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
+    figure.suptitle(f"{scene.title(path)}: {what}", fontsize=11)
     return figure
 
 
@@ -70,7 +74,7 @@ def line_mean(values, z):
     return float(numpy.sum(0.5*(values[1:] + values[:-1])*numpy.diff(z))/(z[-1] - z[0]))
 
 
-def draw_strip(points, moved):
+def draw_strip(points, moved, scene):
     """The midline from the side, at rest and deflected; deflection along each crest and its mean."""
     z = points[0, :, 2]
     middle = int(numpy.argmin(numpy.abs(z)))
@@ -91,6 +95,7 @@ def draw_strip(points, moved):
     side.plot(place[:, 0], place[:, 1], color="C0", label=f"deflected, displacements x {scale:g}")
     side.set(xlabel="x [mm]", ylabel="v [mm]", ylim=(None, 1.0e3*height*1.55))
     side.set_title("midline from the side, v drawn larger than x", fontsize=10)
+    theta_above(side, scene)
     side.legend(fontsize=8, ncols=2, loc="upper left")
     side.grid(alpha=0.3)
     numbers = range(1, len(crests) + 1)
@@ -110,18 +115,19 @@ def draw_strip(points, moved):
     return figure
 
 
-def draw_sheet(points, moved):
+def draw_sheet(points, moved, scene):
     """A top foil: map of its deflection towards the sleeve, and that along the midplane and the two edges."""
     x, z = 1.0e3*points[:, 0, 0], 1.0e3*points[0, :, 2]
     deflection = -1.0e6*moved[:, :, 1]
     figure, (chart, lines) = pyplot.subplots(2, 1, figsize=(10.0, 5.6), layout="constrained", sharex=True)
-    figure.colorbar(chart.contourf(x, z, deflection.T, levels=BANDS), ax=chart)
+    bands = round_numbers(BANDS).tick_values(deflection.min(), deflection.max()) if numpy.ptp(deflection) > 0.0 else BANDS
+    figure.colorbar(chart.contourf(x, z, deflection.T, levels=bands, **around_zero(deflection)), ax=chart, ticks=round_numbers(6))
+    theta_above(chart, scene)
     chart.set(ylabel="z [mm]")
     chart.set_title("deflection towards the sleeve [um]", fontsize=10)
     middle = int(numpy.argmin(numpy.abs(z)))
-    lines.plot(x, deflection[:, middle], label=f"z = {z[middle]:.3g} mm")
-    for edge, style in ((-1, "--"), (0, ":")):
-        lines.plot(x, deflection[:, edge], style, label=f"edge, z = {z[edge]:.4g} mm")
+    lines.plot(x, deflection[:, middle], label="midplane" if abs(z[middle]) <= ROUND_OFF*z[-1] else f"z = {z[middle]:.3g} mm")
+    draw_edges(lines, x, deflection, z)
     lines.set(xlabel="x [mm], along the shaft's motion", ylabel="deflection [um]", xlim=(x[0], x[-1]))
     lines.axhline(0.0, color="0.4", linewidth=0.8)
     lines.grid(alpha=0.3)
@@ -131,17 +137,25 @@ def draw_sheet(points, moved):
 
 # --- modes ---
 
-def draw_modes(points, fields):
+def draw_modes(points, fields, scene):
     """Surfaces moved by each field, coloured by how far, over the wireframe of rest."""
     down = -(-len(fields)//2)
     figure, axes = pyplot.subplots(down, min(2, len(fields)), squeeze=False, subplot_kw={"projection": "3d"},
                                    figsize=(5.8*min(2, len(fields)), 4.0*down), layout="constrained")
     for chart, (name, moved) in zip(axes.flat, fields.items()):
         draw_mode(chart, points, moved)
-        chart.set_title(name.replace("_", " "), fontsize=10)
+        frequency = f", {hertz(scene.frequencies[name])} Hz" if name in scene.frequencies else ""
+        chart.set_title(name.replace("_", " ") + frequency, fontsize=10)
     for chart in axes.flat[len(fields):]:
         chart.set_visible(False)
+    scale = pyplot.cm.ScalarMappable(colors.Normalize(0.0, 1.0), "viridis")
+    figure.colorbar(scale, ax=axes, shrink=0.6, pad=0.1, ticks=round_numbers(5)).set_label("displacement over the largest", fontsize=9)
     return figure
+
+
+def hertz(frequency):
+    """A frequency with four digits or more, none of them a power of ten."""
+    return f"{frequency:,.0f}" if frequency >= 1000.0 else f"{frequency:.4g}"
 
 
 def strides(shape):

@@ -5,9 +5,11 @@
   tools/plot CASE.bump_foil.vtkhdf      the bumps' deflected midline and their crests' deflections
   tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges
   tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
-  tools/plot CASE.h5 [COLUMN ...]       columns of the history against what the sweep changes, or load steps
+  tools/plot CASE.h5 [COLUMN ...]       columns of the history against what the sweep changes, or load steps;
+                                        of one point alone a table
       --together                          columns of one unit in one chart
-  tools/plot CASE.h5 --show dynamics    stiffness and damping over the frequency of vibration
+  tools/plot CASE.h5 --show dynamics    stiffness and damping over the frequency of vibration; of a sweep
+                                        the last point, or the one of --step
   tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
       --show bumps                        mean deflection of every crest line
       --show loop                         force against travel of the plate or largest crest deflection
@@ -17,7 +19,8 @@
   tools/plot CASE.h5 ... --show map     critical mass over load and speed, of several sweeps
 
 Where no columns are named, the ones most asked for are drawn; --list prints the names there are.
-Several strips are told apart by the keys in which they differ.
+Several strips are told apart by the keys in which they differ. A picture lies beside its data, named after them; CASE.h5 beside
+a film or a foil tells the picture load, speed, model and natural frequencies.
 """
 
 import argparse
@@ -33,11 +36,16 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb.plot import dynamics, foil, rotor, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
+from gfb.plot.scene import named, read_scene, round_numbers  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
 USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
+ROUND_OFF = 1.0e-12  # of the largest number of a unit: a smaller one is zero
+USUAL_OF_ONE = ("force_x", "force_y", "eccentricity_x", "eccentricity_y", "attitude_angle", "minimum_gap", "minimum_gap_midplane",
+                "minimum_gap_edge", "maximum_pressure", "minimum_pressure", "torque_x", "torque_y", "friction_torque", "power_loss",
+                "critical_mass", "whirl_ratio")
 
 
 def main():
@@ -47,7 +55,7 @@ def main():
     parser.add_argument("columns", nargs="*", metavar="COLUMN",
                         help="names of the history, such as minimum_gap; or more files, NAME.h5")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="PNG",
-                        help="the picture; default: the file's name with .png, here")
+                        help="the picture; default: beside the file, its name with what is shown and .png")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
     parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, *rotor.KINDS),
@@ -58,7 +66,8 @@ def main():
     options = parser.parse_args()
     more = [pathlib.Path(name) for name in options.columns if name.endswith(".h5")]
     options.columns = [name for name in options.columns if not name.endswith(".h5")]
-    picture = options.output or pathlib.Path(options.file.name + ".png")
+    shown = f".{options.show}" if options.show else ""
+    picture = options.output or options.file.with_name(f"{options.file.name}{shown}.png")
     with contextlib.ExitStack() as opened:
         files = [open_file(path, opened) for path in [options.file, *more]]
         try:
@@ -160,18 +169,21 @@ def draw_history(path, file, columns, together=False):
     history = file["history"]
     parameter = swept(file)
     if not columns:
-        usual = USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
+        alone = any(data.shape == (1,) for data in history.values())
+        usual = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
         columns = [name for name in usual if name in history]
         if not columns:
             stop(f"{path}: none of the usual columns is in it; name some, --list prints them")
     unknown = [name for name in columns if name not in history]
     if unknown:
         stop(f"{path}: no column {', '.join(unknown)}; there are: {', '.join(history)}")
+    if len(history[columns[0]]) == 1:
+        return draw_table(path, file, columns)
     if parameter is None and "step" in history:
         along, label = history["step"][...], "load step"
     elif parameter is not None and parameter in history:
         along, unit = readable(history[parameter])
-        label = f"{parameter} [{unit}]"
+        label = named(parameter, unit)
     else:
         along, label = numpy.arange(1, len(history[columns[0]]) + 1), "row"
     charted = charts_of(history, columns, together)
@@ -182,8 +194,9 @@ def draw_history(path, file, columns, together=False):
     for chart, names in zip(axes.flat, charted):
         for name in names:
             values, unit = readable(history[name])
-            chart.plot(along, values, "o-", markersize=3.5, label=name)
-        chart.set_ylabel(f"[{unit}]" if len(names) > 1 else f"{names[0]} [{unit}]")
+            chart.plot(along, values, "o-", markersize=3.5, label=named(name, ""))
+        chart.set_ylabel(f"[{unit}]" if len(names) > 1 else named(names[0], unit))
+        chart.yaxis.set_major_locator(round_numbers(6))
         if len(names) > 1:
             chart.legend(fontsize=8)
         chart.grid(alpha=0.3)
@@ -193,4 +206,24 @@ def draw_history(path, file, columns, together=False):
         chart.set_xlabel(label)
         chart.tick_params(labelbottom=True)
     figure.suptitle(path.name.removesuffix(".h5"), fontsize=11)
+    return figure
+
+
+def draw_table(path, file, columns):
+    """Numbers of a history of one point, which makes no curve."""
+    numbers, largest = {name: readable(file["history"][name]) for name in columns}, {}
+    for values, unit in numbers.values():
+        largest[unit] = max(largest.get(unit, 0.0), abs(values[0]))
+    rows = [[named(name, ""), f"{values[0] if abs(values[0]) > ROUND_OFF*largest[unit] else 0.0:.5g}", "" if unit == "1" else unit]
+            for name, (values, unit) in numbers.items()]
+    figure, chart = pyplot.subplots(figsize=(6.0, 0.28*len(rows) + 1.0), layout="constrained")
+    chart.axis("off")
+    table = chart.table(rows, colWidths=(0.55, 0.25, 0.2), cellLoc="left", loc="center", edges="horizontal")
+    table.auto_set_font_size(False)
+    table.set_fontsize(10)
+    table.scale(1.0, 1.35)
+    for row in range(len(rows)):
+        table[row, 1].set_text_props(ha="right")
+        table[row, 2].set_text_props(ha="left")
+    figure.suptitle(read_scene(file).title(path) if "summary" in file else path.stem, fontsize=11)
     return figure

@@ -194,8 +194,9 @@ def draw_loops(paths, files):
             label += f"\n{MILLI*file['summary/dissipated_energy'][()]:.4g} mJ"
         look = {"linestyle": STYLES[i % len(STYLES)], "marker": "o" if len(force) <= MOST_MARKED else "",
                 "markersize": 3.0, "linewidth": 1.3, "label": label}
-        chart.plot(MICRO*way, force, **look)
-        opened.plot(MICRO*way, force - force[top]/way[top]*way, **look)
+        for one, height in ((chart, force), (opened, force - force[top]/way[top]*way)):
+            (line,) = one.plot(MICRO*way, height, **look)
+            draw_arrows(one, MICRO*way, height, force, line.get_color())
     across = " / ".join(sorted(words)) + " [um]"
     chart.set(xlabel=across, ylabel="force on all crests [N]")
     chart.set_title("loading and unloading", fontsize=10)
@@ -206,6 +207,16 @@ def draw_loops(paths, files):
     chart.legend(fontsize=8, title="with the work lost in the cycle", title_fontsize=8)
     figure.suptitle(common_name(paths), fontsize=11)
     return figure
+
+
+def draw_arrows(chart, way, height, force, colour):
+    """The sense of a loop: an arrow where the load rises and one where it falls."""
+    top = int(numpy.argmax(numpy.abs(force)))
+    for first, last in ((0, top), (top, len(force) - 1)):
+        if last > first:
+            at = (first + last - 1)//2
+            chart.annotate("", (0.5*(way[at] + way[at + 1]), 0.5*(height[at] + height[at + 1])), (way[at], height[at]),
+                           arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 13.0, "shrinkA": 0.0, "shrinkB": 0.0})
 
 
 # --- contact states ---

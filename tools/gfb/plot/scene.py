@@ -1,0 +1,101 @@
+"""What a picture says of the scene beside its data: load, speed and model, where the load points, words for names."""
+
+import dataclasses
+import math
+
+import numpy
+from matplotlib import ticker
+
+from gfb.plot.strip import used_keys
+from gfb.results import BROKEN, open_results
+
+MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells"}
+WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "minimum_gap": "thinnest film",
+         "minimum_gap_midplane": "thinnest film, midplane", "minimum_gap_edge": "thinnest film, edges", "eccentricity_x": "e_x",
+         "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",
+         "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
+         "minimum_pressure": "smallest pressure, absolute"}
+SAME = 1.0e-9  # of the largest value: edges that differ less are one line
+
+
+@dataclasses.dataclass
+class Scene:
+    """Of the case file beside a grid file; empty where there is none, or none that can be read."""
+
+    words: str = ""           # load, speed and model
+    load_angle: float = None  # theta at which the load presses the shaft [deg]
+    radius: float = None      # of the shaft [m]
+    begin: float = 0.0        # theta where the pad begins [deg]
+    frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
+
+    def title(self, path):
+        """The case's name, and these words."""
+        return ": ".join(filter(None, (path.name.partition(".")[0], self.words)))
+
+
+def scene_of(path):
+    """The scene of CASE.h5 beside CASE.film.vtkhdf, CASE.top_foil.vtkhdf or CASE.bump_foil.vtkhdf."""
+    case = path.with_name(path.name.rsplit(".", 2)[0] + ".h5")
+    try:
+        with open_results(case) as file:
+            return read_scene(file)
+    except BROKEN:
+        return Scene()  # the picture is of another file
+
+
+def read_scene(file):
+    """The same of an open case file."""
+    keys, summary, scene = used_keys(file), file["summary"], Scene()
+    scene.frequencies = {f"mode_{name.removeprefix('frequency_')}": float(data[()]) for name, data in summary.items()
+                         if name.startswith("frequency_")}
+    if ("bearing", "radius") not in keys:
+        return scene
+    force = complex(summary["force_x"][()], summary["force_y"][()])
+    history = file["history"]
+    speed = history["speed_rpm"][-1] if "speed_rpm" in history else number(keys, "operation", "speed_rpm")
+    model = keys["model", "foil"][0].strip("'")
+    what = "load" if ("operation", "load") in keys else "film force"
+    scene.words = f"{what} {abs(force):.4g} N, {speed:,.0f} rpm, {MODELS.get(model, model)}"
+    scene.load_angle = math.degrees(math.atan2(force.imag, force.real)) if abs(force) > 0.0 else None
+    scene.radius = number(keys, "bearing", "radius")
+    scene.begin = math.degrees(number(keys, "bearing", "leading_edge_angle"))
+    return scene
+
+
+def number(keys, group, key):
+    """A number of the echo."""
+    return float(keys[group, key][0])
+
+
+# --- words ---
+
+def named(name, unit):
+    """A result's name as an axis has it."""
+    words = WORDS.get(name, name.replace("_", " "))
+    return words if unit in ("", "1") else f"{words} [{unit}]"
+
+
+# --- colours and lines ---
+
+def round_numbers(count):
+    """Places of about so many ticks or bands."""
+    return ticker.MaxNLocator(count, steps=[1, 2, 5, 10])
+
+
+def draw_edges(chart, along, values, z):
+    """Lines along both edges, or one where they are the same; z in mm."""
+    if numpy.abs(values[:, 0] - values[:, -1]).max() <= SAME*numpy.abs(values).max() and abs(z[0] + z[-1]) <= SAME*abs(z[-1]):
+        chart.plot(along, values[:, -1], "--", label=f"edges, z = +-{z[-1]:.4g} mm")
+        return
+    for edge, style in ((-1, "--"), (0, ":")):
+        chart.plot(along, values[:, edge], style, label=f"edge, z = {z[edge]:.4g} mm")
+
+
+def theta_above(chart, scene):
+    """A second axis, theta, above that of x [mm] of a bearing's foils."""
+    if scene.radius is None:
+        return
+    per_mm = math.degrees(1.0e-3/scene.radius)
+    axis = chart.secondary_xaxis("top", functions=(lambda x: scene.begin + x*per_mm, lambda theta: (theta - scene.begin)/per_mm))
+    axis.set_xlabel("theta [deg]", fontsize=9)
+    axis.set_xticks(numpy.arange(60.0*math.ceil(scene.begin/60.0), scene.begin + 361.0, 60.0))
