@@ -83,6 +83,19 @@ class CoefficientsTest(unittest.TestCase):
             numpy.testing.assert_allclose(line.get_xdata(), FREQUENCY)
             numpy.testing.assert_allclose(line.get_ydata(), values, rtol=1.0e-12)
 
+    def test_picture_of_a_point_of_a_sweep(self):
+        path = self.folder/"swept.h5"
+        with h5py.File(path, "w") as file:
+            file["dynamics/frequency"] = numpy.stack((FREQUENCY, 2.0*FREQUENCY))
+            file["dynamics/stiffness"], file["dynamics/damping"] = (numpy.stack((one, 3.0*one)) for one in (STIFFNESS, DAMPING))
+        with h5py.File(path) as file:
+            for steps, point in (([], 2), ([1], 1)):
+                figure = dynamics.draw(path, file, steps)
+                self.assertEqual(figure._suptitle.get_text(), f"swept: point {point} of 2")
+                numpy.testing.assert_allclose(figure.axes[0].lines[0].get_xdata(), point*FREQUENCY)
+        status, said = call(plot_main.main, path, "--show", "dynamics", "--step", "3")
+        self.assertEqual((status, "--step 1 to 2" in said), (1, True), said)
+
     def test_wrong_calls_are_told(self):
         to = ("--ross", self.folder/"b.toml")
         (self.folder/"text.h5").write_text("no HDF5", encoding="utf-8")

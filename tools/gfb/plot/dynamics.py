@@ -3,6 +3,7 @@
 import numpy
 from matplotlib import pyplot
 
+from gfb.plot.scene import read_scene
 from gfb.tool import stop
 
 KIND = "dynamics"
@@ -17,17 +18,19 @@ def draw(path, file, steps=()):
     """Displacements above, tilts below; stiffness at the left, damping at the right; of a sweep the last point, or the one named."""
     if "dynamics" not in file:
         stop(f"{path}: no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
-    group, words = file["dynamics"], ""
+    group, title = file["dynamics"], path.name.removesuffix(".h5")
     frequency, here = group["frequency"][...], ...
     if group["stiffness"].ndim == 4:
         points = len(frequency)
         if len(steps) > 1 or not all(0 < step <= points for step in steps):
             stop(f"{path}: one point of the sweep at a time, --step 1 to {points}")
         here = steps[0] - 1 if steps else points - 1
-        frequency, words = numpy.atleast_1d(frequency[here]), f", point {here + 1}"
+        frequency, title = numpy.atleast_1d(frequency[here]), f"{title}: point {here + 1} of {points}"
     elif steps:
         stop(f"{path}: not a sweep: stiffness and damping are drawn without --step")
-    figure, axes = pyplot.subplots(2, 2, figsize=(10.0, 6.6), layout="constrained", sharex=True)
+    elif "summary" in file:
+        title = read_scene(file).title(path)
+    figure, axes = pyplot.subplots(2, 2, figsize=(11.0, 6.6), layout="constrained", sharex=True)
     for chart, (name, entries, scale, label) in zip(axes.flat, CHARTS):
         values = group[name][here]*scale
         for words, row, column, colour, style in entries:
@@ -36,8 +39,8 @@ def draw(path, file, steps=()):
         chart.set_ylabel(label)
         chart.grid(alpha=0.3)
     for chart in axes[:, 1]:
-        chart.legend(fontsize=8)  # of its row
+        chart.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))  # of its row
     for chart in axes[1]:
         chart.set_xlabel("frequency of vibration [rad/s]")
-    figure.suptitle(path.name.removesuffix(".h5") + words, fontsize=11)
+    figure.suptitle(title, fontsize=11)
     return figure

@@ -141,7 +141,7 @@ def draw_modes(points, fields, scene):
     """Surfaces moved by each field, coloured by how far, over the wireframe of rest."""
     down = -(-len(fields)//2)
     figure, axes = pyplot.subplots(down, min(2, len(fields)), squeeze=False, subplot_kw={"projection": "3d"},
-                                   figsize=(5.8*min(2, len(fields)), 4.0*down), layout="constrained")
+                                   figsize=(5.8*min(2, len(fields)) + 1.0, 4.0*down), layout="constrained")
     for chart, (name, moved) in zip(axes.flat, fields.items()):
         draw_mode(chart, points, moved)
         frequency = f", {hertz(scene.frequencies[name])} Hz" if name in scene.frequencies else ""
@@ -149,7 +149,7 @@ def draw_modes(points, fields, scene):
     for chart in axes.flat[len(fields):]:
         chart.set_visible(False)
     scale = pyplot.cm.ScalarMappable(colors.Normalize(0.0, 1.0), "viridis")
-    figure.colorbar(scale, ax=axes, shrink=0.6, pad=0.1, ticks=round_numbers(5)).set_label("displacement over the largest", fontsize=9)
+    figure.colorbar(scale, ax=axes, shrink=0.6, pad=0.16/min(2, len(fields)), ticks=round_numbers(5)).set_label("displacement over the largest", fontsize=9)
     return figure
 
 
