@@ -26,6 +26,7 @@ STRIP = {
     "strip_load": {"kind": "plates", "maximum_force": 40.0, "steps_up": 5},
     "mesh": {"arc_elements": 6, "flat_elements": 2, "axial_elements": 6},
 }
+VIBRATING = {**BEARING, "scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 0.5}}
 
 
 def solve(folder, options, groups=None):
@@ -36,7 +37,8 @@ def solve(folder, options, groups=None):
 
 def check_small_workspace(checks, folder):
     """Too little room for pivoting is enlarged, and the answer is the same: factors of each matrix, and lagged ones."""
-    for words, groups, prefix in ("bearing", BEARING, "bearing"), ("strip", STRIP, "strip"):
+    for words, groups, prefix in (("bearing", BEARING, "bearing"), ("strip", STRIP, "strip"),
+                                  ("vibrations", VIBRATING, "dynamic")):
         plain = solve(folder, "", groups)
         checks.that(f"{words}: the workspace is large enough by default", plain.status == DONE and ENLARGED not in plain.log)
         answer = solve(folder, f"-{prefix}_mat_mumps_icntl_14 {TINY}", groups)
@@ -48,11 +50,13 @@ def check_small_workspace(checks, folder):
 
 def check_failures(checks, folder):
     """What no workspace helps: factors in files in a folder that is not there, factors that are thrown away."""
-    for words, options, said, statuses in (
-            ("no such folder", "-bearing_mat_mumps_icntl_22 1 -bearing_mat_mumps_ooc_tmpdir /no/such/folder",
+    for words, groups, options, said, statuses in (
+            ("no such folder", BEARING, "-bearing_mat_mumps_icntl_22 1 -bearing_mat_mumps_ooc_tmpdir /no/such/folder",
              "MUMPS could not write its factors", (NOT_CONVERGED,)),
-            ("no factors are kept", "-bearing_mat_mumps_icntl_31 1", "a library failed", (MACHINE,))):
-        answer = solve(folder, options)
+            ("no factors are kept", BEARING, "-bearing_mat_mumps_icntl_31 1", "a library failed", (MACHINE,)),
+            ("vibrations, no memory", VIBRATING, "-dynamic_mat_mumps_icntl_23 1", "MUMPS ran out of memory",
+             (MACHINE,))):
+        answer = solve(folder, options, groups)
         text = answer.log + answer.complaint
         checks.that(f"{words}: status {answer.status}: {text.strip().splitlines()[-1][:120] if text.strip() else ''}",
                     answer.status in statuses and said in text and "PETSC ERROR" not in text)

@@ -1,10 +1,15 @@
-# Compiler options of every target, and the two outside libraries as targets of our own.
+# Compiler options of every target, and the outside libraries as targets of our own.
 
 add_library(gfb_petsc INTERFACE)
 add_library(gfb::petsc ALIAS gfb_petsc)
 target_link_libraries(gfb_petsc INTERFACE PkgConfig::SLEPC PkgConfig::PETSC MPI::MPI_Fortran MPI::MPI_C
                                           LAPACK::LAPACK)
 target_include_directories(gfb_petsc INTERFACE ${PROJECT_SOURCE_DIR}/include)
+
+add_library(gfb_mumps INTERFACE)
+add_library(gfb::mumps ALIAS gfb_mumps)
+target_link_libraries(gfb_mumps INTERFACE ${ZMUMPS_LIBRARY} ${MUMPS_COMMON_LIBRARY})
+target_include_directories(gfb_mumps INTERFACE ${MUMPS_INCLUDE_DIR})
 
 add_library(gfb_hdf5 INTERFACE)
 add_library(gfb::hdf5 ALIAS gfb_hdf5)

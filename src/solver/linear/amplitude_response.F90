@@ -13,9 +13,7 @@ module gfb_amplitude_response
   use gfb_bearing_system, only: bearing_system_type
   use gfb_vibrating_contacts, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction
-  use gfb_direct_solver, only: make_factors
-  use gfb_complex_pairs, only: fill_pairs
-  use gfb_dynamic_response, only: dynamic_response_type, coupled_columns, solve_part
+  use gfb_dynamic_response, only: dynamic_response_type, factor_part, solve_part
   use gfb_vibration_equations, only: combine
   implicit none (type)
   private
@@ -110,12 +108,8 @@ contains
       call add_friction(bearing, aimag(stiffness), response%equations%imaginary_part, response%equations%steady)
     end associate
     z = 0.0_wp
-    associate (part => response%part(1))
-      call fill_pairs(response%equations%real_part, response%equations%imaginary_part, part%kept, coupled_columns(bearing), part%matrix)
-      response%factorizations = response%factorizations + 1
-      call make_factors(part%linear, part%matrix, found, response%enlargements)
-      if (found) call solve_part(bearing, response, rate, coordinate, part, z, found)
-    end associate
+    call factor_part(response, 1, found)
+    if (found) call solve_part(bearing, response, rate, coordinate, response%part(1), z, found)
     vibration%coefficient = z(:, coordinate)
   end subroutine solve_motion
 

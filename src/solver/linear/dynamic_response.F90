@@ -10,14 +10,12 @@
 !> -\int p'_k B_j \, dA \) with \( B_j = \partial h/\partial q_j \). A positive diagonal restores, and
 !> damps.
 !>
-!> Real and imaginary part of an unknown stand side by side in one real matrix, of twice the order, whose
-!> pattern is analysed once. On half the width translations have the symmetry of the steady state, tilts
+!> On half the width translations have the symmetry of the steady state, tilts
 !> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay. Shells
 !> move against their mirror then: they are a bearing of their own, with other supports at z = 0.
 module gfb_dynamic_response
-  use petscksp
+  use petscmat
   use gfb_kinds, only: wp
-  use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns
   use gfb_bearing_system, only: bearing_system_type
@@ -25,13 +23,13 @@ module gfb_dynamic_response
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
-  use gfb_direct_solver, only: use_factors, make_factors
-  use gfb_complex_pairs, only: create_pairs, fill_pairs, order_pairs, keep_entries
+  use gfb_direct_solver, only: failure_in_words
+  use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
+                                 destroy_complex_factors, keep_entries
   implicit none (type)
   private
-  public :: create_response, find_coefficients, coupled_columns, solve_part, forces_of, destroy_response
+  public :: create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
 
-  character(len=*), parameter :: prefix = 'dynamic_' !! of PETSc's options
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
 
   !> The equations of motions with one symmetry about z = 0, or of all.
@@ -39,14 +37,14 @@ module gfb_dynamic_response
     integer, allocatable :: coordinate(:) !! of the shaft that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
-    type(tMat) :: matrix                  !! real and imaginary part of each unknown side by side
-    type(tKSP) :: linear
+    type(complex_factors_type) :: factors
   end type part_type
 
   !> The linearised bearing.
   type, public :: dynamic_response_type
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
+    integer :: status = 0         !! of the last factors: MUMPS' INFOG(1), negative where there are none
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
     type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
@@ -178,7 +176,7 @@ contains
     end associate
   end subroutine create_parts
 
-  !> A matrix of real and imaginary parts with its solver, still empty.
+  !> A complex matrix of the motions, still empty.
   subroutine create_part(bearing, steady, has, part)
     type(bearing_system_type), intent(in) :: bearing
     Mat, intent(in) :: steady !! whose pattern it takes
@@ -194,13 +192,7 @@ contains
     part%kept = values > 0.5_wp
     PetscCallA(GFB_VecRestoreArrayRead(flags, values, ierr))
     PetscCallA(VecDestroy(flags, ierr))
-    call create_pairs(steady, coupled_columns(bearing), part%matrix)
-    PetscCallA(KSPCreate(PETSC_COMM_WORLD, part%linear, ierr))
-    PetscCallA(KSPSetOptionsPrefix(part%linear, prefix, ierr))
-    PetscCallA(KSPSetOperators(part%linear, part%matrix, part%matrix, ierr))
-    call order_pairs(prefix)
-    call use_factors(part%linear, prefix, .false., .false.)
-    PetscCallA(KSPSetFromOptions(part%linear, ierr))
+    call create_complex_factors(steady, part%kept, coupled_columns(bearing), part%factors)
   end subroutine create_part
 
   !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.
@@ -243,10 +235,7 @@ contains
     call combine(response%equations, rate)
     do i = 1, size(response%part)
       if (response%part(i)%coordinate(1) > wanted) cycle
-      call fill_pairs(response%equations%real_part, response%equations%imaginary_part, response%part(i)%kept, &
-                      coupled_columns(bearing), response%part(i)%matrix)
-      response%factorizations = response%factorizations + 1
-      call make_factors(response%part(i)%linear, response%part(i)%matrix, found, response%enlargements)
+      call factor_part(response, i, found)
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
@@ -256,10 +245,34 @@ contains
       coefficient(tilts, tilts) = other(tilts, tilts)
       response%factorizations = response%factorizations + opposite%factorizations
       response%enlargements = response%enlargements + opposite%enlargements
+      response%status = opposite%status
       opposite%factorizations = 0
       opposite%enlargements = 0
     end associate
   end subroutine find_coefficients
+
+  !> Why the last coefficients were not found.
+  function response_failure(response) result(words)
+    type(dynamic_response_type), intent(in) :: response !! that was asked
+    character(len=:), allocatable :: words
+
+    words = 'the solution does not meet the equations, whose matrix is next to singular'
+    if (response%status < 0) words = failure_in_words(response%status)
+  end function response_failure
+
+  !> Factors the matrix that was combined last, for the motions of a part.
+  subroutine factor_part(response, number, made)
+    type(dynamic_response_type), intent(inout) :: response !! its factorizations are counted
+    integer, intent(in) :: number !! of its part
+    logical, intent(out) :: made  !! else there are no factors
+
+    response%factorizations = response%factorizations + 1
+    associate (equations => response%equations)
+      call factor_complex(response%part(number)%factors, equations%real_part, equations%imaginary_part, &
+                          response%status, response%enlargements)
+    end associate
+    made = response%status >= 0
+  end subroutine factor_part
 
   !> Forces of a part's motions, with the factors there are.
   subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found)
@@ -270,35 +283,24 @@ contains
     type(part_type), intent(in) :: part !! of the response, factorized
     complex(wp), intent(inout) :: coefficient(:, :) !! (force, motion) [SI]
     logical, intent(out) :: found !! all were solved
-    Vec :: right, answer
-    KSPConvergedReason :: reason
     PetscErrorCode :: ierr
+    logical :: solved
     integer :: i
 
     found = .true.
-    PetscCallA(MatCreateVecs(part%matrix, answer, right, ierr))
-    PetscCallA(VecSetBlockSize(right, 2_pint, ierr))
-    PetscCallA(VecSetBlockSize(answer, 2_pint, ierr))
     do i = 1, size(part%coordinate)
       associate (k => part%coordinate(i), one => response%one, other => response%other)
         if (k > wanted) cycle
         PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
         PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
         PetscCallA(VecScale(other, aimag(rate), ierr))
-        PetscCallA(VecStrideScatter(one, 0_pint, right, INSERT_VALUES, ierr))
-        PetscCallA(VecStrideScatter(other, 1_pint, right, INSERT_VALUES, ierr))
-        PetscCallA(KSPSolve(part%linear, right, answer, ierr))
-        PetscCallA(KSPGetConvergedReason(part%linear, reason, ierr))
-        if (GFB_REASON(reason) <= 0) found = .false.
-        PetscCallA(VecStrideGather(answer, 0_pint, one, INSERT_VALUES, ierr))
-        PetscCallA(VecStrideGather(answer, 1_pint, other, INSERT_VALUES, ierr))
+        call solve_complex(part%factors, one, other, solved)
+        if (.not. solved) found = .false.
         ! The answer is minus the change, as the force is.
         coefficient(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), &
                                                 forces_of(bearing, response, part, k, 0.0_wp, other), wp)
       end associate
     end do
-    PetscCallA(VecDestroy(right, ierr))
-    PetscCallA(VecDestroy(answer, ierr))
   end subroutine solve_part
 
   !> Weighted pressures of minus a change of the unknowns, with the asperities'.
@@ -336,8 +338,7 @@ contains
       deallocate (response%opposite, response%opposite_bearing)
     end if
     do i = 1, size(response%part)
-      PetscCallA(KSPDestroy(response%part(i)%linear, ierr))
-      PetscCallA(MatDestroy(response%part(i)%matrix, ierr))
+      call destroy_complex_factors(response%part(i)%factors)
     end do
     do i = 1, shaft_coordinates
       PetscCallA(VecDestroy(response%steady_column(i), ierr))

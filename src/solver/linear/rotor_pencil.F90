@@ -24,7 +24,7 @@ module gfb_rotor_pencil
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
-  use gfb_complex_pairs, only: keep_entries
+  use gfb_complex_factors, only: solve_complex, keep_entries
   use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, cylindrical
   implicit none (type)
   private
@@ -162,20 +162,17 @@ contains
   subroutine solve_film(share, right, answer)
     type(share_type), intent(in) :: share
     Vec, intent(in) :: right, answer !! scaled
-    Vec :: pairs, solved
+    Vec :: imaginary_part
     PetscErrorCode :: ierr
+    logical :: solved
 
     associate (part => share%response%part(share%part))
       call keep_entries(right, part%kept)
-      PetscCallA(MatCreateVecs(part%matrix, solved, pairs, ierr))
-      PetscCallA(VecSetBlockSize(pairs, 2_pint, ierr))
-      PetscCallA(VecSetBlockSize(solved, 2_pint, ierr))
-      PetscCallA(VecSet(pairs, 0.0_wp, ierr))
-      PetscCallA(VecStrideScatter(right, 0_pint, pairs, INSERT_VALUES, ierr))
-      PetscCallA(KSPSolve(part%linear, pairs, solved, ierr))
-      PetscCallA(VecStrideGather(solved, 0_pint, answer, INSERT_VALUES, ierr))
-      PetscCallA(VecDestroy(pairs, ierr))
-      PetscCallA(VecDestroy(solved, ierr))
+      PetscCallA(VecDuplicate(right, imaginary_part, ierr))
+      PetscCallA(VecSet(imaginary_part, 0.0_wp, ierr))
+      PetscCallA(VecCopy(right, answer, ierr))
+      call solve_complex(part%factors, answer, imaginary_part, solved)
+      PetscCallA(VecDestroy(imaginary_part, ierr))
     end associate
   end subroutine solve_film
 

@@ -12,12 +12,12 @@ module gfb_direct_solver
   use gfb_petsc_session, only: rank_count
   implicit none (type)
   private
-  public :: use_factors, make_factors, factor_matrix, factor_failure, enlarge_workspace, keep_factors_on_disk, &
-            set_option_default
+  public :: use_factors, make_factors, factor_matrix, factor_failure, failure_in_words, enlarge_workspace, keep_factors_on_disk, &
+            set_option_default, larger_workspace
 
   !> Prefixes of PETSc's options of all solvers that factor.
   character(len=*), parameter :: prefixes(*) = [character(len=10) :: 'strip_', 'bearing_', 'film_', &
-                                                'foil_', 'stability_']
+                                                'foil_', 'stability_', 'dynamic_']
 
   integer, parameter :: few_ranks = 16 !! on which right sides stay distributed
   integer, parameter :: first_room = 100  !! for pivoting, of a workspace that was too small at first [%]
@@ -74,7 +74,14 @@ contains
 
     words = ''
     call find_failure(linear, status)
-    if (status == 0) return
+    if (status /= 0) words = failure_in_words(status)
+  end function factor_failure
+
+  !> What MUMPS' INFOG(1) says of factors that could not be made.
+  pure function failure_in_words(status) result(words)
+    integer, intent(in) :: status !! INFOG(1), not 0
+    character(len=:), allocatable :: words
+
     select case (status)
     case (-5, -7, -8, too_small, -11, -13, -14, -15, -17, -18, -19, -20) ! allocations and workspaces
       words = 'MUMPS ran out of memory for the factors (INFOG(1) = '//text(status)// &
@@ -86,7 +93,7 @@ contains
     case default
       words = 'MUMPS could not factor the matrix (INFOG(1) = '//text(status)//')'
     end select
-  end function factor_failure
+  end function failure_in_words
 
   !> MUMPS' INFOG(1) where a solver has no factors, 1 where they are another package's; 0 where it has.
   subroutine find_failure(linear, status)
@@ -133,7 +140,7 @@ contains
       PetscCallA(KSPGetPC(linear, factors, ierr))
       PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
       PetscCallA(MatMumpsGetIcntl(factor, int(room_place, pint), given, ierr))
-      if (given < most_room/2) room = max(first_room, 2*int(given))
+      room = larger_workspace(status, int(given))
     end if
     if (room > 0) then
       PetscCallA(KSPGetOptionsPrefix(linear, prefix, ierr))
@@ -141,6 +148,16 @@ contains
     end if
     PetscCallA(KSPReset(linear, ierr))
   end subroutine enlarge_workspace
+
+  !> Room for pivoting to try next [%], where MUMPS found its workspace too small, at most five times; else 0.
+  pure function larger_workspace(status, given) result(room)
+    integer, intent(in) :: status !! MUMPS' INFOG(1)
+    integer, intent(in) :: given  !! room that there was [%]
+    integer :: room
+
+    room = 0
+    if (status == too_small .and. given < most_room/2) room = max(first_room, 2*given)
+  end function larger_workspace
 
   !> Sets an option of PETSc's unless the user has.
   subroutine set_option_default(name, value)

@@ -17,7 +17,9 @@ module gfb_dynamics
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
-  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
+  use gfb_newton_report, only: show_enlargements
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, &
+                                  response_failure, destroy_response
   use gfb_vibration_equations, only: vibration_type
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
@@ -81,6 +83,7 @@ contains
     record%point = [record%point, point]
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements
+    if (response%enlargements > 0) call show_enlargements(log, response%enlargements)
     call destroy_response(response)
     call bearing%linearise(bearing%state)
   end subroutine find_dynamics
@@ -100,7 +103,7 @@ contains
     do i = 1, size(point%frequency)
       call find_coefficients(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), point%coefficient(:, :, i), made)
       if (made) cycle
-      problem = 'the matrix of the vibration at '//text(point%frequency(i))//' rad/s cannot be factorized'
+      problem = 'the vibration at '//text(point%frequency(i))//' rad/s: '//response_failure(response)
       return
     end do
   end subroutine fill_coefficients
@@ -132,7 +135,7 @@ contains
           call find_at_amplitude(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), along, point%amplitude(k), &
                                  vibration, found)
           if (.not. found) then
-            problem = 'the matrix of the vibration at '//text(point%frequency(i))//' rad/s cannot be factorized'
+            problem = 'the vibration at '//text(point%frequency(i))//' rad/s: '//response_failure(response)
             return
           end if
           if (.not. vibration%converged) then
