@@ -224,6 +224,10 @@ class BearingTest(unittest.TestCase):
         self.assertEqual(scale._colorbar.norm.vmin, -scale._colorbar.norm.vmax)  # white is zero
         (theta,) = chart.child_axes
         self.assertEqual(theta.get_xlabel(), "theta [deg]")
+        other = self.folder/"beams.branches.1.film.vtkhdf"
+        other.write_bytes(path.read_bytes())
+        with h5py.File(other, "r") as file:
+            self.assertEqual(plot_film.draw_film(other, file)._suptitle.get_text(), "beams.branches.1")
         (self.folder/"beams.h5").write_bytes(b"broken")
         with h5py.File(path, "r") as file:  # it is not this file that is broken
             self.assertEqual(plot_film.draw_film(path, file)._suptitle.get_text(), "beams")

@@ -3,7 +3,7 @@
 import numpy
 from matplotlib import pyplot
 
-from gfb.plot.scene import read_scene
+from gfb.plot.scene import case_name, read_scene
 from gfb.tool import stop
 
 KIND = "dynamics"
@@ -18,7 +18,7 @@ def draw(path, file, steps=()):
     """Displacements above, tilts below; stiffness at the left, damping at the right; of a sweep the last point, or the one named."""
     if "dynamics" not in file:
         stop(f"{path}: no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
-    group, title = file["dynamics"], path.name.removesuffix(".h5")
+    group, title = file["dynamics"], case_name(path)
     frequency, here = group["frequency"][...], ...
     if group["stiffness"].ndim == 4:
         points = len(frequency)

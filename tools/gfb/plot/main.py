@@ -36,7 +36,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb.plot import dynamics, foil, rotor, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
-from gfb.plot.scene import named, read_scene, round_numbers  # noqa: E402
+from gfb.plot.scene import case_name, named, read_scene, round_numbers  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
 
@@ -225,5 +225,5 @@ def draw_table(path, file, columns):
     for row in range(len(rows)):
         table[row, 1].set_text_props(ha="right")
         table[row, 2].set_text_props(ha="left")
-    figure.suptitle(read_scene(file).title(path) if "summary" in file else path.stem, fontsize=11)
+    figure.suptitle(read_scene(file).title(path) if "summary" in file else case_name(path), fontsize=11)
     return figure

@@ -15,6 +15,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "minimum_gap"
          "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
          "minimum_pressure": "smallest pressure, absolute"}
+NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 SAME = 1.0e-9  # of the largest value: edges that differ less are one line
 
 
@@ -30,12 +31,17 @@ class Scene:
 
     def title(self, path):
         """The case's name, and these words."""
-        return ": ".join(filter(None, (path.name.partition(".")[0], self.words)))
+        return ": ".join(filter(None, (case_name(path), self.words)))
+
+
+def case_name(path):
+    """What the names of a run's files begin with: CASE, of branches CASE.branches.1."""
+    return path.name.removesuffix(".h5") if path.suffix == ".h5" else path.name.rsplit(".", 2)[0]
 
 
 def scene_of(path):
     """The scene of CASE.h5 beside CASE.film.vtkhdf, CASE.top_foil.vtkhdf or CASE.bump_foil.vtkhdf."""
-    case = path.with_name(path.name.rsplit(".", 2)[0] + ".h5")
+    case = path.with_name(case_name(path) + ".h5")
     try:
         with open_results(case) as file:
             return read_scene(file)
@@ -48,23 +54,33 @@ def read_scene(file):
     keys, summary, scene = used_keys(file), file["summary"], Scene()
     scene.frequencies = {f"mode_{name.removeprefix('frequency_')}": float(data[()]) for name, data in summary.items()
                          if name.startswith("frequency_")}
-    if ("bearing", "radius") not in keys:
+    if ("bearing", "radius") not in keys:  # a strip
         return scene
-    force = complex(summary["force_x"][()], summary["force_y"][()])
-    history = file["history"]
-    speed = history["speed_rpm"][-1] if "speed_rpm" in history else number(keys, "operation", "speed_rpm")
-    model = keys["model", "foil"][0].strip("'")
-    what = "load" if ("operation", "load") in keys else "film force"
-    scene.words = f"{what} {abs(force):.4g} N, {speed:,.0f} rpm, {MODELS.get(model, model)}"
-    scene.load_angle = math.degrees(math.atan2(force.imag, force.real)) if abs(force) > 0.0 else None
     scene.radius = number(keys, "bearing", "radius")
-    scene.begin = math.degrees(number(keys, "bearing", "leading_edge_angle"))
+    scene.begin = math.degrees(number(keys, "bearing", "leading_edge_angle") or 0.0)
+    words, history = [], file["history"]
+    if "force_x" in summary and "force_y" in summary:
+        force = complex(summary["force_x"][()], summary["force_y"][()])
+        words.append(f"{'load' if carries_load(keys, history, abs(force)) else 'film force'} {abs(force):.4g} N")
+        scene.load_angle = math.degrees(math.atan2(force.imag, force.real)) if abs(force) > 0.0 else None
+    speed = history["speed_rpm"][-1] if "speed_rpm" in history else number(keys, "operation", "speed_rpm")
+    if speed is not None:
+        words.append(f"{speed:,.0f} rpm")
+    model = keys.get(("model", "foil"), ("",))[0].strip("'")
+    scene.words = ", ".join(filter(None, [*words, MODELS.get(model, model)]))
     return scene
 
 
+def carries_load(keys, history, force):
+    """Whether the film's force is the load asked for: in a sweep of tilt with the shaft fixed it is not."""
+    given = numpy.hypot(*map(float, keys["operation", "load"][0].split(","))) if ("operation", "load") in keys else numpy.nan
+    load = history["load"][-1] if "load" in history else given
+    return abs(load - force) <= NEAR*force
+
+
 def number(keys, group, key):
-    """A number of the echo."""
-    return float(keys[group, key][0])
+    """A number of the echo; None where it is not in it."""
+    return float(keys[group, key][0]) if (group, key) in keys else None
 
 
 # --- words ---
