@@ -23,6 +23,7 @@ module gfb_edge_start
   public :: try_free_edge
 
   real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
+  character(len=*), parameter :: held = ', with the free edge of the top foil fixed at its height at rest'
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
 
 contains
@@ -134,7 +135,7 @@ contains
       report = released
       call last%put_back(problem%bearing)
     else if (ends) then
-      report%reason = report%reason//', with the free edge of the top foil fixed at its height at rest'
+      report%reason = report%reason//held
     else if (.not. report%converged) then
       call release_short_of_load(problem, report, ends)
     end if
@@ -149,12 +150,14 @@ contains
     logical, intent(out) :: ends !! the edge stays nowhere, or the branch ends
     type(operating_point_type) :: target
     type(path_report_type) :: short
+    type(kept_state_type) :: last
     real(wp) :: share
 
     target = problem%target
     problem%target = report%reached
     problem%target%edge_hold = 0.0_wp
     problem%target%edge_height = 0.0_wp
+    call last%keep(problem%bearing)
     share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
     call release_edge(problem, short, ends)
     problem%target = target
@@ -166,6 +169,10 @@ contains
       report = short
       report%reason = report%reason//', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
         'no step leads on with the edge fixed'
+    else
+      call last%put_back(problem%bearing)
+      report%reason = report%reason//held//', where the film presses it down'
     end if
+    call last%destroy()
   end subroutine release_short_of_load
 end module gfb_edge_start
