@@ -137,7 +137,7 @@ contains
     if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
   end subroutine measure_elements
 
-  !> Takes the height of a bore off the rigid gap.
+  !> Takes the height of a bore off the rigid gap; once more where the film has moved around.
   pure subroutine put_bore(film, profile)
     type(gas_film_type), intent(inout) :: film !! this rank's film
     type(bore_profile_type), intent(in) :: profile !! of the bore
@@ -145,7 +145,7 @@ contains
 
     if (.not. profile%present()) return
     film%bore = [(bore_height(profile, film%angle(i)), i=1, size(film%angle))]
-    allocate (film%bore_excess(size(film%shape, 2), size(film%element_nodes, 2)))
+    film%bore_excess = spread([(0.0_wp, i=1, size(film%shape, 2))], 2, size(film%element_nodes, 2))
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element), &
                  motion => film%point_motion(:, :, element))

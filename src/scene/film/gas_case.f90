@@ -5,7 +5,7 @@ module gfb_gas_case
   use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
                          density_peng_robinson, density_table
   use gfb_monotone_table, only: monotone_table, table_at
-  use gfb_peng_robinson, only: peng_robinson, amount_at, gas_constant
+  use gfb_peng_robinson, only: peng_robinson, saturate, amount_at, gas_constant
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
   use gfb_value_rules, only: any_value, not_negative, positive, rule_type
@@ -85,6 +85,11 @@ contains
     call check_keys(keys, said, gas)
     if (keys%complaints%count > mistakes) return
     call make_law(said, gas)
+    if (gas%ambient_pressure >= gas%law%fluid%saturation) then
+      call keys%complain(group, 'ambient_pressure', 'must be below '// &
+                         text(gas%law%fluid%saturation, 4)//' Pa, at which the gas condenses '// &
+                         'at its temperature')
+    end if
     if (by_law .and. given) call check_viscosity(keys, gas)
     gas%viscosity = gas%law%viscosity
   end subroutine read_gas_case
@@ -135,7 +140,7 @@ contains
       logical :: given
 
       call keys%real_key(name, value, unit, meaning, rule, must .and. needed, &
-                         default='for '//who, given=given)
+                         default='none; it is for '//who, given=given)
       if (given .and. .not. may) call keys%complain(group, name, 'needs '//who)
     end subroutine key
   end subroutine read_state
@@ -228,11 +233,6 @@ contains
       call keys%complain(group, 'viscosity_law', 'has no use with density_table_viscosity, '// &
                          'which gives the viscosity')
     end if
-    if (said%state == second_word .and. .not. said%temperature > said%critical_temperature) then
-      call keys%complain(group, 'temperature', 'must be above critical_temperature, '// &
-                         text(said%critical_temperature)//' K: a colder gas may condense in '// &
-                         'the film; a table up to its saturation line serves there')
-    end if
     if (.not. said%table) return
     if (gas%ambient_pressure < said%pressure(1) .or. &
         gas%ambient_pressure > said%pressure(size(said%pressure))) then
@@ -267,6 +267,7 @@ contains
         law%density = density_peng_robinson
         law%fluid = peng_robinson(said%temperature, said%critical_temperature, &
                                   said%critical_pressure, said%acentric_factor)
+        if (said%temperature < said%critical_temperature) call saturate(law%fluid)
         call amount_at(law%fluid, gas%ambient_pressure, density, slope, curvature)
         law%unit = gas%ambient_pressure/density
         law%ambient_density = density*said%molar_mass
