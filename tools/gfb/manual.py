@@ -2,6 +2,7 @@
 
   gfb --keys       every key of a case file    docs/manual/keys.md
   gfb --results    every name of a result      docs/manual/results.md
+  gfb --help       options                     share/: man page, completion of bash, zsh and fish
 
 A table stands between two lines such as `<!-- keys -->` and `<!-- end of keys -->`. Exit status: 0 the manual is as it
 should be, 1 it differs or has no such place.
@@ -14,6 +15,7 @@ import re
 import sys
 
 from gfb.run import call, find_gfb
+from gfb.shell import pages
 from gfb.tool import ROOT, stop
 
 TABLES = ("keys", "results")  # an option of gfb and a page each
@@ -44,12 +46,34 @@ def main():
     parser.add_argument("--gfb", metavar="PROGRAM", help="the program; default: build/release/gfb")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT/"docs/manual", metavar="DIR",
                         help="folder of the pages; default: docs/manual of this checkout")
+    parser.add_argument("--share", type=pathlib.Path, default=ROOT/"share", metavar="DIR",
+                        help="folder of man page and completions; default: share of this checkout")
     options = parser.parse_args()
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
+    differ += [path for path, content in made_of_help(gfb).items() if not renew_file(options.share/path, content, options.check)]
     if differ:
-        stop(f"these tables are not those of gfb: {', '.join(differ)}; call tools/manual")
+        stop(f"these are not those of gfb: {', '.join(differ)}; call tools/manual")
     return 0
+
+
+def made_of_help(gfb):
+    """{path in share: content}."""
+    done, version = call([gfb, "--help"]), call([gfb, "--version"])
+    if done.status != 0 or version.status != 0:
+        stop(f"{gfb} --help ended with status {done.status}:\n{done.complaint}", 3)
+    return pages(done.log, version.log.split()[1])
+
+
+def renew_file(path, content, only_check):
+    """Writes a file that is not as it should be, or says so; whether it is."""
+    if path.exists() and path.read_text(encoding="utf-8") == content:
+        return True
+    if not only_check:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content, encoding="utf-8")
+        print(f"{path}: written")
+    return not only_check
 
 
 def renew(gfb, name, path, only_check):
