@@ -175,6 +175,7 @@ contains
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                   '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
                   ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
+    if (allocated(answer%pad_gap)) call show_pads(log, answer)
     call log%line('pressure         '// &
                   engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
                   engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
@@ -184,8 +185,12 @@ contains
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
       if (maxval([answer%leading_edge_lift, answer%trailing_edge_lift]) > lifted*clearance) then
-        call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
-                      'gfb --branches lists equilibria')
+        if (allocated(answer%pad_gap)) then
+          call log%line('                 an edge is lifted; it may lie on its bumps, too')
+        else
+          call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
+                        'gfb --branches lists equilibria')
+        end if
       end if
     end if
     if (answer%has_solid_contact) then
@@ -202,6 +207,19 @@ contains
                   text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
                   text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
+
+  !> What each of several pads does.
+  subroutine show_pads(log, answer)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+    integer :: i
+
+    do i = 1, size(answer%pad_gap)
+      call log%line('pad '//text(i)//'            '// &
+                    'force '//pair(answer%pad_force(:, i), 'N', 1.0_wp)//', minimum gap '// &
+                    engineering_text(answer%pad_gap(i), 'um', 1.0e6_wp))
+    end do
+  end subroutine show_pads
 
   !> Lifts at midplane and ends [um].
   pure function lifts(value) result(words)

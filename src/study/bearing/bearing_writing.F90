@@ -74,7 +74,7 @@ contains
       call show_film_notes(scene, bearing%pad(1)%film%law, bearing%pad(1)%whole, bearing%point%speed, &
                            answer%minimum_gap, [answer%minimum_pressure, answer%maximum_pressure], log)
       if (converged .and. answer%has_foils) then
-        call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance)
+        call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance, size(bearing%pad) == 1)
       end if
       call show_tilt_response(log, record%tilted)
       if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
@@ -104,20 +104,25 @@ contains
 
   !> Says that an equilibrium of the foils cannot be one that stays: where the determinant is negative an odd number of
   !> motions grows. And that it hardly is one: where next to no force lifts the free edge.
-  subroutine show_growth(log, judged, firm)
+  subroutine show_growth(log, judged, firm, listed)
     type(run_log_type), intent(in) :: log
     type(quantity_type), intent(in) :: judged(:) !! what is known of the answer
     real(wp), intent(in) :: firm !! stiffness of an edge that rests firmly [N/m]
+    logical, intent(in) :: listed !! a search for equilibria can list them
+    character(len=:), allocatable :: advice
     integer :: i
+
+    advice = ''
+    if (listed) advice = '; gfb --branches lists equilibria'
 
     do i = 1, size(judged)
       associate (number => judged(i)%number)
         if (judged(i)%name == 'determinant_sign' .and. number < -0.5_wp) then
           call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
-                        'foils grows; gfb --branches lists equilibria')
+                        'foils grows'//advice)
         else if (judged(i)%name == 'edge_stiffness' .and. abs(number) < firm) then
           call log%line('stability        nearly neutral: '//text(number*micrometre, 2)//' N lift the free edge of the top foil '// &
-                        'by 1 um; gfb --branches lists equilibria')
+                        'by 1 um'//advice)
         end if
       end associate
     end do

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Several pads and their preload: an independent solution, one pad against a shifted one, three pads against three runs
+of one, symmetry, ranks, a restart."""
+
+import json
+import math
+import pathlib
+import tempfile
+
+import numpy
+
+from gfb_run import Checks, largest_difference, observed_order, solve
+
+REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"pads.json").read_text(encoding="utf-8"))["cases"]
+TURN = 2.0*math.pi/3.0
+MESH = (56, 40)
+PLACE = (1.2e-5, 0.9e-5)
+FOILS = {
+    "top_foil": {"thickness": 1.27e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "fixed_edge": "leading"},
+    "bump_foil": {"thickness": 1.27e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "half_length": 1.778e-3,
+                  "height": 5.08e-4, "bumps": 8, "fixed_edge": "leading"},
+    "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}}
+
+
+def referred(row, mesh, order):
+    """The groups of a row of the reference."""
+    given = row["input"]
+    operation = {"speed_rpm": given["speed_rpm"]}
+    for name in ("load", "eccentricity", "tilt"):
+        if f"{name}_x" in given:
+            operation[name] = (given[f"{name}_x"], given[f"{name}_y"])
+    model = {"foil": "rigid", "film_order": order, "film_scheme": "galerkin"}
+    if "foundation_pressure" in row:
+        model |= {"foil": "elastic_foundation", "foundation_stiffness": given["foundation_stiffness"],
+                  "foundation_pressure": row["foundation_pressure"]}
+    return {"scene": {"analysis": "equilibrium" if "load" in operation else "fixed_position"},
+            "bearing": {name: given[name] for name in ("radius", "length", "clearance")}, "pads": row["pads"],
+            "gas": {name: given[name] for name in ("viscosity", "ambient_pressure")}, "operation": operation,
+            "model": model, "mesh": {"circumferential_elements": mesh[0], "axial_elements": mesh[1]}}
+
+
+def of_pads(foil, pads, place=PLACE, load=None, **more):
+    """Groups of a bearing with foils of its own on each pad."""
+    operation = {"speed_rpm": 45000.0} | ({"load": load} if load else {"eccentricity": place})
+    meshed = foil in ("beam", "shell")
+    mesh = {"axial_elements": 4} | ({"arc_elements": 4, "flat_elements": 1} if meshed else {"circumferential_elements": 24})
+    return {"scene": {"analysis": "equilibrium" if load else "fixed_position"},
+            "bearing": {"radius": 0.01905, "length": 0.0381, "clearance": 3.18e-5},
+            "pads": {"arc": 2.0, "preload": 0.2} | pads, "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101350.0},
+            "operation": operation, "model": {"foil": foil}, "mesh": mesh} | (FOILS if meshed else {}) | more
+
+
+def check_reference(checks, folder):
+    for row in REFERENCE:
+        answer, wanted = solve(folder, "row", referred(row, MESH, 2)), row["output"]
+        for name in ("force", "torque"):
+            if f"{name}_x" not in wanted:
+                continue
+            there = [wanted[f"{name}_{axis}"] for axis in "xy"]
+            found = [answer[f"{name}_{axis}"] - there[axis == "y"] for axis in "xy"]
+            checks.below(f"{row['name']}: {name}", math.hypot(*found)/math.hypot(*there), 1.0e-4)
+        for name in ("friction_torque", "eccentricity_x", "eccentricity_y"):
+            if wanted.get(name):
+                checks.below(f"{row['name']}: {name}", answer[name]/wanted[name] - 1.0, 1.0e-4)
+
+
+def check_order(checks, folder):
+    row = REFERENCE[2]
+    errors = [solve(folder, "order", referred(row, (n, n), 1))["force_x"]/row["output"]["force_x"] - 1.0
+              for n in (24, 48, 96)]
+    checks.within("bilinear elements: order", observed_order(errors[1], errors[2]), 1.8, 2.2)
+
+
+def check_preload(checks, folder):
+    """One pad with a preload is one without at another eccentricity."""
+    angle, shift = 0.3 + 0.4*2.0, 0.25*3.18e-5
+    for foil in ("rigid", "beam"):
+        films, answers = [], []
+        for preload, place in ((0.25, PLACE), (0.0, (PLACE[0] - shift*math.cos(angle), PLACE[1] - shift*math.sin(angle)))):
+            answer = solve(folder, "preload", of_pads(foil, {"first_leading_edge": 0.3, "preload": preload,
+                                                             "preload_offset": 0.4}, place))
+            answers.append(answer)
+            films.append(answer.film())
+        for field in ("gap", "pressure"):
+            checks.below(f"{foil}: a preload is a shift: {field}", largest_difference(films[0][field], films[1][field]),
+                         1.0e-9 if foil == "beam" else 1.0e-12)
+
+
+def check_three(checks, folder):
+    """Three pads are three runs of one."""
+    for foil in ("rigid", "beam", "shell"):
+        three = solve(folder, "three", of_pads(foil, {"count": 3}))
+        single = [solve(folder, "single", of_pads(foil, {"count": 1, "first_leading_edge": i*TURN})) for i in range(3)]
+        force = math.hypot(*three.force)
+        for axis in "xy":
+            total = sum(one[f"force_{axis}"] for one in single)
+            checks.below(f"{foil}: force_{axis} of three pads", (three[f"force_{axis}"] - total)/force, 1.0e-10)
+            for i, one in enumerate(single):
+                checks.below(f"{foil}: force_{axis}_{i + 1}",
+                             (three[f"force_{axis}_{i + 1}"] - one[f"force_{axis}"])/force, 1.0e-10)
+        for i, one in enumerate(single):
+            checks.below(f"{foil}: minimum_gap_{i + 1}", three[f"minimum_gap_{i + 1}"]/one["minimum_gap"] - 1.0, 1.0e-9)
+        centred = solve(folder, "centred", of_pads(foil, {"count": 3}, (0.0, 0.0)))
+        checks.below(f"{foil}: no force on a centred shaft",
+                     math.hypot(*centred.force)/math.hypot(centred["force_x_1"], centred["force_y_1"]), 1.0e-10)
+
+
+def check_film(checks, folder):
+    """The written gap, pad by pad, is the formula."""
+    film = solve(folder, "film", of_pads("rigid", {"count": 3, "first_leading_edge": 0.2})).film()
+    theta, pad = film["theta"], film["pad"]
+    centre = 0.2 + (pad - 1.0)*TURN + 0.5*2.0
+    gap = 3.18e-5*(1.0 - 0.2*numpy.cos(theta - centre)) + PLACE[0]*numpy.cos(theta) + PLACE[1]*numpy.sin(theta)
+    checks.below("the gap of three pads", largest_difference(film["gap"], gap), 1.0e-12)
+    checks.that("each pad has its stations", [int((pad == i).sum()) for i in (1, 2, 3)] == [25*5]*3)
+
+
+def check_sweep(checks, folder):
+    """Ranks, and the end of a sweep, find what one rank finds at once."""
+    for foil in ("beam", "shell"):
+        once = solve(folder, "once", of_pads(foil, {"count": 3}, load=(-40.0, 0.0)))
+        others = {"3 ranks": (3, {}),
+                  "a sweep": (1, {"sweep": {"parameter": "load", "values": (60.0, 50.0, 40.0)}}),
+                  "a sweep over the preload": (1, {"sweep": {"parameter": "pads%preload", "values": (0.3, 0.2)}})}
+        for words, (ranks, more) in others.items():
+            other = solve(folder, "other", of_pads(foil, {"count": 3}, load=(-40.0, 0.0), **more), ranks=ranks)
+            worst = max(abs(other[name]/once[name] - 1.0) for name in ("eccentricity_x", "eccentricity_y", "force_x_2",
+                                                                     "minimum_gap", "friction_torque"))
+            checks.below(f"{foil} under a load: {words}", worst, 1.0e-8)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        for check in (check_reference, check_order, check_preload, check_three, check_film, check_sweep):
+            check(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
