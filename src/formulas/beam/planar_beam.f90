@@ -17,7 +17,8 @@ module gfb_planar_beam
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: plane_strain_section, linear_beam_stiffness, bent_beam_stiffness, beam_resultants
+  public :: plane_strain_section, linear_beam_stiffness, bent_beam_stiffness, beam_mass, &
+            beam_resultants
 
   integer, parameter, public :: beam_unknowns = 3 !! at a node: along x, along v, turn
 
@@ -77,6 +78,31 @@ contains
                            sum((ends(:, 2) - ends(:, 1))**2)/(12.0_wp*section%bending))
     stiffness = linear_beam_stiffness(softer, ends)
   end function bent_beam_stiffness
+
+  !> Consistent mass of an element, linear or bent, in the same order, with rotary inertia:
+  !> displacements and turn are linear along it.
+  !>
+  !> $$ M = \frac{\rho t L}{6} \begin{bmatrix} 2 & 1 \\ 1 & 2 \end{bmatrix} \otimes
+  !>    diag(1, 1, t^2/12) $$
+  pure function beam_mass(density, thickness, ends) result(mass)
+    real(wp), intent(in) :: density    !! rho [kg/m3]
+    real(wp), intent(in) :: thickness  !! t [m]
+    real(wp), intent(in) :: ends(2, 2) !! (x, v) of the first and of the second end [m]
+    real(wp) :: mass(2*beam_unknowns, 2*beam_unknowns)
+    real(wp) :: third
+    integer :: i, k
+
+    mass = 0.0_wp
+    do i = 1, beam_unknowns
+      third = density*thickness*norm2(ends(:, 2) - ends(:, 1))/3.0_wp
+      if (i == beam_unknowns) third = third*thickness**2/12.0_wp
+      k = i + beam_unknowns
+      mass(i, i) = third
+      mass(k, k) = third
+      mass(i, k) = 0.5_wp*third
+      mass(k, i) = 0.5_wp*third
+    end do
+  end function beam_mass
 
   !> Tension and bending moment in the middle of an element, linear or bent, per metre of width
   !> [N/m], [N]. The moment is positive where it stretches the upper face.

@@ -16,7 +16,7 @@ module gfb_film_rates
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
-  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_friction, squeeze_column
+  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_from_foil, fill_friction, squeeze_column
 
   integer, parameter :: squeeze = 1, squeeze_by_gap = 2, flow_by_gap = 3 !! derivatives there are
 
@@ -150,6 +150,32 @@ contains
   subroutine fill_springs(bearing, matrix)
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    associate (foil => bearing%pad(1)%foil)
+      call foil%add_springs(matrix)
+      if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, matrix)
+    end associate
+    call finish(bearing, matrix)
+  end subroutine fill_springs
+
+  !> A matrix of a meshed foil, and nothing else.
+  subroutine fill_from_foil(bearing, of_foil, matrix)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    Mat, intent(in) :: of_foil !! in the foil's own numbers
+    Mat, intent(in) :: matrix  !! like the bearing's; overwritten
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    call add_of_foil(bearing, of_foil, matrix)
+    call finish(bearing, matrix)
+  end subroutine fill_from_foil
+
+  !> Adds a matrix of the foil, in its own numbers.
+  subroutine add_of_foil(bearing, of_foil, matrix)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: of_foil, matrix
     integer, parameter :: foil_block = 2 ! the film's is the first
     PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(1)%foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
@@ -158,22 +184,17 @@ contains
     integer, allocatable :: kept(:)
     integer :: i
 
-    PetscCallA(MatZeroEntries(matrix, ierr))
-    associate (foil => bearing%pad(1)%foil, blocks => bearing%blocks)
-      call foil%add_springs(matrix)
-      if (foil%is_meshed()) then
-        PetscCallA(MatGetOwnershipRange(foil%elastic, first, last, ierr))
-        do row = first, last - 1
-          call copy_row(foil%elastic, row, entries, number, value)
-          ! The bearing's matrix has no room for exact zeros.
-          kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp)
-          renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
-          PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
-        end do
-      end if
+    associate (blocks => bearing%blocks)
+      PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
+      do row = first, last - 1
+        call copy_row(of_foil, row, entries, number, value)
+        ! The bearing's matrix has no room for exact zeros.
+        kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp)
+        renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
+        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
+      end do
     end associate
-    call finish(bearing, matrix)
-  end subroutine fill_springs
+  end subroutine add_of_foil
 
   !> A stiffness of the contacts along their surface, and nothing else.
   subroutine fill_friction(bearing, stiffness, matrix)

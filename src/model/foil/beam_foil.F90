@@ -1,3 +1,4 @@
+#include "gfb_petsc.h"
 !> Top foil and bump strip as planar beams under the film.
 !>
 !> The equations are those of shells all nodes of whose stations move as one: along x, along v, and
@@ -8,18 +9,24 @@
 !> which knows of the film no more than its mean along the axis. Forces are those on the solved
 !> width. What differs from shells is the stiffness, and how the foil is built and shown.
 module gfb_beam_foil
+  use petscmat
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_kinds, only: pint
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
-  use gfb_bump_contacts, only: line_shares
+  use gfb_bump_contacts, only: line_shares, line_length
   use gfb_contact_set, only: contact_set_type, contact_point_type
   use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_planar_beam, only: beam_unknowns
+  use gfb_planar_beam, only: beam_unknowns, beam_mass
+  use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_stress, only: beam_stresses
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
-  implicit none (type, external)
+  implicit none (type)
   private
+
+  integer, parameter, public :: of_beam(beam_unknowns) = [1, 2, 4] !! of a node's: along x, along v, about the axis
 
   !> Both foils, all of them on the first rank; the surfaces are those that shells would have, the
   !> numbers of unknowns those that a station's nodes share.
@@ -28,6 +35,7 @@ module gfb_beam_foil
     integer, allocatable :: top_number(:, :)  !! (5, stations) foil's own number of an unknown, 0: fixed
     integer, allocatable :: bump_number(:, :) !! the same of the bump strip's
   contains
+    procedure :: add_mass => add_beam_mass
     procedure :: natural_numbers => beam_natural_numbers
     procedure :: surfaces => beam_surfaces
     procedure :: own_unknown => beam_own_unknown
@@ -39,6 +47,40 @@ module gfb_beam_foil
   end type beam_foil_type
 
 contains
+
+  !> Mass of both foils, on the solved width.
+  subroutine add_beam_mass(self, mass, piece, error)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    Mat, intent(in) :: mass !! like `elastic`, not assembled yet [kg] between displacements
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! none
+    type(error_type), allocatable, intent(out) :: error !! never
+
+    allocate (piece(0))
+    call add_mass_along(self%top, self%top_number, mass)
+    call add_mass_along(self%bumps, self%bump_number, mass)
+  end subroutine add_beam_mass
+
+  !> Adds the mass of a beam through a surface's stations.
+  subroutine add_mass_along(surface, number, mass)
+    type(foil_surface_type), intent(in) :: surface
+    integer, intent(in) :: number(:, :) !! (5, stations)
+    Mat, intent(in) :: mass
+    real(wp) :: block(2*beam_unknowns, 2*beam_unknowns)
+    PetscInt :: row(2*beam_unknowns)
+    PetscErrorCode :: ierr
+    integer :: station, here, next
+
+    if (size(surface%my_elements) == 0) return ! another rank's
+    associate (mesh => surface%mesh, section => surface%section)
+      do station = 1, mesh%stations - 1
+        here = (station - 1)*mesh%rows + 1
+        next = here + mesh%rows
+        block = line_length(mesh, [1, mesh%rows])*beam_mass(section%density, section%thickness, mesh%position(:2, [here, next]))
+        row = int([number(of_beam, station), number(of_beam, station + 1)] - 1, pint)
+        PetscCallA(MatSetValues(mass, int(size(row), pint), row, int(size(row), pint), row, [block], ADD_VALUES, ierr))
+      end do
+    end associate
+  end subroutine add_mass_along
 
   !> The foil's own numbers: the first rank has all of them.
   function beam_natural_numbers(self) result(number)

@@ -24,14 +24,13 @@ module gfb_beam_foil_builder
   use gfb_foil_surface, only: foil_surface_type
   use gfb_top_mesh, only: top_mesh
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
-  use gfb_beam_foil, only: beam_foil_type
+  use gfb_beam_foil, only: beam_foil_type, component => of_beam
   implicit none (type)
   private
   public :: create_beam_foil
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
   integer, parameter :: about_axis = 4                        !! the turn among a node's unknowns
-  integer, parameter :: component(beam_unknowns) = [tangential, radial, about_axis] !! that a beam has
   integer, parameter :: ends = 2
   real(wp), parameter :: rounding = 1.0e-9_wp !! of crests at the top foil's edge, over the pitch
 

@@ -9,12 +9,14 @@
 module gfb_foil_model
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_cost_events, only: cost_events_type
   use gfb_bump_contacts, only: contact_top
   use gfb_contact_law, only: state_open
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
+  use gfb_condensed_piece, only: condensed_piece_type
   implicit none (type)
   private
 
@@ -43,6 +45,7 @@ module gfb_foil_model
     procedure(add_load_rates), deferred :: add_load_rates
     procedure(estimate), deferred :: estimate
     procedure(is_meshed), deferred :: is_meshed
+    procedure(add_mass), deferred :: add_mass
     procedure(natural_numbers), deferred :: natural_numbers
     procedure(surfaces), deferred :: surfaces
     procedure(own_unknown), deferred :: own_unknown
@@ -117,6 +120,18 @@ module gfb_foil_model
       class(foil_model_type), intent(in) :: self !! the foil
       logical :: meshed
     end function is_meshed
+
+    !> Adds the consistent mass of all that is not condensed, in the foil's own numbers, and lists the
+    !> condensed pieces of this rank. The scene gives densities.
+    !>
+    !> Fails where an element is degenerate.
+    subroutine add_mass(self, mass, piece, error)
+      import :: foil_model_type, condensed_piece_type, error_type, tMat
+      class(foil_model_type), intent(in) :: self !! the foil
+      Mat, intent(in) :: mass !! like `elastic`, not assembled yet [kg] between displacements
+      type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! one a kind
+      type(error_type), allocatable, intent(out) :: error !! why it failed
+    end subroutine add_mass
 
     !> Natural numbers, from 1, of the foil's unknowns this rank owns, in the order of the vectors:
     !> they do not depend on how many ranks there are. All ranks ask.

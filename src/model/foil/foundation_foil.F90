@@ -13,9 +13,11 @@ module gfb_foundation_foil
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, foundation_pressure_axial_mean
   use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
+  use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_model, only: foil_model_type
   use gfb_film_mesh, only: film_mesh_type, row_weights
   use gfb_mesh_dm, only: local_mesh_type
@@ -39,6 +41,7 @@ module gfb_foundation_foil
     procedure :: estimate => foundation_estimate
     procedure :: add_constant => foundation_constant
     procedure :: is_meshed => foundation_is_meshed
+    procedure :: add_mass => foundation_mass
     procedure :: natural_numbers => foundation_natural_numbers
     procedure :: surfaces => foundation_surfaces
     procedure :: own_unknown => foundation_own_unknown
@@ -246,6 +249,15 @@ contains
     logical :: meshed
     meshed = .false.
   end function foundation_is_meshed
+
+  !> Springs without mass.
+  subroutine foundation_mass(self, mass, piece, error)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    Mat, intent(in) :: mass !! of the foil [kg]
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! none
+    type(error_type), allocatable, intent(out) :: error !! never
+    allocate (piece(0))
+  end subroutine foundation_mass
 
   !> The numbers of the stations whose equations this rank begins; none under local pressure.
   function foundation_natural_numbers(self) result(number)

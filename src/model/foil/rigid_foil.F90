@@ -3,9 +3,11 @@
 module gfb_rigid_foil
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
+  use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_model, only: foil_model_type
   implicit none (type)
   private
@@ -20,6 +22,7 @@ module gfb_rigid_foil
     procedure :: add_load_rates => rigid_load_rates
     procedure :: add_constant => rigid_constant
     procedure :: is_meshed => rigid_is_meshed
+    procedure :: add_mass => rigid_mass
     procedure :: natural_numbers => rigid_natural_numbers
     procedure :: surfaces => rigid_surfaces
     procedure :: own_unknown => rigid_own_unknown
@@ -82,6 +85,15 @@ contains
     logical :: meshed
     meshed = .false.
   end function rigid_is_meshed
+
+  !> Nothing weighs: the surface does not move.
+  subroutine rigid_mass(self, mass, piece, error)
+    class(rigid_foil_type), intent(in) :: self !! the rigid foil
+    Mat, intent(in) :: mass !! of the foil [kg]
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! none
+    type(error_type), allocatable, intent(out) :: error !! never
+    allocate (piece(0))
+  end subroutine rigid_mass
 
   !> No unknowns, no numbers.
   function rigid_natural_numbers(self) result(number)

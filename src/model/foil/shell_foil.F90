@@ -3,15 +3,21 @@
 module gfb_shell_foil
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_number
-  use gfb_shell_geometry, only: node_unknowns
+  use gfb_shell_geometry, only: node_unknowns, shell_unknowns
+  use gfb_shell_mass, only: shell_mass
   use gfb_substructures, only: kind_count
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_pieces, only: element_geometry, assemble_piece, retained_in_piece
+  use gfb_foil_assembly, only: element_unknowns, retained_unknowns
+  use gfb_foil_ranges, only: foil_ranges_type, ranges_of
+  use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_stress, only: shell_stresses
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   implicit none (type)
@@ -21,6 +27,7 @@ module gfb_shell_foil
   type, extends(meshed_foil_type), public :: shell_foil_type
     type(foil_structure_type) :: top, bumps
   contains
+    procedure :: add_mass => add_shell_mass
     procedure :: natural_numbers => shell_natural_numbers
     procedure :: surfaces => shell_surfaces
     procedure :: own_unknown => shell_own_unknown
@@ -32,6 +39,91 @@ module gfb_shell_foil
   end type shell_foil_type
 
 contains
+
+  !> Mass of both foils, or of the top foil and, piece by piece, what the condensed bumps are.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine add_shell_mass(self, mass, piece, error)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    Mat, intent(in) :: mass !! like `elastic`, not assembled yet [kg] between displacements
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! one a kind
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(foil_ranges_type) :: ranges
+    real(wp) :: block(shell_unknowns, shell_unknowns)
+    integer :: i
+
+    ranges = ranges_of(self%top, self%bumps)
+    allocate (piece(0))
+    associate (top => self%top)
+      do i = 1, size(top%my_elements)
+        call shell_mass(element_geometry(top%mesh, top%my_elements(i)), top%section, block, error)
+        if (allocated(error)) return
+        call add_block(mass, ranges%of_top(element_unknowns(top, top%my_elements(i))), block)
+      end do
+    end associate
+    if (self%bumps%reduced) then
+      call list_pieces(self%bumps, ranges, piece, error)
+      return
+    end if
+    associate (bumps => self%bumps)
+      do i = 1, size(bumps%my_elements)
+        call shell_mass(element_geometry(bumps%mesh, bumps%my_elements(i)), bumps%section, block, error)
+        if (allocated(error)) return
+        call add_block(mass, ranges%of_bumps(element_unknowns(bumps, bumps%my_elements(i))), block)
+      end do
+    end associate
+  end subroutine add_shell_mass
+
+  !> Adds an element's mass; flat elements have nothing but round-off where a plate couples nothing.
+  subroutine add_block(mass, number, block)
+    Mat, intent(in) :: mass
+    integer, intent(in) :: number(:) !! foil's, from 1; 0: fixed
+    real(wp), intent(in) :: block(:, :)
+    real(wp), parameter :: rounding = 1.0e-12_wp
+    real(wp) :: kept(size(number), size(number))
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    do k = 1, size(number)
+      do i = 1, size(number)
+        kept(i, k) = merge(0.0_wp, block(i, k), abs(block(i, k)) <= rounding*sqrt(block(i, i)*block(k, k)))
+      end do
+    end do
+    PetscCallA(MatSetValues(mass, int(size(number), pint), int(number - 1, pint), int(size(number), pint), int(number - 1, pint), [kept], ADD_VALUES, ierr))
+  end subroutine add_block
+
+  !> The kinds of condensed pieces that this rank has.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine list_pieces(bumps, ranges, piece, error)
+    type(foil_structure_type), intent(in) :: bumps
+    type(foil_ranges_type), intent(in) :: ranges
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:)
+    type(error_type), allocatable, intent(out) :: error
+    type(condensed_piece_type) :: one
+    integer, allocatable :: mine(:)
+    integer :: kind, i
+
+    allocate (piece(0))
+    do kind = 1, kind_count(bumps%substructure)
+      mine = pack(bumps%mine, bumps%substructure(bumps%mine)%kind == kind)
+      if (size(mine) == 0) cycle
+      associate (first => bumps%substructure(mine(1)))
+        associate (free => bumps%free(:, first%nodes))
+          call assemble_piece(bumps%mesh, bumps%section, free, first, .false., one%stiffness, error)
+          if (.not. allocated(error)) call assemble_piece(bumps%mesh, bumps%section, free, first, .true., one%mass, error)
+          if (allocated(error)) return
+          one%is_retained = retained_in_piece(free, first)
+        end associate
+      end associate
+      if (allocated(one%number)) deallocate (one%number)
+      allocate (one%number(count(one%is_retained), size(mine)))
+      do i = 1, size(mine)
+        one%number(:, i) = ranges%of_bumps(retained_unknowns(bumps, bumps%substructure(mine(i))))
+      end do
+      piece = [piece, one]
+    end do
+  end subroutine list_pieces
 
   !> The top foil's numbers, then those of the bumps.
   function shell_natural_numbers(self) result(number)

@@ -20,7 +20,7 @@ module gfb_foil_assembly
   use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
   private
-  public :: create_foil_structure, assemble_mass
+  public :: create_foil_structure, assemble_mass, element_unknowns, retained_unknowns
 
 contains
 
@@ -214,7 +214,7 @@ contains
 
   !> Global numbers of an element's unknowns.
   pure function element_unknowns(structure, element) result(number)
-    type(foil_structure_type), intent(in) :: structure
+    type(foil_structure_type), intent(in) :: structure !! the foil
     integer, intent(in) :: element !! of the whole mesh
     integer :: number(shell_unknowns)
     integer :: corner, component
@@ -230,8 +230,8 @@ contains
   !> Global numbers of a substructure's retained unknowns, in the super-element's order; -1 at
   !> supports.
   pure function retained_unknowns(structure, substructure) result(number)
-    type(foil_structure_type), intent(in) :: structure
-    type(substructure_type), intent(in) :: substructure
+    type(foil_structure_type), intent(in) :: structure !! the foil
+    type(substructure_type), intent(in) :: substructure !! of the foil, on this rank
     integer, allocatable :: number(:)
     integer :: i, component, found
 

@@ -20,7 +20,7 @@ module gfb_craig_bampton
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   implicit none (type)
   private
-  public :: craig_bampton
+  public :: craig_bampton, reduce_matrices
 
   !> One kind of super-element with its modes. Unknowns: the retained ones, then the modes. Ranks that
   !> have no super-element of the kind know its sizes only.
@@ -94,19 +94,30 @@ contains
     integer, intent(in) :: modes_kept
     type(craig_bampton_type), intent(out) :: reduced
     type(error_type), allocatable, intent(out) :: error
-
-    type(super_element_type) :: super
-    type(modes_type) :: modes
-    real(wp), allocatable :: basis(:, :)
     Mat :: stiffness, mass
     PetscErrorCode :: ierr
-    integer :: i, kept
 
     call assemble_piece(foil%mesh, foil%section, foil%free(:, piece%nodes), piece, .false., stiffness, error)
     if (allocated(error)) return
     call assemble_piece(foil%mesh, foil%section, foil%free(:, piece%nodes), piece, .true., mass, error)
     if (allocated(error)) return
-    call condense(stiffness, retained_in_piece(foil%free(:, piece%nodes), piece), 'super_', super)
+    call reduce_matrices(stiffness, mass, retained_in_piece(foil%free(:, piece%nodes), piece), modes_kept, reduced)
+    PetscCallA(MatDestroy(stiffness, ierr))
+    PetscCallA(MatDestroy(mass, ierr))
+  end subroutine reduce_piece
+
+  !> The same from the matrices of all its unknowns, on this rank alone.
+  subroutine reduce_matrices(stiffness, mass, is_retained, modes_kept, reduced)
+    Mat, intent(in) :: stiffness, mass    !! of the substructure
+    logical, intent(in) :: is_retained(:) !! one an unknown
+    integer, intent(in) :: modes_kept     !! fixed-interface modes, at most
+    type(craig_bampton_type), intent(out) :: reduced !! its matrices
+    type(super_element_type) :: super
+    type(modes_type) :: modes
+    real(wp), allocatable :: basis(:, :)
+    integer :: i, kept
+
+    call condense(stiffness, is_retained, 'super_', super)
     call interior_modes(super, mass, modes_kept, modes)
     kept = size(super%retained)
     allocate (basis(kept + size(super%interior), kept + size(modes%eigenvalue)), source=0.0_wp)
@@ -129,9 +140,7 @@ contains
     end do
     call destroy_modes(modes)
     call destroy_super_element(super)
-    PetscCallA(MatDestroy(stiffness, ierr))
-    PetscCallA(MatDestroy(mass, ierr))
-  end subroutine reduce_piece
+  end subroutine reduce_matrices
 
   !> Modes of the interior with all retained unknowns fixed.
   subroutine interior_modes(super, mass, wanted, modes)
