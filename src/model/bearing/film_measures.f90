@@ -8,7 +8,7 @@ module gfb_film_measures
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
   private
-  public :: force_without_suction, film_drag, film_integral, film_peclet, film_midplane_gap
+  public :: force_without_suction, film_drag, film_integral, square_integrals, film_peclet, film_midplane_gap
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -76,6 +76,21 @@ contains
       end associate
     end do
   end function film_integral
+
+  !> This rank's shares of the integral of a nodal field's square over the solved surface, and of its area [m2].
+  pure function square_integrals(film, value) result(integrals)
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    real(wp), intent(in) :: value(:) !! at the nodes, in any unit [SI]
+    real(wp) :: integrals(2)
+    integer :: element
+
+    integrals = 0.0_wp
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element), area => film%geometry(element)%area)
+        integrals = integrals + [dot_product(matmul(value(nodes), film%shape)**2, area), sum(area)]
+      end associate
+    end do
+  end function square_integrals
 
   !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
   pure function film_peclet(film, point, pressure, gap, change) result(peclet)

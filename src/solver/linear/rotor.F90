@@ -16,7 +16,7 @@ module gfb_rotor
   use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, determinant, whirl_sense
+  public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, determinant, inverse, whirl_sense
 
   integer, parameter, public :: cylindrical = 1, conical = 2 !! kinds of motion
   integer, parameter, public :: planar = 2 !! coordinates of each
@@ -108,6 +108,15 @@ contains
       matrix(i, i) = matrix(i, i) + rate**2*inertia_of(rotor, kind)
     end do
   end function dynamic_matrix
+
+  !> Inverse of a 2 x 2 matrix.
+  pure function inverse(matrix)
+    real(wp), intent(in) :: matrix(planar, planar) !! in any unit [SI]
+    real(wp) :: inverse(planar, planar)
+
+    inverse = reshape([matrix(2, 2), -matrix(2, 1), -matrix(1, 2), matrix(1, 1)], [planar, planar])
+    inverse = inverse/(matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
+  end function inverse
 
   !> Determinant of a 2 x 2 matrix.
   pure function determinant(matrix)

@@ -21,10 +21,12 @@ module gfb_rotor_pencil
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks, this_rank
   use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_film_measures, only: square_integrals
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
   use gfb_complex_factors, only: solve_complex, keep_entries
+  use gfb_rotor_entries, only: rotor_scale_type, take_rotor, put_rotor
   use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, cylindrical
   implicit none (type)
   private
@@ -58,8 +60,7 @@ module gfb_rotor_pencil
     type(share_type), allocatable :: share(:)
     real(wp) :: motion(shaft_coordinates, planar) = 0.0_wp !! T
     real(wp) :: shift = 0.0_wp                !! sigma [1/s]
-    real(wp) :: length = 1.0_wp               !! size of the rotor's coordinates [m], [rad]
-    real(wp) :: clock = 1.0_wp                !! size of rates [1/s]
+    type(rotor_scale_type) :: scale
     real(wp) :: inertia = 0.0_wp              !! [kg], [kg m2]
     real(wp) :: gyration(planar, planar) = 0.0_wp
     real(wp) :: flexibility(planar, planar) = 0.0_wp !! inverse of D at the shift
@@ -93,9 +94,9 @@ contains
                            only_translations=kind == cylindrical)
     if (.not. found) return
     pencil%shift = shift
-    pencil%clock = shift
-    pencil%length = bearing%pad(1)%film%clearance
-    if (kind /= cylindrical) pencil%length = 2.0_wp*pencil%length/rotor%bearing_distance
+    pencil%scale%clock = shift
+    pencil%scale%length = bearing%pad(1)%film%clearance
+    if (kind /= cylindrical) pencil%scale%length = 2.0_wp*pencil%scale%length/rotor%bearing_distance
     pencil%motion = motion_of(rotor, kind)
     pencil%inertia = inertia_of(rotor, kind)
     pencil%gyration = gyration_of(rotor, kind, bearing%point%speed)
@@ -113,15 +114,6 @@ contains
     call solve_pencil(pencil, modes)
     call destroy_pencil(pencil)
   end subroutine find_pencil_modes
-
-  !> Inverse of a 2 x 2 matrix.
-  pure function inverse(matrix)
-    real(wp), intent(in) :: matrix(planar, planar)
-    real(wp) :: inverse(planar, planar)
-
-    inverse = reshape([matrix(2, 2), -matrix(2, 1), -matrix(1, 2), matrix(1, 1)], [planar, planar])
-    inverse = inverse/(matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
-  end function inverse
 
   !> E, and the film's answers to motions of the rotor at the shift.
   subroutine create_share(pencil, bearing, response, number, share)
@@ -204,7 +196,7 @@ contains
     PetscCallA(EPSSetFromOptions(solver, ierr))
     ! A start of the rotor alone, so that a run does not depend on random numbers.
     PetscCallA(VecSet(left, 0.0_wp, ierr))
-    call put_rotor(pencil, pencil%length*[1.0_wp, 0.5_wp], pencil%length*pencil%clock*[0.25_wp, 0.5_wp], left)
+    call put_rotor(pencil%scale, pencil%scale%length*[1.0_wp, 0.5_wp], pencil%scale%length*pencil%scale%clock*[0.25_wp, 0.5_wp], left)
     PetscCallA(EPSSetInitialSpace(solver, 1_pint, [left], ierr))
     PetscCallA(EPSSolve(solver, ierr))
     PetscCallA(EPSGetConverged(solver, found, ierr))
@@ -235,7 +227,7 @@ contains
 
     call MatShellGetContext(operator, address, ierr)
     call c_f_pointer(address, pencil)
-    call take_rotor(pencil, x, q, v)
+    call take_rotor(pencil%scale, x, q, v)
     force = pencil%inertia*v + matmul(pencil%gyration, q) + pencil%inertia*pencil%shift*q
     do i = 1, size(pencil%share)
       associate (share => pencil%share(i), response => pencil%share(i)%response)
@@ -263,43 +255,9 @@ contains
         call put_film(share, one, y)
       end associate
     end do
-    call put_rotor(pencil, new_q, pencil%shift*new_q - q, y)
+    call put_rotor(pencil%scale, new_q, pencil%shift*new_q - q, y)
     ierr = 0
   end subroutine apply_pencil
-
-  !> The rotor's coordinates and their rates out of a vector.
-  subroutine take_rotor(pencil, x, q, v)
-    type(pencil_type), intent(in) :: pencil
-    Vec, intent(in) :: x
-    real(wp), intent(out) :: q(planar), v(planar)
-    real(wp) :: both(2*planar)
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    both = 0.0_wp
-    if (this_rank() == 0) then
-      PetscCallA(GFB_VecGetArrayRead(x, values, ierr))
-      both = values(size(values) - 2*planar + 1:)
-      PetscCallA(GFB_VecRestoreArrayRead(x, values, ierr))
-    end if
-    both = sum_over_ranks(both)*pencil%length
-    q = both(:planar)
-    v = both(planar + 1:)*pencil%clock
-  end subroutine take_rotor
-
-  !> The reverse.
-  subroutine put_rotor(pencil, q, v, x)
-    type(pencil_type), intent(in) :: pencil
-    real(wp), intent(in) :: q(planar), v(planar)
-    Vec, intent(in) :: x
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    if (this_rank() /= 0) return
-    PetscCallA(GFB_VecGetArray(x, values, ierr))
-    values(size(values) - 2*planar + 1:) = [q, v/pencil%clock]/pencil%length
-    PetscCallA(GFB_VecRestoreArray(x, values, ierr))
-  end subroutine put_rotor
 
   !> A part's film and foil out of a vector.
   subroutine take_film(share, x, film)
@@ -338,10 +296,10 @@ contains
     real(wp) :: re(planar), im(planar), v(planar), of_rotor, of_film
     integer :: i
 
-    call take_rotor(pencil, real_part, re, v)
-    call take_rotor(pencil, imaginary_part, im, v)
+    call take_rotor(pencil%scale, real_part, re, v)
+    call take_rotor(pencil%scale, imaginary_part, im, v)
     if (aimag(mode%rate) <= 0.0_wp) im = 0.0_wp ! then not written
-    mode%motion = cmplx(re, im, wp)/pencil%length
+    mode%motion = cmplx(re, im, wp)/pencil%scale%length
     of_rotor = sum(abs(mode%motion)**2)
     of_film = 0.0_wp
     do i = 1, size(pencil%share)
@@ -355,20 +313,12 @@ contains
   function mean_square(share, x) result(mean)
     type(share_type), intent(in) :: share
     Vec, intent(in) :: x
-    real(wp) :: mean, sums(2)
-    real(wp) :: value(share%bearing%local_size())
-    integer :: element
+    real(wp) :: mean, sums(2), value(share%bearing%local_size())
 
     call take_film(share, x, share%response%one)
     call share%bearing%get_unknowns(value, share%response%one)
-    sums = 0.0_wp
     associate (film => share%bearing%pad(1)%film)
-      do element = 1, size(film%element_nodes, 2)
-        associate (nodes => film%element_nodes(:, element), area => film%geometry(element)%area)
-          sums = sums + [dot_product(matmul(value(nodes), film%shape)**2, area), sum(area)]
-        end associate
-      end do
-      sums = sum_over_ranks(sums)
+      sums = sum_over_ranks(square_integrals(film, value))
       mean = sums(1)/sums(2)/film%ambient_pressure**2
     end associate
   end function mean_square
