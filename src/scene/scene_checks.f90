@@ -5,6 +5,7 @@ module gfb_scene_checks
   use gfb_case_keys, only: case_keys_type
   use gfb_dynamics_case, only: check_dynamics
   use gfb_pads_rules, only: check_pads
+  use gfb_foil_mass_case, only: check_foil_mass
   use gfb_plausible_values, only: check_plausible
   use gfb_rotor_case, only: check_rotor
   use gfb_scene, only: scene_type
@@ -38,6 +39,7 @@ contains
                         scene%accuracy%present)
     call check_pads(keys, scene%bearing, scene%operation, scene%dynamics, scene%model, &
                     scene%solver, scene%sweep)
+    call check_foil_mass(keys, scene%dynamics, scene%model, scene%top_foil, scene%bump_foil)
     call check_rotor(keys, scene%rotor, scene%operation, scene%sweep)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
                      scene%model)

@@ -1,6 +1,7 @@
 !> Which keys of a case file a sweep may change, and with what.
 module gfb_swept_key_rules
   use gfb_case_keys, only: case_keys_type
+  use gfb_dynamics_case, only: mass_off
   use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
@@ -115,7 +116,8 @@ contains
     case default
       problem = 'it does not belong to the bearing, but to how it is computed'
     end select
-    if (key == 'density') problem = 'nothing vibrates'
+    if (key == 'density' .and. scene%dynamics%foil_mass == mass_off) problem = "foil_mass = 'off'"
+    if (key == 'density' .and. .not. scene%dynamics%present) problem = 'nothing vibrates'
     if (problem /= '') problem = group//'%'//key//' has no effect here: '//problem
 
   contains

@@ -74,22 +74,14 @@ contains
     end associate
   end subroutine add_shell_mass
 
-  !> Adds an element's mass; flat elements have nothing but round-off where a plate couples nothing.
+  !> Adds an element's mass.
   subroutine add_block(mass, number, block)
     Mat, intent(in) :: mass
     integer, intent(in) :: number(:) !! foil's, from 1; 0: fixed
     real(wp), intent(in) :: block(:, :)
-    real(wp), parameter :: rounding = 1.0e-12_wp
-    real(wp) :: kept(size(number), size(number))
     PetscErrorCode :: ierr
-    integer :: i, k
 
-    do k = 1, size(number)
-      do i = 1, size(number)
-        kept(i, k) = merge(0.0_wp, block(i, k), abs(block(i, k)) <= rounding*sqrt(block(i, i)*block(k, k)))
-      end do
-    end do
-    PetscCallA(MatSetValues(mass, int(size(number), pint), int(number - 1, pint), int(size(number), pint), int(number - 1, pint), [kept], ADD_VALUES, ierr))
+    PetscCallA(MatSetValues(mass, int(size(number), pint), int(number - 1, pint), int(size(number), pint), int(number - 1, pint), [block], ADD_VALUES, ierr))
   end subroutine add_block
 
   !> The kinds of condensed pieces that this rank has.

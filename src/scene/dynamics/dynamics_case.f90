@@ -18,7 +18,10 @@ module gfb_dynamics_case
   integer, parameter, public :: tangent_stick = 1 !! contacts that rub stick under vibration
   integer, parameter, public :: tangent_slip = 2  !! they slide on as they did
   character(len=*), parameter :: tangent_words(*) = [character(len=5) :: 'stick', 'slip']
-
+  integer, parameter, public :: mass_auto = 1 !! the foil has its mass where it counts
+  integer, parameter, public :: mass_on = 2   !! it has it
+  integer, parameter, public :: mass_off = 3  !! it has none
+  character(len=*), parameter :: mass_words(*) = [character(len=4) :: 'auto', 'on', 'off']
 
   !> What is asked for.
   type :: dynamics_case_type
@@ -28,6 +31,8 @@ module gfb_dynamics_case
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
+    integer :: foil_mass = mass_auto
+    integer :: foil_modes = 2                 !! kept inside each condensed bump
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
   end type dynamics_case_type
 
@@ -72,6 +77,12 @@ contains
     call keys%real_key('foundation_damping', dynamics%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
+    call keys%choice_key('foil_mass', dynamics%foil_mass, mass_words, &
+                         'whether top foil and bumps have their mass: where the frequencies '// &
+                         'ask for it, always, never')
+    call keys%integer_key('foil_modes', dynamics%foil_modes, &
+                          'fixed-interface modes kept inside each condensed piece of the bumps '// &
+                          'that has its mass', not_negative)
     call keys%real_list_key('vibration_amplitudes', dynamics%amplitudes, longest_list, 'm', &
                             'amplitudes of the shaft along x and along y at which stiffness '// &
                             'and damping are asked for too, contacts sliding to and fro', &

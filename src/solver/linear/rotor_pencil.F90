@@ -7,12 +7,12 @@
 !> $$ (J + \lambda E) u + (r_q + \lambda c_q) T q = 0, \quad v = \lambda q, \quad
 !>    \lambda M v + \Omega G v + f(u, q) = 0, $$
 !>
-!> that is \( (A + \lambda B) x = 0 \) with a singular B. The eigenvalues next to a real shift
-!> \( \sigma \) are those of \( (A + \sigma B)^{-1} B \) with the largest modulus,
-!> \( 1/(\sigma - \lambda) \). Its product with a vector takes the factors of \( J + \sigma E \), which the
-!> coefficients \( Z(\sigma) \) have made, and the 2 x 2 matrix \( D(\sigma) \) of the rotor: film and foil are
-!> eliminated. On half the width a conical motion has an even and an odd share, each with a u of its own; that
-!> of shells is of another bearing.
+!> that is \( (A + \lambda B) x = 0 \) with a singular B. The eigenvalues next to a real shift \( \sigma \)
+!> are those of \( (A + \sigma B)^{-1} B \) with the largest modulus, \( 1/(\sigma - \lambda) \). Its product
+!> with a vector takes the factors of \( J + \sigma E \), which the coefficients \( Z(\sigma) \) have made, and
+!> the 2 x 2 matrix \( D(\sigma) \) of the rotor: film and foil are eliminated. On half the width a conical
+!> motion has an even and an odd share, each with a u of its own; that of shells is of another bearing. A foil of
+!> mass m has rates \( w = \lambda u \) and \( \lambda m w \) in the first equation, without modes inside pieces.
 module gfb_rotor_pencil
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use slepceps
@@ -27,7 +27,7 @@ module gfb_rotor_pencil
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
   use gfb_complex_factors, only: solve_complex, keep_entries
   use gfb_rotor_entries, only: rotor_scale_type, take_rotor, put_rotor
-  use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, cylindrical
+  use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, inverse, cylindrical
   implicit none (type)
   private
   public :: find_pencil_modes, has_pencil
@@ -50,7 +50,9 @@ module gfb_rotor_pencil
     type(bearing_system_type), pointer :: bearing => null()
     type(dynamic_response_type), pointer :: response => null()
     integer :: part = 1                 !! of the response
-    integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; its own
+    integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; those of u
+    logical :: has_mass = .false.       !! rates of u over the shift stand behind it
+    type(tVec) :: work
     type(tVec) :: column(planar)        !! u that it takes to hold the rotor's coordinates still
     type(tMat) :: rate                  !! E
   end type share_type
@@ -90,8 +92,10 @@ contains
     complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
 
     allocate (modes(0))
+    call skip_inner_modes(response, .true.)
     call find_coefficients(bearing, response, cmplx(shift, 0.0_wp, wp), coefficient, found, &
                            only_translations=kind == cylindrical)
+    call skip_inner_modes(response, .false.)
     if (.not. found) return
     pencil%shift = shift
     pencil%scale%clock = shift
@@ -104,7 +108,7 @@ contains
     allocate (pencil%share(merge(2, 1, kind /= cylindrical .and. (size(response%part) == 2 .or. allocated(response%opposite)))))
     call create_share(pencil, bearing, response, 1, pencil%share(1))
     if (size(pencil%share) == 2) then
-      pencil%share(2)%first = pencil%share(1)%entries
+      pencil%share(2)%first = entries_of(pencil%share(1))
       if (allocated(response%opposite)) then
         call create_share(pencil, response%opposite_bearing, response%opposite, 1, pencil%share(2))
       else
@@ -114,6 +118,22 @@ contains
     call solve_pencil(pencil, modes)
     call destroy_pencil(pencil)
   end subroutine find_pencil_modes
+
+  !> Leaves modes inside condensed pieces of the foils out of the matrix that is combined next, or not.
+  subroutine skip_inner_modes(response, skips)
+    type(dynamic_response_type), intent(inout) :: response
+    logical, intent(in) :: skips
+
+    response%equations%inertia%skips_modes = skips
+    if (allocated(response%opposite)) response%opposite%equations%inertia%skips_modes = skips
+  end subroutine skip_inner_modes
+
+  !> Entries of a vector on this rank that belong to a share.
+  elemental function entries_of(share) result(entries)
+    type(share_type), intent(in) :: share
+    integer :: entries
+    entries = share%entries*merge(2, 1, share%has_mass)
+  end function entries_of
 
   !> E, and the film's answers to motions of the rotor at the shift.
   subroutine create_share(pencil, bearing, response, number, share)
@@ -131,6 +151,8 @@ contains
     share%part = number
     PetscCallA(VecGetLocalSize(bearing%state, entries, ierr))
     share%entries = int(entries)
+    share%has_mass = response%equations%inertia%present
+    PetscCallA(VecDuplicate(bearing%state, share%work, ierr))
     PetscCallA(MatDuplicate(response%equations%squeeze, MAT_COPY_VALUES, share%rate, ierr))
     if (dissipates(response%equations)) then
       PetscCallA(MatAXPY(share%rate, response%equations%vibration%damping_time, response%equations%springs, SAME_NONZERO_PATTERN, ierr))
@@ -180,7 +202,7 @@ contains
     PetscErrorCode :: ierr
     type(pencil_mode_type) :: one
 
-    mine = int(sum(pencil%share%entries) + merge(2*planar, 0, this_rank() == 0), pint)
+    mine = int(sum(entries_of(pencil%share)) + merge(2*planar, 0, this_rank() == 0), pint)
     PetscCallA(MatCreateShell(PETSC_COMM_WORLD, mine, mine, PETSC_DETERMINE, PETSC_DETERMINE, pencil, operator, ierr))
     PetscCallA(MatShellSetOperation(operator, MATOP_MULT, apply_pencil, ierr))
     PetscCallA(MatCreateVecs(operator, real_part, left, ierr))
@@ -234,6 +256,7 @@ contains
         associate (part => response%part(share%part))
           call take_film(share, x, response%one)
           PetscCallA(MatMult(share%rate, response%one, response%other, ierr))
+          if (share%has_mass) call add_momentum(share, pencil%shift, x, response%one, response%other)
           do k = 1, size(part%coordinate)
             PetscCallA(VecAXPY(response%other, dot_product(pencil%motion(part%coordinate(k), :), q), response%squeeze_column(part%coordinate(k)), ierr))
           end do
@@ -253,36 +276,70 @@ contains
           PetscCallA(VecAXPY(one, -new_q(k), share%column(k), ierr))
         end do
         call put_film(share, one, y)
+        if (share%has_mass) call put_rates(share, pencil%shift, x, one, y)
       end associate
     end do
     call put_rotor(pencil%scale, new_q, pencil%shift*new_q - q, y)
     ierr = 0
   end subroutine apply_pencil
 
-  !> A part's film and foil out of a vector.
-  subroutine take_film(share, x, film)
+  !> Adds m (w + sigma u).
+  subroutine add_momentum(share, shift, x, film, sum)
     type(share_type), intent(in) :: share
-    Vec, intent(in) :: x, film
-    PetscScalar, pointer :: values(:), own(:)
+    real(wp), intent(in) :: shift
+    Vec, intent(in) :: x, film, sum !! a vector, its u, and what is added to
     PetscErrorCode :: ierr
 
+    call take_film(share, x, share%work, share%entries)
+    PetscCallA(VecAXPY(share%work, 1.0_wp, film, ierr))
+    PetscCallA(VecScale(share%work, shift, ierr))
+    PetscCallA(MatMultAdd(share%response%equations%inertia%mass, share%work, sum, sum, ierr))
+  end subroutine add_momentum
+
+  !> The rates of a product: sigma times its u less the u that it is of.
+  subroutine put_rates(share, shift, x, film, y)
+    type(share_type), intent(in) :: share
+    real(wp), intent(in) :: shift
+    Vec, intent(in) :: x, film, y !! a vector, the product's u, and the product
+    PetscErrorCode :: ierr
+
+    call take_film(share, x, share%work)
+    PetscCallA(VecAYPX(share%work, -1.0_wp/shift, film, ierr))
+    call put_film(share, share%work, y, share%entries)
+  end subroutine put_rates
+
+  !> A part's film and foil out of a vector.
+  subroutine take_film(share, x, film, behind)
+    type(share_type), intent(in) :: share
+    Vec, intent(in) :: x, film
+    integer, intent(in), optional :: behind !! entries of u: its rates
+    PetscScalar, pointer :: values(:), own(:)
+    PetscErrorCode :: ierr
+    integer :: first
+
+    first = share%first
+    if (present(behind)) first = first + behind
     PetscCallA(GFB_VecGetArrayRead(x, values, ierr))
     PetscCallA(GFB_VecGetArray(film, own, ierr))
-    own = values(share%first + 1:share%first + share%entries)
+    own = values(first + 1:first + share%entries)
     PetscCallA(GFB_VecRestoreArray(film, own, ierr))
     PetscCallA(GFB_VecRestoreArrayRead(x, values, ierr))
   end subroutine take_film
 
   !> The reverse.
-  subroutine put_film(share, film, x)
+  subroutine put_film(share, film, x, behind)
     type(share_type), intent(in) :: share
     Vec, intent(in) :: film, x
+    integer, intent(in), optional :: behind !! entries of u: its rates
     PetscScalar, pointer :: values(:), own(:)
     PetscErrorCode :: ierr
+    integer :: first
 
+    first = share%first
+    if (present(behind)) first = first + behind
     PetscCallA(GFB_VecGetArray(x, values, ierr))
     PetscCallA(GFB_VecGetArrayRead(film, own, ierr))
-    values(share%first + 1:share%first + share%entries) = own
+    values(first + 1:first + share%entries) = own
     PetscCallA(GFB_VecRestoreArrayRead(film, own, ierr))
     PetscCallA(GFB_VecRestoreArray(x, values, ierr))
   end subroutine put_film
@@ -331,6 +388,7 @@ contains
 
     do i = 1, size(pencil%share)
       PetscCallA(MatDestroy(pencil%share(i)%rate, ierr))
+      PetscCallA(VecDestroy(pencil%share(i)%work, ierr))
       do k = 1, planar
         PetscCallA(VecDestroy(pencil%share(i)%column(k), ierr))
       end do

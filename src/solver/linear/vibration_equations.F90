@@ -5,12 +5,14 @@
 !>
 !> $$ f_x + \lambda c_x + D(\lambda), $$
 !>
-!> with f the steady equations, c the gas that the film's elements hold, and D what dissipates in the foil:
-!> its springs are \( k (1 + i \eta \, sgn \, \omega) + \lambda c \). This is the only place where a foil's
-!> stiffness depends on the frequency; `gfb_dynamic_response` fills the matrices.
+!> with f the steady equations, c the gas that the film's elements hold, and D what dissipates in the foil
+!> and what it weighs: its springs are \( k (1 + i \eta \, sgn \, \omega) + \lambda c \), its mass is that of
+!> `gfb_foil_inertia`. This is the only place where a foil's stiffness depends on the frequency;
+!> `gfb_dynamic_response` fills the matrices, `gfb_foil_weighing` the mass.
 module gfb_vibration_equations
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_foil_inertia, only: foil_inertia_type, add_inertia, destroy_inertia
   implicit none (type)
   private
   public :: combine, dissipates, destroy_equations
@@ -28,6 +30,7 @@ module gfb_vibration_equations
     logical :: local_springs = .false. !! a node's pressure moves the foil there
     type(tMat) :: steady, squeeze !! f_x and c_x
     type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
+    type(foil_inertia_type) :: inertia !! of the foil, nothing by default
     type(tMat) :: real_part, imaginary_part !! of the matrix that was combined last
   end type vibration_equations_type
 
@@ -50,10 +53,11 @@ contains
     PetscCallA(MatCopy(equations%steady, equations%real_part, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
     call add_multiple(rate, equations%squeeze)
-    if (.not. dissipates(equations)) return
     associate (vibration => equations%vibration)
       loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
     end associate
+    call add_inertia(equations%inertia, rate, loss, equations%real_part, equations%imaginary_part)
+    if (.not. dissipates(equations)) return
     if (equations%local_springs) then
       softening = 1.0_wp/(1.0_wp + loss) - 1.0_wp
       call add_multiple(softening, equations%flow_by_gap)
@@ -82,6 +86,7 @@ contains
     PetscCallA(MatDestroy(equations%squeeze, ierr))
     PetscCallA(MatDestroy(equations%real_part, ierr))
     PetscCallA(MatDestroy(equations%imaginary_part, ierr))
+    call destroy_inertia(equations%inertia)
     if (.not. dissipates(equations)) return
     if (equations%local_springs) then
       PetscCallA(MatDestroy(equations%flow_by_gap, ierr))

@@ -10,9 +10,8 @@ module gfb_dynamics
   use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_rigid, foil_shell, meshes_foils
+  use gfb_model_case, only: foil_shell, meshes_foils
   use gfb_dynamics_case, only: tangent_stick, frequencies_at
-  use gfb_strip_load_case, only: bump_stiffness
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
@@ -21,6 +20,8 @@ module gfb_dynamics
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, &
                                   response_failure, destroy_response
   use gfb_vibration_equations, only: vibration_type
+  use gfb_foil_weighing, only: give_mass
+  use gfb_foil_mass_choice, only: mass_wanted, highest_frequency, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type
@@ -69,6 +70,7 @@ contains
     if (first) call describe(scene, log)
     call start_response(scene, bearing, build, response, record%problem)
     if (allocated(record%problem)) return
+    call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, bearing, response, point, record%problem)
     if (.not. scene%sweep%present .and. .not. allocated(record%problem)) then
       call show_coefficients(log, bearing%point%speed, point)
@@ -232,6 +234,8 @@ contains
       end if
     end if
     call create_response(bearing, vibration_of(scene), response, opposite)
+    call give_mass(bearing, response, mass_wanted(scene), scene%dynamics%foil_modes, &
+                   highest_frequency(scene, bearing%point%speed))
   end subroutine start_response
 
   !> What the foil does under vibration.
@@ -250,8 +254,6 @@ contains
   subroutine describe(scene, log)
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-    real(wp) :: mass !! of both foils [kg/m2]
 
     associate (dynamics => scene%dynamics, foil => scene%model%foil)
       if (meshes_foils(foil)) then
@@ -260,16 +262,6 @@ contains
         if (dynamics%loss_factor > 0.0_wp) then
           call log%line('losses: loss_factor acts on the stiffness of top foil and bumps, in the place of friction')
         end if
-        mass = scene%top_foil%density*scene%top_foil%thickness &
-          + scene%bump_foil%density*scene%bump_foil%thickness
-        if (mass > 0.0_wp) then
-          call log%line('foil mass: left out; on bumps as single springs it is resonant near '// &
-                        text(sqrt(bump_stiffness(scene%bump_foil)/mass)/turn, 2)//' Hz, lifted edges lower')
-        else
-          call log%line('foil mass: left out')
-        end if
-      else if (foil /= foil_rigid) then
-        call log%line('foil mass: left out')
       end if
     end associate
   end subroutine describe

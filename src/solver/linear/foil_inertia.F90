@@ -1,0 +1,112 @@
+#include "gfb_petsc.h"
+!> What the mass of a foil does in its equations.
+!>
+!> Foils that are not condensed have their consistent mass M. A condensed piece with retained unknowns
+!> u has its condensed mass, and fixed-interface modes \( \phi_i \) of unit modal mass with the
+!> coupling \( m_i \) to u. In a motion \( e^{\lambda t} \) each mode follows u, and is eliminated:
+!>
+!> $$ \eta_i = -\frac{\lambda^2 m_i^T u}{\omega_i^2 (1 + l) + \lambda^2}, \qquad
+!>    D = K (1 + l) + \lambda^2 M - \sum_i \frac{\lambda^4 m_i m_i^T}{\omega_i^2 (1 + l) + \lambda^2} $$
+!>
+!> with the loss l of the stiffness. That is exact where all modes are kept, and has no unknowns but u.
+!> Source: [CraigBampton1968].
+module gfb_foil_inertia
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  implicit none (type)
+  private
+  public :: inner_block, add_inertia, destroy_inertia
+
+  !> Modes inside the condensed pieces of one kind.
+  type, public :: inner_modes_type
+    integer, allocatable :: number(:, :)     !! (retained, pieces) bearing's, from 0; -1: fixed
+    real(wp), allocatable :: coupling(:, :)  !! (retained, modes) m_i
+    real(wp), allocatable :: eigenvalue(:)   !! omega_i squared [1/s2]
+  end type inner_modes_type
+
+  !> The mass, or why there is none.
+  type, public :: foil_inertia_type
+    logical :: present = .false.         !! the foil has its mass
+    logical :: judged = .false.          !! by the next two
+    real(wp) :: highest = 0.0_wp         !! frequency that is asked for [rad/s]
+    real(wp) :: lowest = 0.0_wp          !! natural frequency of the foil alone; 0: not found [rad/s]
+    real(wp) :: left_out = huge(1.0_wp)  !! lowest fixed-interface frequency that is left out [rad/s]
+    logical :: skips_modes = .false.     !! for the time being those kept are left out as well
+    type(tMat) :: mass                   !! M, scaled as the bearing's matrix
+    type(tVec) :: left, right            !! these scales
+    logical :: has_modes = .false.       !! on whatever rank
+    type(inner_modes_type), allocatable :: inner(:) !! this rank's kinds
+  end type foil_inertia_type
+
+contains
+
+  !> Adds what the mass does in a motion \( e^{\lambda t} \).
+  subroutine add_inertia(inertia, rate, loss, real_part, imaginary_part)
+    type(foil_inertia_type), intent(in) :: inertia !! that was created
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(in) :: loss !! l of the stiffness [1]
+    Mat, intent(in) :: real_part, imaginary_part !! of the bearing's matrix, scaled
+    type(tMat) :: part(2)
+    complex(wp), allocatable :: block(:, :)
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    if (.not. inertia%present) return
+    PetscCallA(MatAXPY(real_part, real(rate**2, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatAXPY(imaginary_part, aimag(rate**2), inertia%mass, SAME_NONZERO_PATTERN, ierr))
+    if (.not. inertia%has_modes .or. inertia%skips_modes) return
+    do i = 1, 2
+      PetscCallA(MatDuplicate(inertia%mass, MAT_DO_NOT_COPY_VALUES, part(i), ierr))
+      PetscCallA(MatSetOption(part(i), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
+    end do
+    do i = 1, size(inertia%inner)
+      block = inner_block(inertia%inner(i), rate, loss)
+      do k = 1, size(inertia%inner(i)%number, 2)
+        associate (row => int(inertia%inner(i)%number(:, k), pint))
+          PetscCallA(MatSetValues(part(1), size(row, 1, pint), row, size(row, 1, pint), row, [real(block, wp)], ADD_VALUES, ierr))
+          PetscCallA(MatSetValues(part(2), size(row, 1, pint), row, size(row, 1, pint), row, [aimag(block)], ADD_VALUES, ierr))
+        end associate
+      end do
+    end do
+    do i = 1, 2
+      PetscCallA(MatAssemblyBegin(part(i), MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatAssemblyEnd(part(i), MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatDiagonalScale(part(i), inertia%left, inertia%right, ierr))
+    end do
+    PetscCallA(MatAXPY(real_part, 1.0_wp, part(1), SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatAXPY(imaginary_part, 1.0_wp, part(2), SAME_NONZERO_PATTERN, ierr))
+    do i = 1, 2
+      PetscCallA(MatDestroy(part(i), ierr))
+    end do
+  end subroutine add_inertia
+
+  !> What the modes inside a piece do to its retained unknowns.
+  pure function inner_block(inner, rate, loss) result(block)
+    type(inner_modes_type), intent(in) :: inner !! of one kind
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(in) :: loss !! l of the stiffness [1]
+    complex(wp) :: block(size(inner%coupling, 1), size(inner%coupling, 1))
+    integer :: i
+
+    block = 0.0_wp
+    do i = 1, size(inner%eigenvalue)
+      associate (m => inner%coupling(:, i))
+        block = block - rate**4/(inner%eigenvalue(i)*(1.0_wp + loss) + rate**2)* &
+          spread(m, 2, size(m))*spread(m, 1, size(m))
+      end associate
+    end do
+  end function inner_block
+
+  !> Frees what PETSc holds.
+  subroutine destroy_inertia(inertia)
+    type(foil_inertia_type), intent(inout) :: inertia !! is freed
+    PetscErrorCode :: ierr
+
+    if (.not. inertia%present) return
+    PetscCallA(MatDestroy(inertia%mass, ierr))
+    PetscCallA(VecDestroy(inertia%left, ierr))
+    PetscCallA(VecDestroy(inertia%right, ierr))
+    inertia%present = .false.
+  end subroutine destroy_inertia
+end module gfb_foil_inertia

@@ -1,0 +1,200 @@
+#include "gfb_petsc.h"
+!> Weighs a foil that vibrates, or decides that its mass does not count.
+!>
+!> Whether it counts is seen by the lowest natural frequency of the foil alone, its contacts as
+!> they are: next to it and beyond nothing may be left out. A free edge that is lifted has a low one.
+module gfb_foil_weighing
+  use slepceps
+  use petscksp
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: largest_over_ranks, any_rank
+  use gfb_dynamics_case, only: mass_auto, mass_on, mass_off
+  use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
+  use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_film_rates, only: fill_from_foil
+  use gfb_foil_inertia, only: foil_inertia_type, inner_modes_type
+  use gfb_dynamic_response, only: dynamic_response_type
+  implicit none (type)
+  private
+  public :: give_mass
+
+  real(wp), parameter :: safe_ratio = 1.0_wp/3.0_wp !! of a frequency to the foil's, where its mass is little [1]
+  real(wp), parameter :: tolerance = 1.0e-8_wp !! of the foil's lowest eigenvalue [1]
+  character(len=*), parameter :: prefix = 'foil_modes_' !! of PETSc's options
+
+contains
+
+  !> Gives the foil of a response its mass where it is asked for, or counts. The bearing of tilts has it where
+  !> the other one has.
+  subroutine give_mass(bearing, response, wanted, modes, highest)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    integer, intent(in) :: wanted   !! `mass_auto`, `mass_on` or `mass_off`
+    integer, intent(in) :: modes    !! kept in each condensed piece, at most
+    real(wp), intent(in) :: highest !! frequency that is asked for [rad/s]
+
+    call create_inertia(bearing, response%equations%steady, wanted, modes, highest, response%equations%inertia)
+    if (.not. allocated(response%opposite)) return
+    call create_inertia(response%opposite_bearing, response%opposite%equations%steady, &
+                        merge(mass_on, mass_off, response%equations%inertia%present), modes, highest, &
+                        response%opposite%equations%inertia)
+  end subroutine give_mass
+
+  !> Makes the mass where it is asked for, or decides whether it counts.
+  subroutine create_inertia(bearing, steady, wanted, modes, highest, inertia)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: steady
+    integer, intent(in) :: wanted, modes
+    real(wp), intent(in) :: highest
+    type(foil_inertia_type), intent(out) :: inertia
+    PetscErrorCode :: ierr
+
+    inertia%highest = highest
+    if (wanted == mass_off .or. .not. bearing%pad(1)%foil%is_meshed()) return
+    call weigh_foil(bearing, steady, modes, inertia)
+    inertia%present = .true.
+    if (wanted == mass_auto) then
+      call find_lowest(bearing, steady, inertia)
+      inertia%present = inertia%highest > safe_ratio*inertia%lowest
+      inertia%judged = .true.
+    end if
+    if (inertia%present) then
+      PetscCallA(VecDuplicate(bearing%state, inertia%left, ierr))
+      PetscCallA(VecDuplicate(bearing%state, inertia%right, ierr))
+      call bearing%exchange%put(1.0_wp/bearing%equation_scale(bearing%point), inertia%left)
+      call bearing%exchange%put(bearing%unknown_scale, inertia%right)
+    else
+      PetscCallA(MatDestroy(inertia%mass, ierr))
+    end if
+  end subroutine create_inertia
+
+  !> The mass matrix, and the modes inside condensed pieces.
+  subroutine weigh_foil(bearing, pattern, modes, inertia)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: pattern
+    integer, intent(in) :: modes
+    type(foil_inertia_type), intent(inout) :: inertia
+    type(condensed_piece_type), allocatable :: piece(:)
+    type(error_type), allocatable :: error
+    real(wp) :: most(1)
+    Mat :: of_foil
+    PetscErrorCode :: ierr
+    integer :: i
+
+    associate (foil => bearing%pad(1)%foil)
+      PetscCallA(MatDuplicate(foil%elastic, MAT_DO_NOT_COPY_VALUES, of_foil, ierr))
+      PetscCallA(MatSetOption(of_foil, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE, ierr))
+      call foil%add_mass(of_foil, piece, error)
+      if (allocated(error)) error stop 'an element that has a stiffness has a mass'
+    end associate
+    allocate (inertia%inner(size(piece)))
+    do i = 1, size(piece)
+      call reduce_piece(bearing, piece(i), modes, inertia%left_out, inertia%inner(i), of_foil)
+    end do
+    call destroy_pieces(piece)
+    PetscCallA(MatAssemblyBegin(of_foil, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(of_foil, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatDuplicate(pattern, MAT_DO_NOT_COPY_VALUES, inertia%mass, ierr))
+    ! Where a flat foil's stiffness couples nothing its mass has nothing but round-off.
+    PetscCallA(MatSetOption(inertia%mass, MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr))
+    call fill_from_foil(bearing, of_foil, inertia%mass)
+    PetscCallA(MatDestroy(of_foil, ierr))
+    inertia%has_modes = any_rank(any([(size(inertia%inner(i)%eigenvalue) > 0, i=1, size(piece))]))
+    most = largest_over_ranks([-inertia%left_out])
+    inertia%left_out = -most(1)
+  end subroutine weigh_foil
+
+  !> Adds the condensed mass of all pieces of a kind, and keeps its modes.
+  subroutine reduce_piece(bearing, piece, wanted, left_out, inner, of_foil)
+    type(bearing_system_type), intent(in) :: bearing
+    type(condensed_piece_type), intent(in) :: piece
+    integer, intent(in) :: wanted !! modes
+    real(wp), intent(inout) :: left_out !! [rad/s]
+    type(inner_modes_type), intent(out) :: inner
+    Mat, intent(in) :: of_foil
+    integer, parameter :: foil_block = 2 ! the film's is the first
+    type(craig_bampton_type) :: reduced
+    PetscInt :: row(size(piece%number, 1))
+    PetscErrorCode :: ierr
+    integer :: i, k, kept, modes
+
+    ! One mode more tells what is left out.
+    call reduce_matrices(piece%stiffness, piece%mass, piece%is_retained, wanted + 1, reduced)
+    kept = reduced%retained
+    modes = min(wanted, reduced%modes)
+    if (reduced%modes > modes) left_out = min(left_out, sqrt(reduced%eigenvalue(modes + 1)))
+    inner%eigenvalue = reduced%eigenvalue(:modes)
+    inner%coupling = reduced%mass(:kept, kept + 1:kept + modes)
+    allocate (inner%number(kept, size(piece%number, 2)), source=-1)
+    do k = 1, size(piece%number, 2)
+      row = int(piece%number(:, k) - 1, pint)
+      PetscCallA(MatSetValues(of_foil, int(kept, pint), row, int(kept, pint), row, [reduced%mass(:kept, :kept)], ADD_VALUES, ierr))
+      do i = 1, kept
+        if (piece%number(i, k) > 0) inner%number(i, k) = bearing%blocks%global_number(foil_block, piece%number(i, k))
+      end do
+    end do
+  end subroutine reduce_piece
+
+  !> Lowest natural frequency of the foil alone, by shifted and inverted iteration at zero.
+  subroutine find_lowest(bearing, steady, inertia)
+    type(bearing_system_type), intent(in) :: bearing
+    Mat, intent(in) :: steady
+    type(foil_inertia_type), intent(inout) :: inertia
+    Mat :: stiffness, mass
+    IS :: own
+    EPS :: solver
+    ST :: transformation
+    KSP :: linear
+    PC :: factors
+    PetscInt :: found
+    PetscScalar :: re, im
+    PetscErrorCode :: ierr
+
+    call own_numbers(bearing, own)
+    PetscCallA(MatCreateSubMatrix(steady, own, own, MAT_INITIAL_MATRIX, stiffness, ierr))
+    PetscCallA(MatCreateSubMatrix(inertia%mass, own, own, MAT_INITIAL_MATRIX, mass, ierr))
+    PetscCallA(EPSCreate(PETSC_COMM_WORLD, solver, ierr))
+    PetscCallA(EPSSetOptionsPrefix(solver, prefix, ierr))
+    PetscCallA(EPSSetOperators(solver, stiffness, mass, ierr))
+    PetscCallA(EPSSetProblemType(solver, EPS_GNHEP, ierr)) ! the scales of rows and columns differ
+    PetscCallA(EPSSetTarget(solver, 0.0_wp, ierr))
+    PetscCallA(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE, ierr))
+    PetscCallA(EPSSetTolerances(solver, tolerance, PETSC_DEFAULT_INTEGER, ierr))
+    PetscCallA(EPSGetST(solver, transformation, ierr))
+    PetscCallA(STSetType(transformation, STSINVERT, ierr))
+    PetscCallA(STGetKSP(transformation, linear, ierr))
+    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+    PetscCallA(KSPGetPC(linear, factors, ierr))
+    PetscCallA(PCSetType(factors, PCLU, ierr))
+    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    PetscCallA(EPSSetFromOptions(solver, ierr))
+    PetscCallA(EPSSolve(solver, ierr))
+    PetscCallA(EPSGetConverged(solver, found, ierr))
+    inertia%lowest = 0.0_wp
+    if (found > 0) then
+      PetscCallA(EPSGetEigenvalue(solver, 0_pint, re, im, ierr))
+      inertia%lowest = sqrt(hypot(re, im))
+    end if
+    PetscCallA(EPSDestroy(solver, ierr))
+    PetscCallA(MatDestroy(stiffness, ierr))
+    PetscCallA(MatDestroy(mass, ierr))
+    PetscCallA(ISDestroy(own, ierr))
+  end subroutine find_lowest
+
+  !> Numbers, from 0, of this rank's unknowns of the foil among those of the bearing.
+  subroutine own_numbers(bearing, own)
+    type(bearing_system_type), intent(in) :: bearing
+    IS, intent(out) :: own
+    integer, parameter :: foil_block = 2
+    PetscInt :: first, last, i
+    PetscErrorCode :: ierr
+
+    associate (blocks => bearing%blocks)
+      PetscCallA(MatGetOwnershipRange(bearing%pad(1)%foil%elastic, first, last, ierr))
+      PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, last - first, [(int(blocks%global_number(foil_block, int(i)), pint), i=first + 1, last)], PETSC_COPY_VALUES, own, ierr))
+    end associate
+  end subroutine own_numbers
+end module gfb_foil_weighing
