@@ -30,7 +30,7 @@ from gfb.plot import main as plot_main  # noqa: E402
 from gfb.results import SEAL_LENGTH, Unreadable, read_json  # noqa: E402
 from gfb.tool import run  # noqa: E402
 
-OF_PYTHON = ("bench", "coefficients", "compare", "gallery", "manual", "plot")
+OF_PYTHON = ("bench", "coefficients", "compare", "gallery", "manual", "plot", "report")
 OTHERS = ("check", "check_floating_point", "check_petsc", "run", "structure", "test")
 VARIANTS = 12  # of each file, for each call
 ROTOR = """&scene analysis = 'linear_dynamics' /
