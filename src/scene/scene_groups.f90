@@ -55,7 +55,7 @@ contains
       call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
                              is_bearing(analysis), bearing_misplaced(analysis, part))
       call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
-      call read_bore_case(keys, scene%bore, scene%bearing%clearance, analysis)
+      call read_bore_case(keys, scene%bore, scene%bearing, analysis)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)

@@ -118,12 +118,26 @@ def check_same(checks, folder):
     checks.below("1 and 2 ranks", math.dist(one.eccentricity, two.eccentricity)/bearing.clearance, 1.0e-10)
 
 
+def check_pads(checks, folder):
+    """Each of three pads has the bore, and the gas, of its place: shims on all of them, the shaft turned from pad to pad."""
+    bearing, third, size = Bearing(), 2.0*math.pi/3.0, 6.0e-6
+    groups = {"pads": {"count": 3, "arc": 2.0, "preload": 0.3}, "gas": {"mean_free_path": 1.0e-6},
+              "bore": {"shim_angle": [1.0 + i*third for i in range(3)], "shim_height": 4.0e-6, "shim_arc": 0.5, "shim_ramp": 0.1}}
+    force = [run(folder, "pads", bearing, mesh=(24, 8), number=2.0, groups=groups, eccentricity=place).force
+             for place in ((0.0, 0.0), (size, 0.0), (size*math.cos(third), size*math.sin(third)))]
+    size = math.hypot(*force[1])
+    checks.below("three pads with shims: force at the centre", math.hypot(*force[0])/size, 1.0e-12)
+    turned = complex(*force[1])*complex(math.cos(third), math.sin(third))
+    checks.below("three pads with shims: force where the shaft is turned by a third", abs(turned - complex(*force[2]))/size, 1.0e-12)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_rows(checks, folder)
         check_ring(checks, folder)
         check_same(checks, folder)
+        check_pads(checks, folder)
     checks.close()
 
 

@@ -83,12 +83,15 @@ contains
     end associate
   end function table_value
 
-  !> Angles in [0, 2 pi) where the slope jumps, rising.
-  pure function bore_kinks(profile) result(kink)
+  !> Angles in [0, 2 pi) where the slope jumps, rising; those of several equal pads as if all were
+  !> where the first one is.
+  pure function bore_kinks(profile, turn_of_pad) result(kink)
     type(bore_profile_type), intent(in) :: profile !! the bore
+    real(wp), intent(in), optional :: turn_of_pad(:) !! from the first one to each [rad]
     real(wp), allocatable :: kink(:) !! [rad]
     real(wp), allocatable :: left(:)
     real(wp) :: smallest
+    integer :: i
 
     allocate (left(0), kink(0))
     if (allocated(profile%table_angle)) left = profile%table_angle
@@ -98,6 +101,7 @@ contains
         left = [left, middle - half - ramp, middle - half, middle + half, middle + half + ramp]
       end associate
     end if
+    if (present(turn_of_pad)) left = [(left - turn_of_pad(i), i=1, size(turn_of_pad))]
     left = modulo(left, turn)
     where (turn - left < same_angle) left = 0.0_wp
     do while (size(left) > 0)

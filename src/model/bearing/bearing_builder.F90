@@ -73,20 +73,23 @@ contains
     type(error_type), allocatable, intent(out) :: error
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
+    integer :: i
 
     call divide_bearing(scene, film, rank_count(), division, error)
     if (allocated(error)) return
     call create_film_part(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
                           bearing, error, division%film)
     if (allocated(error)) return
-    call put_bore(bearing%pad(1)%film, scene%bore%profile)
-    bearing%pad(1)%film%law = scene%gas%law
     associate (contact => scene%shaft_contact)
       bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
     end associate
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, floats, pad_places(scene%bearing))
+    do i = 1, size(bearing%pad)
+      call put_bore(bearing%pad(i)%film, scene%bore%profile)
+      bearing%pad(i)%film%law = scene%gas%law
+    end do
   end subroutine build_on_mesh
 
   !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
@@ -129,6 +132,7 @@ contains
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_plan_type), intent(in) :: plan !! what was decided about it
     type(film_mesh_type) :: mesh
+    integer :: i
 
     associate (bearing => scene%bearing)
       if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
@@ -139,7 +143,7 @@ contains
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order)
         if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
-          call align_stations(mesh, bore_kinks(scene%bore%profile))
+          call align_stations(mesh, bore_kinks(scene%bore%profile, pad_turn(bearing, [(i, i=1, bearing%pads)])))
         end if
       end if
     end associate

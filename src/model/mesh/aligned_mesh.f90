@@ -18,19 +18,21 @@ contains
   pure subroutine align_stations(mesh, kink)
     type(film_mesh_type), intent(inout) :: mesh !! of equal elements
     real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi), rising [rad]
-    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element
+    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element, angle(size(kink))
     integer :: i, last, near, n
 
     n = size(side)
     side = sides(mesh)
+    angle = side(1) + modulo(kink - side(1), turn) ! a pad may reach beyond 2 pi
+    if (size(kink) > 0) angle = cshift(angle, minloc(angle, 1) - 1)
     element = (side(n) - side(1))/real(n - 1, wp)
     last = 1
     do i = 1, size(kink)
-      if (kink(i) - side(last) < shortest*element) cycle
-      if (side(n) - kink(i) < shortest*element) exit
-      near = min(max(last + 1, 1 + nint((kink(i) - side(1))/element)), n - 1)
+      if (angle(i) - side(last) < shortest*element) cycle
+      if (side(n) - angle(i) < shortest*element) exit
+      near = min(max(last + 1, 1 + nint((angle(i) - side(1))/element)), n - 1)
       if (near <= last) exit
-      call spread_sides(side, last, near, kink(i))
+      call spread_sides(side, last, near, angle(i))
       last = near
     end do
     if (last > 1) call spread_sides(side, last, n, side(n))
@@ -42,7 +44,7 @@ contains
     type(film_mesh_type), intent(in) :: mesh !! the film's mesh
     real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi) [rad]
     integer, intent(out) :: on_pad, inside !! of them
-    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element
+    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element, angle
     integer :: i
 
     side = sides(mesh)
@@ -50,10 +52,10 @@ contains
     on_pad = 0
     inside = 0
     do i = 1, size(kink)
-      if (kink(i) < side(1) - on_side*element) cycle
-      if (kink(i) > side(size(side)) + on_side*element) cycle
+      angle = side(1) + modulo(kink(i) - side(1) + on_side*element, turn) - on_side*element
+      if (angle > side(size(side)) + on_side*element) cycle
       on_pad = on_pad + 1
-      if (minval(abs(side - kink(i))) > on_side*element) inside = inside + 1
+      if (minval(abs(side - angle)) > on_side*element) inside = inside + 1
     end do
   end subroutine kinks_inside
 

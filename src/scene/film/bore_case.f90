@@ -1,7 +1,8 @@
 !> `&bore`: where the bore is no circle.
 module gfb_bore_case
   use gfb_kinds, only: wp
-  use gfb_bore_profile, only: bore_profile_type, bore_peak
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
+  use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
@@ -23,10 +24,10 @@ module gfb_bore_case
 contains
 
   !> Reads the group.
-  subroutine read_bore_case(keys, bore, clearance, analysis)
+  subroutine read_bore_case(keys, bore, bearing, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bore_case_type), intent(out) :: bore !! what `&bore` asks for
-    real(wp), intent(in) :: clearance !! of the bearing, 0 where it is not known [m]
+    type(bearing_case_type), intent(in) :: bearing !! the pads on it
     integer, intent(in) :: analysis !! 0 where it is not known
     real(wp) :: peak
     integer :: mistakes !! before the group
@@ -47,11 +48,36 @@ contains
       return
     end if
     peak = bore_peak(bore%profile)
-    if (.not. clearance > 0.0_wp .or. peak < clearance) return
-    call keys%complain(group, highest_key(bore%profile), 'makes the bore '//text(peak, 4)// &
-                       ' m high in all, which must be less than the clearance of '// &
-                       text(clearance)//' m: no gap is left at rest')
+    if (.not. bearing%clearance > 0.0_wp) return
+    if (peak >= bearing%clearance) then
+      call keys%complain(group, highest_key(bore%profile), 'makes the bore '//text(peak, 4)// &
+                         ' m high in all, which must be less than the clearance of '// &
+                         text(bearing%clearance)//' m: no gap is left at rest')
+    else if (.not. least_gap(bearing, bore%profile) > 0.0_wp) then
+      call keys%complain(group, highest_key(bore%profile), 'with the preload of the pads '// &
+                         'leaves no gap at rest')
+    end if
   end subroutine read_bore_case
+
+  !> Smallest gap at rest of pads with a preload [m].
+  pure function least_gap(bearing, profile) result(gap)
+    type(bearing_case_type), intent(in) :: bearing
+    type(bore_profile_type), intent(in) :: profile
+    real(wp) :: gap
+    integer, parameter :: points = 2000 !! of a pad
+    real(wp) :: angle, shift
+    integer :: pad, i
+
+    gap = bearing%clearance
+    do pad = 1, bearing%pads
+      do i = 0, points
+        angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
+          + pad_angle(bearing)*real(i, wp)/real(points, wp)
+        shift = bearing%preload*cos(angle - preload_angle(bearing, pad))
+        gap = min(gap, bearing%clearance*(1.0_wp - shift) - bore_height(profile, angle))
+      end do
+    end do
+  end function least_gap
 
   !> Lobes.
   subroutine read_waves(keys, profile)

@@ -2,6 +2,7 @@
 module gfb_film_notes
   use gfb_kinds, only: wp
   use gfb_aligned_mesh, only: kinks_inside
+  use gfb_bearing_case, only: pad_turn
   use gfb_bore_profile, only: bore_kinks, bore_peak
   use gfb_film_mesh, only: film_mesh_type
   use gfb_gas_law, only: gas_law_type, density_table
@@ -86,13 +87,15 @@ contains
     type(film_mesh_type), intent(in) :: mesh
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: words
-    integer :: on_pad, inside
+    integer :: on_pad, inside, i
 
     associate (profile => scene%bore%profile)
       words = 'bore             up to '//text(bore_peak(profile)*1.0e6_wp, 4)// &
               ' um over the circle, '//text(bore_peak(profile)/scene%bearing%clearance, 3)// &
               ' of the clearance'
-      call kinks_inside(mesh, bore_kinks(profile), on_pad, inside)
+      call kinks_inside(mesh, bore_kinks(profile, &
+                                         pad_turn(scene%bearing, [(i, i=1, scene%bearing%pads)])), &
+                        on_pad, inside)
     end associate
     if (on_pad > 0 .and. inside == 0) then
       words = words//'; sides of elements on all '//text(on_pad)//' kinks'
