@@ -105,6 +105,17 @@ def check_three(checks, folder):
                      math.hypot(*centred.force)/math.hypot(centred["force_x_1"], centred["force_y_1"]), 1.0e-10)
 
 
+def check_bore(checks, folder):
+    """Each pad has the bore at its own angles, and the gas' laws."""
+    more = {"bore": {"waves": 2, "wave_amplitude": 2.0e-6, "wave_angle": 0.3},
+            "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101350.0, "mean_free_path": 6.6e-7}}
+    three = solve(folder, "bore", of_pads("beam", {"count": 3}, **more))
+    for i in range(3):
+        one = solve(folder, "bore_1", of_pads("beam", {"count": 1, "first_leading_edge": i*TURN}, **more))
+        off = math.hypot(three[f"force_x_{i + 1}"] - one["force_x"], three[f"force_y_{i + 1}"] - one["force_y"])
+        checks.below(f"waves of the bore and slip: force of pad {i + 1}", off/math.hypot(*three.force), 1.0e-10)
+
+
 def check_film(checks, folder):
     """The written gap, pad by pad, is the formula."""
     film = solve(folder, "film", of_pads("rigid", {"count": 3, "first_leading_edge": 0.2})).film()
@@ -132,7 +143,7 @@ def check_sweep(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_reference, check_order, check_preload, check_three, check_film, check_sweep):
+        for check in (check_reference, check_order, check_preload, check_three, check_bore, check_film, check_sweep):
             check(checks, folder)
     checks.close()
 
