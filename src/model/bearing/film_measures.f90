@@ -77,7 +77,7 @@ contains
     end do
   end function film_integral
 
-  !> This rank's shares of the integral of a nodal field's square over the solved surface, and of its area [m2].
+  !> This rank's shares of a nodal field's squared integral over the solved surface, and its area [m2].
   pure function square_integrals(film, value) result(integrals)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the nodes, in any unit [SI]
