@@ -105,7 +105,7 @@ def check_resumed(checks, folder):
 def check_first_answer(checks, folder):
     """A run without a sweep ends between two iterations; a second signal ends it at once."""
     (folder/"one.nml").write_text(ONE, encoding="utf-8")
-    with subprocess.Popen([GFB, "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    with subprocess.Popen([GFB, "--verbose", "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, encoding="utf-8") as process:
         wait_for(process, "    iteration")
         process.send_signal(signal.SIGTERM)
