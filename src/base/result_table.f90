@@ -311,7 +311,7 @@ module gfb_result_table
     result_type('converged_members', '1', total, ensemble, 'of them', &
       'cases of the table that have an answer'), &
     result_type('groups', '1', total, ensemble + origin, '{of ranks}', &
-      'of ranks, each with cases or with a stretch of the sweep'), &
+      'of ranks, each with cases, a stretch of the sweep, or some of the frequencies'), &
     result_type('member_<n>', '', word, ensemble, '{case file}', &
       'name of the case, and how it ended')]
 

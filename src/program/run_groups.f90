@@ -12,6 +12,7 @@ module gfb_run_groups
   use gfb_check_scene, only: check_scene
   use gfb_reduction_choice, only: choose_reduction
   use gfb_divided_sweep, only: run_divided_sweep
+  use gfb_divided_frequencies, only: run_divided_frequencies
   use gfb_scene_table, only: run_scene_table, scene_runner
   implicit none (type, external)
   private
@@ -63,7 +64,11 @@ contains
       if (allocated(scenes(1)%model%reduction_reason)) then
         context%reduction = 'bumps '//scenes(1)%model%reduction_reason
       end if
-      call run_divided_sweep(scenes(1), context, job, status)
+      if (scenes(1)%sweep%present) then
+        call run_divided_sweep(scenes(1), context, job, status)
+      else
+        call run_divided_frequencies(scenes(1), context, job, status)
+      end if
     else
       call run_scene_table(scenes, line%table, run_scene, context, job, status)
     end if
@@ -101,7 +106,9 @@ contains
       call add('gfb: '//text(line%groups)//' groups need as many ranks at least, and the job '// &
                'has '//text(job%ranks)//': mpiexec -n '//text(line%groups)//' gfb ...', error)
     end if
-    if (size(scenes) == 1) then
+    if (size(scenes) == 1 .and. scenes(1)%dynamics%present .and. .not. scenes(1)%sweep%present) then
+      call check_frequencies(line, scenes(1), error)
+    else if (size(scenes) == 1) then
       call check_sweep(line, scenes(1), error)
     else
       call check_names(line, scenes, error)
@@ -112,6 +119,23 @@ contains
     end if
   end subroutine check_work
 
+  !> Whether the frequencies of a case can be divided.
+  subroutine check_frequencies(line, scene, error)
+    type(command_line_type), intent(in) :: line
+    type(scene_type), intent(in) :: scene !! of small vibrations, without a sweep
+    type(error_type), allocatable, intent(inout) :: error
+
+    if (size(scene%dynamics%amplitudes) > 0) then
+      call add(scene%file//': &dynamics: vibration_amplitudes: the frequencies cannot be '// &
+               'divided among groups, because amplitudes are found on all ranks alone', error)
+    end if
+    if (line%groups > size(scene%dynamics%frequencies)) then
+      call add(scene%file//': &dynamics: '//text(line%groups)//' groups for '// &
+               text(size(scene%dynamics%frequencies))//' frequencies: some would have nothing '// &
+               'to do', error)
+    end if
+  end subroutine check_frequencies
+
   !> Whether a case has a sweep that can be divided.
   subroutine check_sweep(line, scene, error)
     type(command_line_type), intent(in) :: line
@@ -119,8 +143,8 @@ contains
     type(error_type), allocatable, intent(inout) :: error
 
     if (.not. scene%sweep%present) then
-      call add(scene%file//': has no &sweep whose points could be divided among groups; '// &
-               '--groups is for a sweep, or for several cases', error)
+      call add(scene%file//': has no &sweep whose points, nor &dynamics whose frequencies, '// &
+               'could be divided among groups; --groups is for those, or for several cases', error)
       return
     end if
     if (scene%sweep%friction_memory) then

@@ -123,6 +123,33 @@ def check_sweeps(checks, folder):
                             and file["provenance/groups"][()] == groups)
 
 
+def check_vibrations(checks, folder):
+    """Frequencies of one answer, and points of a sweep with theirs: the same files in groups as in one piece."""
+    ratios = (0.1, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0)
+    vibrating = {"scene": {"analysis": "linear_dynamics"}, "model": SPRINGS, "rotor": {"mass": 0.1}}
+    for name, groups, ways in (
+            ("vibrations", {"dynamics": {"frequency_ratios": ratios}}, ((1, 1), (2, 2), (4, 4), (4, 2))),
+            ("fixed_frequencies", {"dynamics": {"frequencies": (500.0, 1500.0)}}, ((2, 2),)),
+            ("vibrating_sweep", {"dynamics": {"frequency_ratios": ratios[:2]},
+                                 "sweep": {"parameter": "speed_rpm", "values": (20000.0, 25000.0, 30000.0)}}, ((2, 2),))):
+        path = write_case(folder, name, load=LOAD, foil="elastic_foundation", groups=vibrating | groups)
+        whole = run_file(path, folder/"whole", options=["--quiet"])
+        table = numpy.genfromtxt(f"{whole.stem}.coefficients.csv", delimiter=",", skip_header=1)
+        arrays = datasets(f"{whole.stem}.h5")
+        for ranks, number in ways:
+            words = f"{name}, {number} group(s) of {ranks} rank(s)"
+            parts = run_file(path, folder/f"parts{ranks}{number}", ranks=ranks, options=["--groups", str(number)])
+            found = numpy.genfromtxt(f"{parts.stem}.coefficients.csv", delimiter=",", skip_header=1)
+            checks.that(f"{words}: a row a frequency, in order", found.shape == table.shape and (found[:, 0] == table[:, 0]).all())
+            checks.below(f"{words}: coefficients", float((numpy.abs(found - table).max(0)/numpy.abs(table).max(0).clip(1.0)).max()), LIMIT)
+            for key in ("critical_mass", "whirl_ratio", "growth_rate", "whirl_frequency"):
+                checks.below(f"{words}: {key}", parts[key]/whole[key] - 1.0, LIMIT)
+            checks.that(f"{words}: the same datasets", set(datasets(f"{parts.stem}.h5")) == set(arrays))
+            with h5py.File(f"{parts.stem}.h5", "r") as file:
+                checks.that(f"{words}: says how many ranks and groups", file["provenance/ranks"][()] == ranks
+                            and file["provenance/groups"][()] == number)
+
+
 def check_beams(checks, folder):
     """Beams with friction: contacts of all points too; and where the groups find other equilibria."""
     sweep = {"parameter": "load", "values": (100.0, 110.0, 120.0, 130.0)}
@@ -262,12 +289,17 @@ def check_refusals(checks, folder):
     (folder/"other").mkdir()
     shutil.copy(folder/plain, folder/"other"/plain)
     shutil.copy(folder/plain, folder/"ensemble.nml")
+    vibrating = write_case(folder, "vibrating", load=LOAD, groups={
+        "scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequencies": (1000.0, 2000.0)}}).name
+    amplitudes = vibrating_text(folder)
     remembers = solve_text(folder)
     before = sorted(path.name for path in folder.iterdir())
     for words, ranks, expected in (
             (("--groups", 3, sweeping), 2, ("3 groups need as many ranks", "the job has 2")),
             (("--groups", 4, sweeping), 4, ("4 groups for 3 values",)),
             (("--groups", 2, plain), 2, ("no &sweep",)),
+            (("--groups", 3, vibrating), 3, ("3 groups for 2 frequencies",)),
+            (("--groups", 2, amplitudes), 2, ("vibration_amplitudes",)),
             (("--groups", 2, folds), 2, ("turn_folds",)),
             (("--groups", 2, remembers), 2, ("friction_memory",)),
             (("--groups", 2, wrong, plain, bad, "nowhere.nml"), 2,
@@ -290,6 +322,13 @@ def check_refusals(checks, folder):
     checks.that("nothing was written", before == sorted(path.name for path in folder.iterdir()))
 
 
+def vibrating_text(folder):
+    """A case of vibrations that are not small."""
+    solve(folder, "amplitudes", options=["--check"], model=BEAM, mesh=INSIDE, operation={"load": (100.0, 0.0)},
+          scene={"analysis": "linear_dynamics"}, dynamics={"frequencies": (1000.0, 2000.0), "vibration_amplitudes": 1.0e-6})
+    return "amplitudes.nml"
+
+
 def solve_text(folder):
     """A case with friction that remembers."""
     model = {**BEAM}
@@ -300,7 +339,7 @@ def solve_text(folder):
 
 def main():
     checks = Checks()
-    for check in (check_sweeps, check_failures, check_table, check_refusals, check_beams):
+    for check in (check_sweeps, check_vibrations, check_failures, check_table, check_refusals, check_beams):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder))
     checks.close()

@@ -34,6 +34,7 @@ module gfb_dynamics_case
     integer :: foil_mass = mass_auto
     integer :: foil_modes = 2                 !! kept inside each condensed bump
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
+    logical :: stability = .true.             !! critical mass and modes too; not a key
   end type dynamics_case_type
 
 contains

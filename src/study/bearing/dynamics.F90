@@ -78,7 +78,7 @@ contains
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
     end if
-    if (.not. allocated(record%problem) .and. bearing%point%speed > 0.0_wp) then
+    if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
       call add_whirl(log, bearing, response, found)
       if (scene%rotor%present) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if

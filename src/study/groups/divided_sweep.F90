@@ -17,7 +17,7 @@ module gfb_divided_sweep
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
-  use gfb_dynamics_writing, only: record_arrays
+  use gfb_dynamics_writing, only: record_arrays, write_coefficients
   use gfb_restart, only: drop_restart
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type
@@ -27,7 +27,7 @@ module gfb_divided_sweep
   use gfb_job_groups, only: job_type
   use gfb_group_log, only: open_group_log, close_group_log
   use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
-                               seam_words, place_text, add_origin, first_onset
+                               seam_words, place_text, add_origin, merge_dynamics
   implicit none (type)
   private
   public :: run_divided_sweep
@@ -166,7 +166,8 @@ contains
       stretch%row = sweep%record%history(:found)
       stretch%next = sweep%record%history(found + 1:)
       stretch%contacts = record_arrays(sweep%scene, sweep%bearing, sweep%record, found)
-      stretch%onset = sweep%record%dynamics%onset
+      stretch%dynamics = sweep%record%dynamics
+      if (allocated(stretch%dynamics%point)) stretch%dynamics%point = stretch%dynamics%point(:found)
     end associate
     if (found == points) return
     stretch%status = status_unconverged
@@ -248,9 +249,10 @@ contains
     result%origin = origin(context, job, stretches, scene)
     call merge_arrays(stretches, result%contacts)
     call merge_histories(scene, stretches, study%sweep%record%history)
-    study%sweep%record%dynamics%onset = first_onset(stretches%onset)
+    call merge_dynamics(stretches, study%sweep%record%dynamics)
     study%sweep%record%tilted%first_slope = stretches(1)%first_slope
     call write_bearing(scene, terminal, study%sweep, result, summary, error)
+    if (.not. allocated(error)) call write_coefficients(study%sweep%record, scene, terminal, error)
     call terminal%give_back()
     call show_failures(scene, stretches, terminal%log)
     call show_seams(scene, stretches, terminal%log)

@@ -10,13 +10,14 @@ module gfb_sweep_stretch
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_row_memory, only: remember_rows, remember_arrays
+  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, remember_dynamics
   use gfb_tilt_response, only: tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
   implicit none (type, external)
   private
   public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
-            place_text, add_origin, first_onset
+            place_text, add_origin, merge_dynamics
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -36,7 +37,7 @@ module gfb_sweep_stretch
     type(history_row_type), allocatable :: next(:)
     type(case_array_type), allocatable :: contacts(:)
     real(wp) :: first_slope(2, 2) = 0.0_wp     !! where it begins [N m/rad]
-    real(wp) :: onset = 0.0_wp !! speed at which a rotor begins to whirl; 0: none [rpm]
+    type(dynamics_record_type) :: dynamics !! coefficients at its points, onset of whirl
   end type stretch_type
 
 contains
@@ -48,7 +49,6 @@ contains
 
     call memory%visit('first', stretch%first)
     call memory%visit('last', stretch%last)
-    call memory%visit('onset', stretch%onset)
     call memory%visit('status', stretch%status)
     call memory%visit('iterations', stretch%iterations)
     call memory%visit('factorizations', stretch%factorizations)
@@ -64,6 +64,8 @@ contains
     call memory%part('contacts')
     call remember_arrays(memory, stretch%contacts)
     call memory%visit('first_slope', stretch%first_slope)
+    call memory%part('dynamics')
+    call remember_dynamics(memory, stretch%dynamics)
   end subroutine remember_stretch
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
@@ -190,16 +192,24 @@ contains
     end do
   end subroutine merge_arrays
 
-  !> The first onset of whirl that any stretch has seen; 0: none.
-  pure function first_onset(onsets) result(onset)
-    real(wp), intent(in) :: onsets(:) !! of the stretches, in the sweep's order [rpm]
-    real(wp) :: onset !! [rpm]
-    integer :: first
+  !> Coefficients of all points, and the first onset of whirl that any stretch has seen.
+  pure subroutine merge_dynamics(stretches, record)
+    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(dynamics_record_type), intent(inout) :: record !! of one of them, gets those of all
+    type(dynamics_point_type), allocatable :: all(:)
+    integer :: i
 
-    onset = 0.0_wp
-    first = findloc(onsets > 0.0_wp, .true., 1)
-    if (first > 0) onset = onsets(first)
-  end function first_onset
+    record%onset = 0.0_wp
+    do i = size(stretches), 1, -1
+      if (stretches(i)%dynamics%onset > 0.0_wp) record%onset = stretches(i)%dynamics%onset
+    end do
+    if (.not. allocated(record%point)) return
+    allocate (all(0))
+    do i = 1, size(stretches)
+      if (allocated(stretches(i)%dynamics%point)) all = [all, stretches(i)%dynamics%point]
+    end do
+    call move_alloc(all, record%point)
+  end subroutine merge_dynamics
 
   !> Adds how the sweep was divided, and whether its stretches meet.
   subroutine add_origin(scene, groups, stretches, list)
