@@ -7,18 +7,31 @@ module gfb_foil_mass_choice
   use gfb_model_case, only: foil_rigid, meshes_foils
   use gfb_dynamics_case, only: mass_off, frequencies_at
   use gfb_foil_mass_case, only: has_densities
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_dynamic_response, only: dynamic_response_type
   use gfb_foil_inertia, only: foil_inertia_type
+  use gfb_foil_weighing, only: give_mass
   implicit none (type, external)
   private
-  public :: mass_wanted, highest_frequency, describe_mass
+  public :: choose_mass, describe_mass
 
   integer, parameter :: digits = 4 !! in the log
 
 contains
 
+  !> Gives the vibrating foil its mass, where the scene asks for it or needs it.
+  subroutine choose_mass(scene, bearing, response)
+    type(scene_type), intent(in) :: scene !! that vibrates
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    type(dynamic_response_type), intent(inout) :: response !! of it
+
+    call give_mass(bearing, response, mass_wanted(scene), scene%dynamics%foil_modes, &
+                   highest_frequency(scene, bearing%point%speed))
+  end subroutine choose_mass
+
   !> What the scene asks for: nothing where a density is missing.
   pure function mass_wanted(scene) result(wanted)
-    type(scene_type), intent(in) :: scene !! that vibrates
+    type(scene_type), intent(in) :: scene
     integer :: wanted
 
     wanted = scene%dynamics%foil_mass

@@ -8,7 +8,8 @@ module gfb_film_measures
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
   private
-  public :: force_without_suction, film_drag, film_integral, square_integrals, film_peclet, film_midplane_gap
+  public :: force_without_suction, film_drag, film_integral, square_integrals, film_peclet, &
+            film_midplane_gap
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -77,7 +78,8 @@ contains
     end do
   end function film_integral
 
-  !> This rank's shares of a nodal field's squared integral over the solved surface, and its area [m2].
+  !> This rank's shares of the integral of a nodal field's square over the solved surface, and of
+  !> its area [m2].
   pure function square_integrals(film, value) result(integrals)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the nodes, in any unit [SI]

@@ -20,8 +20,7 @@ module gfb_dynamics
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, &
                                   response_failure, destroy_response
   use gfb_vibration_equations, only: vibration_type
-  use gfb_foil_weighing, only: give_mass
-  use gfb_foil_mass_choice, only: mass_wanted, highest_frequency, describe_mass
+  use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type
@@ -234,8 +233,7 @@ contains
       end if
     end if
     call create_response(bearing, vibration_of(scene), response, opposite)
-    call give_mass(bearing, response, mass_wanted(scene), scene%dynamics%foil_modes, &
-                   highest_frequency(scene, bearing%point%speed))
+    call choose_mass(scene, bearing, response)
   end subroutine start_response
 
   !> What the foil does under vibration.
