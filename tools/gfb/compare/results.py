@@ -22,7 +22,7 @@ EXCLUDED = {
     "provenance/commit": "which program it was",
     "provenance/build": "which program it was",
 }
-ANSWERS = (".h5", ".vtkhdf", ".summary", ".nml")  # endings of what gfb leaves
+ANSWERS = (".h5", ".vtkhdf", ".summary", ".nml", ".csv")  # endings of what gfb leaves
 HDF5 = (".h5", ".vtkhdf")
 
 
