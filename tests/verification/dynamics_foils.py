@@ -26,20 +26,20 @@ def check_slow(checks, folder):
 
 
 def check_same(checks, folder):
-    """Condensed and full shells, half and whole width."""
-    found = {}
-    for tangent in ("stick", "slip"):
-        for reduction, width in (("none", "no"), ("auto", "no"), ("auto", "yes")):
-            case = shells(0.1, reduction=reduction, half_width=width) | {"tilt": (0.0, 0.0)}
-            _, _, found[reduction, width] = vibrate(folder, "same", FOIL_BEARING, {
-                "frequency_ratios": (0.5, 2.0), "contact_tangent": tangent, "loss_factor": 0.05}, **case)
-        _, _, other = vibrate(folder, "same", FOIL_BEARING, {
-            "frequency_ratios": (0.5, 2.0), "contact_tangent": tangent, "loss_factor": 0.05}, ranks=2, **case)
-        checks.below(f"shells, {tangent}: 2 ranks", block_error(other, found["auto", "yes"], ((0, 0), (1, 1))), 1.0e-8)
-        checks.below(f"shells, {tangent}: condensed and full",
-                     block_error(found["auto", "no"], found["none", "no"], ((0, 0), (1, 1))), 1.0e-8)
-        checks.below(f"shells, {tangent}: half and whole width",
-                     block_error(found["auto", "yes"], found["auto", "no"], ((0, 0), (1, 1))), 1.0e-9)
+    """Half and whole width; condensed and full shells, and ranks, with contacts that stick."""
+    keys = {"frequency_ratios": (0.5, 2.0), "loss_factor": 0.05}
+    for tangent, more in (("stick", {"full": {"reduction": "none", "half_width": "no"}}), ("slip", {})):
+        case = keys | {"contact_tangent": tangent}
+        found = {}
+        for words, model in ({"whole": {"half_width": "no"}, "half": {"half_width": "yes"}} | more).items():
+            foil = shells(0.1, **({"reduction": "auto"} | model)) | {"tilt": (0.0, 0.0)}
+            _, _, found[words] = vibrate(folder, "same", FOIL_BEARING, case, **foil)
+            if words == "half" and more:
+                _, _, found["ranks"] = vibrate(folder, "same", FOIL_BEARING, case, ranks=2, **foil)
+        for words, one, other, limit in (("half and whole width", "half", "whole", 1.0e-9),
+                                         ("condensed and full", "whole", "full", 1.0e-8), ("2 ranks", "ranks", "half", 1.0e-8)):
+            if one in found and other in found:
+                checks.below(f"shells, {tangent}: {words}", block_error(found[one], found[other], ((0, 0), (1, 1))), limit)
 
 
 def check_narrow(checks, folder):

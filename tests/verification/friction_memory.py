@@ -136,11 +136,11 @@ def check_same(checks, folder):
     values = (100.0, 140.0, 100.0)
     for foil in FOILS:
         base = sweep(folder, "base", foil, values)
-        others = {"partitioned": {"model": {"coupling": "partitioned"}}, "whole width": {"model": {"half_width": "no"}}}
         if foil == "shell":
-            others |= {"full": {"model": {"reduction": "none"}}, "3 ranks": {"ranks": 3}}
+            others = {"whole width": {"model": {"half_width": "no"}}, "full": {"model": {"reduction": "none"}},
+                      "3 ranks": {"ranks": 3}}
         else:
-            others |= {"2 ranks": {"ranks": 2}}
+            others = {"partitioned": {"model": {"coupling": "partitioned"}}, "2 ranks": {"ranks": 2}}
         for words, keys in others.items():
             other = sweep(folder, "other", foil, values, **keys)
             difference, name = summary_difference(base, other, SIZES)

@@ -29,6 +29,7 @@ module gfb_path_report
     logical :: folded = .false.               !! the branch of answers turns back
     logical :: emptied = .false.              !! the film's pressure has fallen to nothing somewhere
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
+    logical :: of_smaller = .false.           !! the reason is a smaller mesh's, not shown here
   contains
     procedure :: has_cause => report_has_cause
   end type path_report_type

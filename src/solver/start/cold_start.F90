@@ -88,6 +88,11 @@ contains
     end if
     if (problem%refused .and. .not. (report%converged .or. report%has_cause())) then
       report%reason = problem%refusal%reason ! of all starts, not of one
+      report%of_smaller = .true.
+      if (.not. problem%refusal%of_smaller) then
+        report%reason = report%reason//', as the mesh of '//text(small_plan%circumferential)//' x '// &
+          text(small_plan%axial)//' has it'
+      end if
     end if
     call coarse_anchor%destroy()
     call coarse%destroy()
