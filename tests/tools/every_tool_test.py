@@ -23,7 +23,8 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 
-from gfb import coefficients, manual  # noqa: E402 (found only now)
+from damage_test import CASE  # noqa: E402 (found only now)
+from gfb import coefficients, manual  # noqa: E402
 from gfb.bench.runs import kept_rows  # noqa: E402
 from gfb.gallery import strip as gallery_strip  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
@@ -33,18 +34,7 @@ from gfb.tool import run  # noqa: E402
 OF_PYTHON = ("bench", "coefficients", "compare", "gallery", "manual", "plot", "report")
 OTHERS = ("check", "check_floating_point", "check_petsc", "run", "structure", "test")
 VARIANTS = 12  # of each file, for each call
-ROTOR = """&scene analysis = 'linear_dynamics' /
-&bearing radius = 19.05e-3 length = 38.1e-3 clearance = 31.8e-6 /
-&gas viscosity = 1.95e-5 ambient_pressure = 1.0135e5 /
-&operation speed_rpm = 30000.0 eccentricity = 20.0e-6, 8.0e-6 /
-&sweep parameter = 'speed_rpm' values = 20000.0, 30000.0 /
-&top_foil thickness = 0.102e-3 youngs_modulus = 214.0e9 poissons_ratio = 0.29 /
-&bump_foil thickness = 0.102e-3 youngs_modulus = 214.0e9 poissons_ratio = 0.29 half_length = 1.778e-3
-  height = 0.508e-3 pitch = 4.572e-3 bumps = 26 /
-&contact friction_top = 0.1 friction_sleeve = 0.1 /
-&model foil = 'beam' /
-&mesh circumferential_elements = 104 axial_elements = 4 arc_elements = 4 flat_elements = 1 /
-&dynamics frequency_ratios = 0.2, 0.4, 0.6, 0.8, 1.0 /
+ROTOR = CASE.replace("'fixed_position'", "'linear_dynamics'") + """&dynamics frequency_ratios = 0.2, 0.4, 0.6, 0.8, 1.0 /
 &rotor mass = 1.0 /
 """
 STRIP = """&scene analysis = 'strip' /

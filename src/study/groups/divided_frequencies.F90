@@ -24,7 +24,7 @@ module gfb_divided_frequencies
   use gfb_bearing_study, only: bearing_study_type
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
   use gfb_job_groups, only: job_type
-  use gfb_group_log, only: open_group_log, close_group_log
+  use gfb_group_log, only: group_log_path, open_group_log, close_group_log
   implicit none (type)
   private
   public :: run_divided_frequencies
@@ -61,7 +61,7 @@ contains
     job%counted = 0
     own = context
     mine%reason = ''
-    call open_group_log(log_path(scene, context, job%group), job, own, error)
+    call open_group_log(group_log_path(context%folder, scene%name, job%group), job, own, error)
     if (.not. allocated(error)) call compute(scene, job, own, study, mine, error)
     if (allocated(error)) then
       mine%status = error%status
@@ -117,21 +117,12 @@ contains
         ranks = stretch_of(job%ranks, job%groups, group)
         call log%line('group '//text(group)//': '//text(ranks(2) - ranks(1) + 1)//' rank(s), '//text(frequency(ends(1)))// &
                       ' to '//text(frequency(ends(2)))//' rad/s, '//text(ends(2) - ends(1) + 1)//' frequencies, log '// &
-                      log_path(scene, context, group))
+                      group_log_path(context%folder, scene%name, group))
       end do
       call log%line('every group finds the answer about which the shaft vibrates')
       call log%line('')
     end associate
   end subroutine show_division
-
-  !> File of a group's log.
-  function log_path(scene, context, group) result(path)
-    type(scene_type), intent(in) :: scene
-    type(run_context_type), intent(in) :: context
-    integer, intent(in) :: group
-    character(len=:), allocatable :: path
-    path = context%folder//'/'//scene%name//'.group'//text(group)//'.log'
-  end function log_path
 
   !> The answer, and this group's frequencies about it.
   subroutine compute(scene, job, context, study, mine, error)

@@ -25,7 +25,7 @@ module gfb_divided_sweep
   use gfb_bearing_study, only: bearing_study_type
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
   use gfb_job_groups, only: job_type
-  use gfb_group_log, only: open_group_log, close_group_log
+  use gfb_group_log, only: group_log_path, open_group_log, close_group_log
   use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
                                seam_words, place_text, add_origin, merge_dynamics
   implicit none (type)
@@ -54,7 +54,7 @@ contains
     call show_division(scene, context, job)
     job%total = size(scene%sweep%values)
     own = context
-    call open_group_log(log_path(scene, context, job%group), job, own, error)
+    call open_group_log(group_log_path(context%folder, scene%name, job%group), job, own, error)
     if (.not. allocated(error)) call compute(scene, job, own, study, mine, error)
     if (allocated(error)) call log_failure(scene, job, error, mine)
     writer = job%largest(merge(0, job%group, allocated(error)))
@@ -88,7 +88,7 @@ contains
       ranks = stretch_of(job%ranks, job%groups, group)
       call log%line('group '//text(group)//': '//text(ranks(2) - ranks(1) + 1)//' rank(s), '// &
                     place_text(scene, ends(1))//' to '//place_text(scene, ends(2))//', '// &
-                    text(ends(2) - ends(1) + 1)//' point(s), log '//log_path(scene, context, group))
+                    text(ends(2) - ends(1) + 1)//' point(s), log '//group_log_path(context%folder, scene%name, group))
     end do
     if (job%groups == 1) return
     if (scene%sweep%hold_position) then
@@ -98,15 +98,6 @@ contains
     end if
     call log%line('')
   end subroutine show_division
-
-  !> File of a group's log.
-  function log_path(scene, context, group) result(path)
-    type(scene_type), intent(in) :: scene
-    type(run_context_type), intent(in) :: context
-    integer, intent(in) :: group
-    character(len=:), allocatable :: path
-    path = context%folder//'/'//scene%name//'.group'//text(group)//'.log'
-  end function log_path
 
   !> This group's stretch, and the first point of the next one for comparison.
   subroutine compute(scene, job, context, study, mine, error)

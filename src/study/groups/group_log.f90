@@ -1,6 +1,7 @@
 !> The log of a group of ranks: a file of its own.
 module gfb_group_log
   use gfb_errors, only: error_type, fail, status_machine
+  use gfb_text, only: text
   use gfb_c_library, only: remove_file
   use gfb_run_log, only: run_log_type
   use gfb_run_context, only: run_context_type
@@ -8,9 +9,18 @@ module gfb_group_log
   use gfb_job_groups, only: job_type
   implicit none (type, external)
   private
-  public :: open_group_log, close_group_log
+  public :: group_log_path, open_group_log, close_group_log
 
 contains
+
+  !> File of a group's log.
+  pure function group_log_path(folder, name, group) result(path)
+    character(len=*), intent(in) :: folder !! where results go
+    character(len=*), intent(in) :: name   !! of the scene
+    integer, intent(in) :: group           !! from 1
+    character(len=:), allocatable :: path
+    path = folder//'/'//name//'.group'//text(group)//'.log'
+  end function group_log_path
 
   !> Begins a group's log, with the job as listener.
   !>
