@@ -3,6 +3,7 @@ module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_case_keys, only: case_keys_type
+  use gfb_crest_gap_rules, only: check_crest_gaps
   use gfb_dynamics_case, only: check_dynamics
   use gfb_pads_rules, only: check_pads
   use gfb_foil_mass_case, only: check_foil_mass
@@ -45,6 +46,7 @@ contains
                      scene%model)
     call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
                              scene%general%analysis)
+    call check_crest_gaps(keys, scene)
     call check_plates(keys, scene%strip_load, scene%general%analysis)
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)

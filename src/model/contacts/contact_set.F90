@@ -26,7 +26,7 @@ module gfb_contact_set
     real(wp), allocatable :: share(:)          !! (nodes) master's shape functions
     real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
     real(wp) :: length = 0.0_wp                !! of contact line the node stands for [m]
-    real(wp) :: gap = 0.0_wp                   !! between the unloaded foils [m]
+    real(wp) :: gap = 0.0_wp                   !! between the unloaded foils at rest, or where a plate has been moved to [m]
     logical :: pressed = .false.               !! the normal force is given, not a matter of contact
     real(wp) :: pressing = 0.0_wp              !! it [N]
     real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]

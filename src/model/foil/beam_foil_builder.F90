@@ -9,7 +9,7 @@ module gfb_beam_foil_builder
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: fixed_edge_trailing
+  use gfb_bump_foil_case, only: fixed_edge_trailing, gap_of_crest
   use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
@@ -195,22 +195,24 @@ contains
     associate (mesh => foil%bumps%mesh)
       line = node_set(mesh, 'corners')
       do i = 1, size(line)/mesh%rows
-        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp)
+        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp, 0.0_wp)
       end do
       do bump = 1, scene%bump_foil%bumps
         line = node_set(mesh, crest_name(bump))
-        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch)
+        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch, &
+                      gap_of_crest(scene%bump_foil, bump))
       end do
     end associate
   end subroutine add_contacts
 
   !> Contact of a line that is not fixed, nor beyond the top foil.
-  subroutine add_line(foil, node, law, number, overhang)
+  subroutine add_line(foil, node, law, number, overhang, gap)
     type(beam_foil_type), intent(inout) :: foil
     integer, intent(in) :: node     !! first of the line
     integer, intent(in) :: law      !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number   !! of the line
     real(wp), intent(in) :: overhang !! a crest so far beyond the top foil lies at its edge [m]
+    real(wp), intent(in) :: gap      !! at rest [m]
 
     type(contact_point_type) :: point
 
@@ -220,6 +222,7 @@ contains
     if (.not. any(foil%bump_number(:, station) > 0)) return
     point = bump_contact(law, node, number, width_of(foil%bumps%mesh))
     point%slave = foil%bump_number(:axial, station)
+    point%gap = gap
     if (law == contact_top) then
       call find_master(foil, overhang, point)
       if (size(point%share) == 0) return

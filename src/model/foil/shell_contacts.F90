@@ -2,6 +2,7 @@
 module gfb_shell_contacts
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_bump_foil_case, only: gap_of_crest
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
@@ -37,10 +38,11 @@ contains
       allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
       found = 0
       do i = 1, set_count(mesh, corner_name)
-        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
+        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, 0.0_wp, point, found)
       end do
       do i = 1, scene%bump_foil%bumps
-        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
+        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, &
+                      gap_of_crest(scene%bump_foil, i), point, found)
       end do
       foil%contacts%point = point(:found)
     end associate
@@ -48,12 +50,13 @@ contains
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not fixed everywhere.
-  subroutine add_line(foil, ranges, line, law, number, point, found)
+  subroutine add_line(foil, ranges, line, law, number, gap, point, found)
     type(shell_foil_type), intent(in) :: foil
     type(foil_ranges_type), intent(in) :: ranges
     integer, intent(in) :: line(:)
     integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number !! of the line
+    real(wp), intent(in) :: gap   !! at rest [m]
     type(contact_point_type), intent(inout) :: point(:)
     integer, intent(inout) :: found
 
@@ -69,6 +72,7 @@ contains
       found = found + 1
       point(found) = bump_contact(law, line(i), number, length(i))
       point(found)%slave = slave
+      point(found)%gap = gap
     end do
   end subroutine add_line
 

@@ -8,7 +8,7 @@ module gfb_strip_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
   use gfb_contact_laws, only: set_contact_laws
@@ -114,36 +114,39 @@ contains
     type(scene_type), intent(in) :: scene
     type(strip_system_type), intent(inout) :: strip
 
-    real(wp), allocatable :: force(:)
+    real(wp), allocatable :: force(:), gap(:)
     integer :: i
     logical :: pressed
 
     strip%contacts%rows = strip%foil%mesh%rows
-    allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0))
+    allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0), strip%crest_gap(0))
     associate (mesh => strip%foil%mesh)
       if (scene%strip_load%support /= support_held) then
         do i = 1, set_count(mesh, corner_name)
-          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp)
+          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp, 0.0_wp)
         end do
       end if
       pressed = strip%plate == plate_none
       if (pressed .and. .not. scene%contact%friction_top > 0.0_wp) return
       force = crest_forces(scene%strip_load, scene%bump_foil)
+      gap = gap_of_crest(scene%bump_foil, [(i, i=1, size(force))])
+      if (strip%plate == plate_forced) strip%free_travel = minval(gap)
       do i = 1, size(force)
         call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
-                      force(i)/scene%bump_foil%width)
+                      force(i)/scene%bump_foil%width, gap(i) - strip%free_travel)
       end do
     end associate
   end subroutine add_contacts
 
   !> Contacts of a line's nodes; those that are fixed everywhere touch nothing.
-  subroutine add_line(strip, line, law, number, pressed, pressing)
+  subroutine add_line(strip, line, law, number, pressed, pressing, gap)
     type(strip_system_type), intent(inout) :: strip
     integer, intent(in) :: line(:)     !! nodes in order of z
     integer, intent(in) :: law         !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number      !! of the line
     logical, intent(in) :: pressed     !! the normal force is given
     real(wp), intent(in) :: pressing   !! it, per length, at the full load [N/m]
+    real(wp), intent(in) :: gap        !! at rest [m]
 
     type(contact_point_type), allocatable :: point(:)
     type(contact_point_type) :: one
@@ -162,6 +165,7 @@ contains
       if (.not. any(strip%foil%free(:axial, line(i)))) cycle
       one = bump_contact(law, line(i), number, length(i))
       one%pressed = pressed
+      one%gap = gap
       do k = 1, axial
         if (strip%foil%unknown(k, line(i)) < 0) cycle
         global = [global, strip%foil%unknown(k, line(i))]
@@ -181,6 +185,7 @@ contains
     strip%contacts%global = [strip%contacts%global, global]
     strip%contacts%point = [strip%contacts%point, point(:found)]
     strip%crest_press = [strip%crest_press, pressing*point(:found)%length]
+    strip%crest_gap = [strip%crest_gap, point(:found)%gap]
   end subroutine add_line
 
   !> The full load: forces on crests, or on the plate.

@@ -43,6 +43,8 @@ module gfb_strip_system
     real(wp) :: plate_displacement = 0.0_wp          !! of a moved plate at the full load, towards the sleeve [m]
     real(wp) :: factor = 0.0_wp             !! share of the full load that acts
     integer :: unknowns = 0                 !! with the plate's
+    real(wp), allocatable :: crest_gap(:)   !! of each contact at rest, beyond the smallest under a forced plate [m]
+    real(wp) :: free_travel = 0.0_wp        !! of a forced plate to the highest crest [m]
     real(wp), allocatable :: crest_press(:) !! full normal force of each pressed contact [N]
     Mat :: elastic                          !! stiffness of the foil alone, scaled
     Vec :: full_load                        !! scaled
@@ -292,7 +294,9 @@ contains
     do i = 1, size(self%contacts%point)
       associate (point => self%contacts%point(i))
         if (point%pressed) point%pressing = max(0.0_wp, factor*self%crest_press(i))
-        if (self%plate == plate_moved .and. point%law == contact_top) point%gap = -factor*self%plate_displacement
+        if (self%plate == plate_moved .and. point%law == contact_top) then
+          point%gap = -(factor*self%plate_displacement - self%crest_gap(i))
+        end if
       end associate
     end do
   end subroutine set_factor
@@ -326,7 +330,8 @@ contains
     PetscCallA(VecPointwiseMult(solution, self%state, self%unit, ierr))
   end subroutine foil_solution
 
-  !> Displacement of the plate towards the sleeve [m]; zero without one.
+  !> Displacement of the plate towards the sleeve [m]; zero without one. One whose force is given lies on
+  !> the highest crest at rest.
   function plate_travel(self) result(displacement)
     class(strip_system_type), intent(in) :: self !! the strip
     real(wp) :: displacement
@@ -334,7 +339,7 @@ contains
     displacement = 0.0_wp
     if (self%plate == plate_moved) displacement = self%factor*self%plate_displacement
     if (self%plate /= plate_forced) return
-    displacement = -self%scale%length*sum(self%border%values(self%state))
+    displacement = -(self%scale%length*sum(self%border%values(self%state)) - self%free_travel)
   end function plate_travel
 
   !> Energy of the foil's deformation [J].

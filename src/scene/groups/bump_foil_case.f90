@@ -2,13 +2,15 @@
 module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
+  use gfb_bump_list, only: bump_list_key
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_height_deviation_keys, only: read_height_deviation
   use gfb_text, only: text
-  use gfb_value_rules, only: at_least, between, positive
+  use gfb_value_rules, only: at_least, between, not_negative, positive
   implicit none (type, external)
   private
-  public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap
+  public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -35,6 +37,8 @@ module gfb_bump_foil_case
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
     logical :: poissons_ratio_given = .false.
+    !> at rest, one a bump from the smallest x on; not allocated: all crests touch [m]
+    real(wp), allocatable :: crest_gap(:)
   end type bump_foil_case_type
 
 contains
@@ -48,6 +52,7 @@ contains
     logical, intent(in) :: with_mass  !! and its density too
     logical, intent(in) :: with_pitch !! more of it than an arc is meshed; no pad tells the pitch
     logical, intent(in) :: with_width !! no bearing tells the width
+    logical :: gaps !! are given
 
     call keys%start_group('bump_foil', required=as_shell, optional=.true., &
                           present_in_file=foil%present)
@@ -72,6 +77,11 @@ contains
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
+    call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'm', 'gap at rest '// &
+                       'between a bump''s crest and the top foil or plate', not_negative, &
+                       '0: all crests touch')
+    gaps = keys%key%given
+    call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%height, foil%crest_gap)
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
 
@@ -84,6 +94,16 @@ contains
       call keys%real_key(name, value, 'm', meaning, positive, as_shell, default=no_default)
     end subroutine length_key
   end subroutine read_bump_foil_case
+
+  !> Gap at rest between a bump's crest and the top foil [m].
+  elemental function gap_of_crest(foil, bump) result(gap)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer, intent(in) :: bump !! number of the bump, from the smallest x on
+    real(wp) :: gap
+
+    gap = 0.0_wp
+    if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
+  end function gap_of_crest
 
   !> Whether there are flats between the bumps.
   elemental function has_flats(foil) result(flats)

@@ -1,0 +1,73 @@
+!> Keys of `&bump_foil` that make the heights of its bumps random.
+module gfb_height_deviation_keys
+  use gfb_kinds, only: wp
+  use gfb_bump_heights, only: crest_gaps, normal_deviations
+  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_text, only: text
+  use gfb_value_rules, only: at_least, positive
+  implicit none (type, external)
+  private
+  public :: read_height_deviation
+
+  character(len=*), parameter :: group = 'bump_foil'
+  character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
+
+contains
+
+  !> Reads the law of the heights, and the gaps that they leave where none are given.
+  subroutine read_height_deviation(keys, in_file, gaps, bumps, height, gap)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    logical, intent(in) :: in_file !! the file has the group
+    logical, intent(in) :: gaps    !! and gives the gaps themselves
+    integer, intent(in) :: bumps   !! of the strip, 0 where not known
+    real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
+    real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
+    real(wp) :: deviation !! of the heights [m]
+    character(len=:), allocatable :: key
+    integer :: seed
+    logical :: random, right
+
+    deviation = 0.0_wp
+    key = 'crest_gap'
+    call keys%real_key('height_deviation', deviation, 'm', 'standard deviation of the bumps'' '// &
+                       'heights; at rest the highest crest touches', positive, &
+                       default=no_default, given=random)
+    right = keys%last_key_is_right()
+    call read_law(keys, in_file .and. .not. random, seed, right)
+    if (gaps .and. random) then
+      call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
+                         'from the heights; give one of them')
+    else if (right .and. bumps > 0) then
+      key = 'height_deviation'
+      gap = crest_gaps(deviation*normal_deviations(seed, bumps))
+    end if
+    if (.not. allocated(gap) .or. .not. height > 0.0_wp) return
+    if (all(gap < height)) return
+    call keys%complain(group, key, 'leaves a gap of '//text(maxval(gap), 4)//' m, which must '// &
+                       'be less than the height of the bumps, '//text(height)//' m')
+  end subroutine read_height_deviation
+
+  !> The law of random heights, and what chooses them.
+  subroutine read_law(keys, useless, seed, right)
+    type(case_keys_type), intent(inout) :: keys
+    logical, intent(in) :: useless   !! heights do not deviate
+    integer, intent(out) :: seed
+    logical, intent(inout) :: right  !! the heights are known so far
+    character(len=*), parameter :: seed_meaning = 'chooses the random heights: the same seed '// &
+      'gives the same ones'
+    character(len=*), parameter :: law_meaning = 'law of the random heights'
+    integer :: law
+
+    seed = 1
+    law = 1
+    if (useless) then
+      call keys%useless_key('seed', seed_meaning, 'needs height_deviation')
+      call keys%useless_key('deviation_law', law_meaning, 'needs height_deviation')
+      return
+    end if
+    call keys%integer_key('seed', seed, seed_meaning, at_least(0.0_wp))
+    right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
+    call keys%choice_key('deviation_law', law, law_words, law_meaning)
+    right = right .and. law > 0
+  end subroutine read_law
+end module gfb_height_deviation_keys
