@@ -8,7 +8,8 @@ module gfb_strip_cost
   use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
   use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
+  use gfb_film_mesh, only: axial_rows
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
@@ -67,7 +68,7 @@ contains
     shape%arc_elements = arc_elements
     shape%flat_elements = flat_elements
     strip%section = shell_section_type(0.102e-3_wp, 214.0e9_wp, 0.29_wp, 8440.0_wp)
-    strip%mesh = bump_strip_mesh(shape, axial_rows(width, axial_elements, .false.), .false.)
+    strip%mesh = bump_strip_mesh(shape, axial_rows(width, axial_elements, .false., 1.0_wp), .false.)
     strip%piece = strip_substructures(shape, strip%mesh)
     allocate (strip%fixed(node_unknowns, size(strip%mesh%position, 2)), source=.false.)
     strip%fixed(2, node_set(strip%mesh, 'corners')) = .true.

@@ -6,7 +6,7 @@ module gfb_partition_report
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_partition, only: division_type, divide, no_chain
-  use gfb_foil_mesh, only: axial_rows
+  use gfb_film_mesh, only: axial_rows
   use gfb_model_case, only: foil_shell, reduction_guyan
   use gfb_foil_builder, only: foil_plan_type, foil_chain
   use gfb_mesh_plan, only: bearing_plan_type
@@ -47,7 +47,7 @@ contains
     type(division_type) :: division
     integer :: rows
 
-    rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, plan%half))
+    rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, plan%half, 1.0_wp))
     call divide(no_chain(), foil_chain(scene, rows, plan%reduced), ranks, division, error)
     if (allocated(error)) return
     call show_shares(division, plan%reduced, log)

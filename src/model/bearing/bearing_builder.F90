@@ -137,11 +137,12 @@ contains
     associate (bearing => scene%bearing)
       if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
-                            bearing%length, plan%axial, plan%half, plan%order)
+                            bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
       else
         mesh = uniform_film_mesh(bearing%radius, bearing%length, bearing%leading_edge_angle, &
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
-                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order)
+                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
+                                 scene%mesh%edge_refinement)
         if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
           call align_stations(mesh, bore_kinks(scene%bore%profile, pad_turn(bearing, [(i, i=1, bearing%pads)])))
         end if

@@ -1,9 +1,9 @@
-!> The film's mesh: a rectangle of the unrolled pad, or a ring.
+!> The film's mesh: a rectangle of the unrolled pad, or a ring; rows of film and foils.
 module gfb_film_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
+  public :: axial_rows, uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
             find_film_place, find_interval
 
   !> A film mesh by its stations along the shaft's motion and its rows along the axis.
@@ -30,9 +30,37 @@ module gfb_film_mesh
 
 contains
 
-  !> Mesh of equal elements over the pad.
+  !> Rows along the axis, symmetric about z = 0 to the last digit, so that mirrored scenes give
+  !> mirrored answers.
+  !>
+  !> z = W/2 tanh(a s)/tanh(a), s equally spaced from -1 to 1, cosh(a)^2 the refinement: elements
+  !> become narrower towards both edges, and a doubled number of them divides each. Rows in the
+  !> middle of elements lie there exactly.
+  pure function axial_rows(width, elements, half, refinement, order) result(rows)
+    real(wp), intent(in) :: width      !! whole width [m]
+    integer, intent(in) :: elements    !! over the whole width
+    logical, intent(in) :: half        !! z >= 0 only; elements is even then
+    !> width of the elements in the middle over that at the edges; 1: equal ones [1]
+    real(wp), intent(in) :: refinement
+    integer, intent(in), optional :: order !! of the elements: 1 or 2; default: 1
+    real(wp), allocatable :: rows(:) !! z, rising [m]
+    integer :: i, along, step
+
+    step = 1
+    if (present(order)) step = order
+    along = step*elements
+    rows = [(0.5_wp*width*real(2*i - along, wp)/real(along, wp), i=merge(along/2, 0, half), along)]
+    if (.not. refinement > 1.0_wp) return
+    associate (rate => acosh(sqrt(refinement)))
+      rows = 0.5_wp*width*(tanh(rate*(rows/(0.5_wp*width)))/tanh(rate))
+    end associate
+    do i = 2, size(rows) - 1, 2
+      if (step == 2) rows(i) = 0.5_wp*(rows(i - 1) + rows(i + 1))
+    end do
+  end function axial_rows
+  !> Mesh of elements of equal length over the pad.
   pure function uniform_film_mesh(radius, length, leading_edge_angle, pad_angle, circumferential, &
-                                  axial, periodic, half, order) result(mesh)
+                                  axial, periodic, half, order, refinement) result(mesh)
     real(wp), intent(in) :: radius             !! of the bearing [m]
     real(wp), intent(in) :: length             !! whole width of the bearing [m]
     real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
@@ -42,35 +70,40 @@ contains
     logical, intent(in) :: periodic            !! a ring without edges
     logical, intent(in) :: half                !! mesh z >= 0 only; axial is even then
     integer, intent(in), optional :: order     !! of the elements; default: 1
+    !> of the rows towards the edges, see axial_rows; default: 1 [1]
+    real(wp), intent(in), optional :: refinement
     type(film_mesh_type) :: mesh
-    integer :: i, around, along, first
+    real(wp) :: finer
+    integer :: i, around
 
     mesh%radius = radius
     mesh%periodic = periodic
     mesh%half = half
     if (present(order)) mesh%order = order
     around = mesh%order*circumferential
-    along = mesh%order*axial
     mesh%station_angle = [(leading_edge_angle + pad_angle*real(i, wp)/real(around, wp), &
                            i=0, merge(around - 1, around, periodic))]
-    first = merge(along/2, 0, half)
-    ! Symmetric to the last digit about z = 0, so that mirrored scenes give mirrored answers.
-    mesh%row_axial = [(0.5_wp*length*real(2*i - along, wp)/real(along, wp), i=first, along)]
+    finer = 1.0_wp
+    if (present(refinement)) finer = refinement
+    mesh%row_axial = axial_rows(length, axial, half, finer, mesh%order)
   end function uniform_film_mesh
 
   !> Mesh of a pad with given sides of elements.
-  pure function film_mesh_at(side_angle, radius, length, axial, half, order) result(mesh)
+  pure function film_mesh_at(side_angle, radius, length, axial, half, order, &
+                             refinement) result(mesh)
     real(wp), intent(in) :: side_angle(:) !! theta where elements meet, rising [rad]
     real(wp), intent(in) :: radius           !! of the bearing [m]
     real(wp), intent(in) :: length           !! whole width of the bearing [m]
     integer, intent(in) :: axial             !! elements along the whole width
     logical, intent(in) :: half              !! mesh z >= 0 only; axial is even then
     integer, intent(in), optional :: order   !! of the elements; default: 1
+    !> of the rows towards the edges, see axial_rows; default: 1 [1]
+    real(wp), intent(in), optional :: refinement
     type(film_mesh_type) :: mesh
     integer :: i
 
     mesh = uniform_film_mesh(radius, length, side_angle(1), 0.0_wp, size(side_angle) - 1, &
-                             axial, .false., half, order)
+                             axial, .false., half, order, refinement)
     mesh%station_angle(1::mesh%order) = side_angle ! nodes where elements meet
     if (mesh%order == 1) return
     do i = 2, mesh%stations() - 1, 2 ! nodes in the middle of an element

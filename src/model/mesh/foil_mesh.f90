@@ -11,7 +11,7 @@ module gfb_foil_mesh
   use gfb_substructures, only: substructure_type
   implicit none (type, external)
   private
-  public :: bump_strip_mesh, strip_substructures, top_foil_mesh, axial_rows
+  public :: bump_strip_mesh, strip_substructures, top_foil_mesh
   public :: crest_positions, aligned_stations, station_positions, dividing_stations
   public :: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
 
@@ -45,17 +45,6 @@ module gfb_foil_mesh
   end type station_type
 
 contains
-
-  !> Rows of equal elements along the axis, symmetric about z = 0 to the last digit.
-  pure function axial_rows(width, axial, half) result(rows)
-    real(wp), intent(in) :: width   !! whole width [m]
-    integer, intent(in) :: axial    !! elements over the whole width
-    logical, intent(in) :: half     !! z >= 0 only; axial is even then
-    real(wp), allocatable :: rows(:)
-    integer :: i
-
-    rows = [(0.5_wp*width*real(2*i - axial, wp)/real(axial, wp), i=merge(axial/2, 0, half), axial)]
-  end function axial_rows
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
   !> trailing_edge, fixed_edge, free_edge, midplane; crest_1 and corner_1 lie at the smallest x.

@@ -19,7 +19,8 @@ module gfb_strip_builder
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: strip_chain, strip_columns, strip_kinds
   use gfb_mesh_dm, only: columns_window
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, axial_rows
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
+  use gfb_film_mesh, only: axial_rows
   use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
@@ -89,7 +90,7 @@ contains
 
     shape = strip_shape(scene)
     associate (foil => scene%bump_foil)
-      rows = axial_rows(foil%width, scene%mesh%axial_elements, plan%half)
+      rows = axial_rows(foil%width, scene%mesh%axial_elements, plan%half, scene%mesh%edge_refinement)
       call divide(no_chain(), strip_chain(shape, size(rows), plan%reduced), rank_count(), division, error)
       if (allocated(error)) return
       column_part = strip_columns(shape, plan%reduced, division%bumps)

@@ -11,11 +11,11 @@ module gfb_foil_builder
   use gfb_top_foil_case, only: top_foil_leading
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none
   use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
-  use gfb_film_mesh, only: film_mesh_type
+  use gfb_film_mesh, only: film_mesh_type, axial_rows
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
   use gfb_top_mesh, only: top_mesh
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, &
-                           axial_rows, aligned_stations, crest_positions, dividing_stations, &
+                           aligned_stations, crest_positions, dividing_stations, &
                            fixed_line_corner
   use gfb_substructures, only: substructure_type
   use gfb_partition, only: chain_type, division_type, divide, no_chain
@@ -60,7 +60,7 @@ contains
     real(wp), allocatable :: rows(:)
 
     rows = axial_rows(merge(scene%bearing%length, scene%bump_foil%width, scene%modes%part == part_top_foil), &
-                      scene%mesh%axial_elements, plan%half)
+                      scene%mesh%axial_elements, plan%half, scene%mesh%edge_refinement)
     call divide(no_chain(), foil_chain(scene, size(rows), .false.), rank_count(), division, error)
     if (allocated(error)) return
     section = section_of(scene%bump_foil)

@@ -20,6 +20,8 @@ module gfb_mesh_case
   type :: mesh_case_type
     integer :: circumferential_elements = elements_around
     integer :: axial_elements = 32 !! of the whole width, also where one half is solved
+    !> width of the elements in the middle over that at the edges of the width [1]
+    real(wp) :: edge_refinement = 1.0_wp
     integer :: arc_elements = 12   !! of a bump's arc
     integer :: flat_elements = 3   !! of the flat between two bumps
     logical :: align_crests = .false. !! lines of nodes of film and top foil lie above the crests
@@ -52,6 +54,9 @@ contains
                           'elements of the whole width, also where one half is solved; by '// &
                           'default 16 with `film_order = 2`', &
                           from_to(2.0_wp, real(most_a_side, wp)))
+    call keys%real_key('edge_refinement', mesh%edge_refinement, '1', 'width of the elements '// &
+                       'in the middle over that at the edges of the width: narrow ones where '// &
+                       'the pressure falls; 1: equal ones', from_to(1.0_wp, 100.0_wp))
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
     if (modulo(mesh%arc_elements, 2) /= 0) then

@@ -2,8 +2,9 @@
 module strip_samples
   use gfb_kinds, only: wp
   use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_film_mesh, only: axial_rows
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, fixed_line_corner
+                           fixed_line_corner
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
@@ -68,7 +69,7 @@ contains
     logical, allocatable, intent(out) :: fixed(:, :)
     type(substructure_type), allocatable, intent(out) :: pieces(:)
 
-    mesh = bump_strip_mesh(shape, axial_rows(width, axial, half), half)
+    mesh = bump_strip_mesh(shape, axial_rows(width, axial, half, 1.0_wp), half)
     pieces = strip_substructures(shape, mesh)
     allocate (fixed(5, size(mesh%position, 2)), source=.false.)
     if (half) fixed([3, 5], node_set(mesh, 'midplane')) = .true.

@@ -2,8 +2,9 @@
 module vibrating_strips
   use gfb_kinds, only: wp
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
+  use gfb_film_mesh, only: axial_rows
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, fixed_line_corner
+                           fixed_line_corner
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
@@ -39,7 +40,7 @@ contains
     shape%begins = fixed_line_corner
     shape%arc_elements = elements(1)
     shape%flat_elements = elements(2)
-    mesh = bump_strip_mesh(shape, axial_rows(width, elements(3), .false.), .false.)
+    mesh = bump_strip_mesh(shape, axial_rows(width, elements(3), .false., 1.0_wp), .false.)
     pieces = strip_substructures(shape, mesh)
     allocate (fixed(5, size(mesh%position, 2)), source=.false.)
     if (support == held) then

@@ -3,8 +3,9 @@ module planar_strips
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set
+  use gfb_film_mesh, only: axial_rows
   use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           axial_rows, fixed_line_corner
+                           fixed_line_corner
   use gfb_substructures, only: substructure_type, find_kinds
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_assembly, only: create_foil_structure
@@ -83,7 +84,7 @@ contains
     shape%begins = fixed_line_corner
     shape%arc_elements = 12*planar%refinement
     shape%flat_elements = 3*planar%refinement
-    mesh = bump_strip_mesh(shape, axial_rows(width, axial_elements, .false.), .false.)
+    mesh = bump_strip_mesh(shape, axial_rows(width, axial_elements, .false., 1.0_wp), .false.)
     pieces = strip_substructures(shape, mesh)
     allocate (fixed(node_unknowns, size(mesh%position, 2)), source=.false.)
     fixed([axial, about_tangent], :) = .true.
