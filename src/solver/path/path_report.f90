@@ -28,6 +28,7 @@ module gfb_path_report
     integer :: cuts = 0                       !! steps that had to be shortened
     logical :: folded = .false.               !! the branch of answers turns back
     logical :: emptied = .false.              !! the film's pressure has fallen to nothing somewhere
+    logical :: drawn = .false.                !! the film draws the free edge to the shaft
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the reason is a smaller mesh's, not shown here
   contains

@@ -7,6 +7,7 @@ module gfb_cold_start
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
+  use gfb_signals, only: stop_agreed
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
@@ -15,7 +16,7 @@ module gfb_cold_start
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
-  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type
   use gfb_kept_state, only: kept_state_type
   use gfb_start_list, only: try_starts
@@ -28,13 +29,69 @@ module gfb_cold_start
   private
   public :: start_bearing, start_partitioned
 
+  real(wp), parameter :: light = 0.1_wp !! load of a lighter start, over the one asked for [1]
+  real(wp), parameter :: heavier(4) = [0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp] !! loads on the way up from there [1]
+
 contains
 
   !> Builds a scene's equations and finds their answer at the scene's operating point.
   !>
+  !> Where a search ends, it may be the end of the branch on which it came under the load, not of all: it has to show on the
+  !> way up from a lighter load, too, where that has an answer.
+  !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  recursive subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, &
-                                     bearing, newton, report, error, anchor)
+  subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    type(scene_type), target, intent(in) :: scene !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan          !! its meshes
+    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
+    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
+    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    type(operating_point_type) :: lighter
+    type(path_report_type) :: refusal
+    type(kept_state_type) :: refused
+    integer :: iterations, factorizations, i
+    logical :: again
+
+    call start_on_meshes(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    if (allocated(error)) return
+    again = report%touched .or. .not. (report%converged .or. report%drawn .or. report%has_cause())
+    again = again .and. bearing%floats .and. .not. any(scene%operation%lift_given)
+    if (again) again = bearing%pad(1)%foil%has_contacts()
+    if (again) again = .not. stop_agreed()
+    if (.not. again) return
+    call log%line('no answer from there ('//report%reason//'); from '//text(100.0_wp*light, 2)//' % of the load:')
+    refusal = report
+    call refused%keep(bearing)
+    iterations = newton%iterations
+    factorizations = newton%factorizations
+    call destroy_newton(newton)
+    call bearing%destroy()
+    lighter = target
+    lighter%load = light*target%load
+    call start_on_meshes(scene, plan, lighter, newton_settings, path_settings, log, bearing, newton, report, error, on_the_way=.true.)
+    if (allocated(error)) return
+    do i = 1, size(heavier)
+      if (.not. report%converged) exit
+      lighter%load = heavier(i)*target%load
+      call follow_path(bearing, newton, lighter, 1.0_wp, path_settings, report)
+    end do
+    if (.not. report%converged .and. (refusal%has_cause() .or. .not. report%has_cause())) then
+      report = refusal
+      call refused%put_back(bearing)
+    end if
+    call refused%destroy()
+    newton%iterations = newton%iterations + iterations
+    newton%factorizations = newton%factorizations + factorizations
+  end subroutine start_bearing
+
+  !> Builds a scene's equations and finds their answer, on smaller meshes first.
+  recursive subroutine start_on_meshes(scene, plan, target, newton_settings, path_settings, log, &
+                                       bearing, newton, report, error, anchor, on_the_way)
     type(scene_type), target, intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
@@ -46,6 +103,7 @@ contains
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
     type(kept_state_type), intent(out), optional :: anchor !! of a refusal: a state that shows it on a larger system, too
+    logical, intent(in), optional :: on_the_way !! the target lies on the way to another one: one start, no more
 
     type(bearing_system_type), target :: coarse
     type(kept_state_type) :: coarse_anchor
@@ -61,8 +119,8 @@ contains
     helped = .false.
     call find_smaller(scene, plan, target, has_smaller, small, small_plan)
     if (has_smaller) then
-      call start_bearing(small, small_plan, target, newton_settings, path_settings, log, coarse, &
-                         coarse_newton, report, error, coarse_anchor)
+      call start_on_meshes(small, small_plan, target, newton_settings, path_settings, log, coarse, &
+                           coarse_newton, report, error, coarse_anchor, on_the_way)
       if (allocated(error)) return
       if (coarse_anchor%created) call coarse_anchor%put_back(coarse)
       newton%iterations = coarse_newton%iterations
@@ -74,6 +132,7 @@ contains
     call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
     problem%scene => scene
     problem%target = target
+    if (present(on_the_way)) problem%on_the_way = on_the_way
     problem%settings = path_settings
     problem%bearing => bearing
     problem%newton => newton
@@ -88,6 +147,7 @@ contains
     end if
     if (problem%refused .and. .not. (report%converged .or. report%has_cause())) then
       report%reason = problem%refusal%reason ! of all starts, not of one
+      report%drawn = problem%refusal%drawn
       report%of_smaller = .true.
       if (.not. problem%refusal%of_smaller) then
         report%reason = report%reason//', as the mesh of '//text(small_plan%circumferential)//' x '// &
@@ -104,7 +164,7 @@ contains
     if (report%converged .and. .not. problem%from_smaller .and. any(scene%operation%lift_given)) then
       call seek_branch(scene%operation%lift_given, scene%operation%leading_edge_lift, bearing, newton)
     end if
-  end subroutine start_bearing
+  end subroutine start_on_meshes
 
   !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.
   !>
@@ -134,7 +194,7 @@ contains
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
     stiff = scene
     stiff%model%foil = foil_rigid
-    call start_bearing(stiff, plan, target, newton_settings, path_settings, log, rigid, rigid_newton, &
+    call start_on_meshes(stiff, plan, target, newton_settings, path_settings, log, rigid, rigid_newton, &
                        report, error)
     if (allocated(error)) return
     newton%iterations = rigid_newton%iterations

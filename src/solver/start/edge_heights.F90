@@ -225,6 +225,7 @@ contains
         call problem%anchor%keep(bearing)
         report%shaft_fixed = .false.
         report%touched = .false.
+        report%drawn = .true.
         report%reason = suction//heights
       else
         if (highest > 0.0_wp) problem%suspicion = suction//', as far as it was followed'//heights//'; higher up '//report%reason

@@ -62,6 +62,7 @@ contains
     if (problem%bearing%point%edge_hold > 0.0_wp) then
       ends = edge_force(problem%bearing) < 0.0_wp
       report%reason = problem%refusal%reason
+      report%drawn = problem%refusal%drawn
     else
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, &
                        trial_settings(problem%settings), report)

@@ -76,7 +76,10 @@ contains
         call start%try(problem, start%soft, report, ends)
         if (start%counts) call keep_nearest(problem, report, nearest)
         problem%shown = ends .and. .not. (report%converged .or. start%counts)
-        if (problem%shown) nearest%report%reason = report%reason
+        if (problem%shown) then
+          nearest%report%reason = report%reason
+          nearest%report%drawn = report%drawn
+        end if
         stopped = stop_agreed()
         if (report%converged .or. ends .or. stopped) exit
         if (i == size(list)) exit
@@ -95,7 +98,7 @@ contains
       report = nearest%report
       if (.not. (problem%shown .or. report%has_cause()) .and. allocated(problem%suspicion)) then
         report%reason = problem%suspicion
-      else if (.not. (problem%shown .or. problem%slowed .or. report%has_cause()) .and. problem%bearing%floats) then
+      else if (.not. (problem%shown .or. problem%on_the_way .or. report%has_cause()) .and. problem%bearing%floats) then
         report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
           report%reason
       end if
@@ -116,7 +119,7 @@ contains
     do i = 1, size(starts)
       if (.not. starts(i)%applies(problem)) cycle
       list = [list, i]
-      if (problem%slowed .or. (problem%refused .and. .not. associated(starts(i)%applies, is_refused))) exit
+      if (problem%on_the_way .or. (problem%refused .and. .not. associated(starts(i)%applies, is_refused))) exit
     end do
   end function applying
 
@@ -157,7 +160,7 @@ contains
 
     ends = .false.
     slower = problem
-    slower%slowed = .true.
+    slower%on_the_way = .true.
     slower%smaller => null()
     slower%anchor = kept_state_type()
     slower%target%speed = slow*problem%target%speed
@@ -225,7 +228,7 @@ contains
     type(start_problem_type), intent(in) :: problem
     logical :: applies
     applies = .false.
-    if (problem%bearing%floats .or. problem%slowed) return
+    if (problem%bearing%floats .or. problem%on_the_way) return
     if (has_contacts(problem)) applies = has_free_edge(problem%bearing)
   end function fixed_with_free_edge
 
@@ -233,6 +236,6 @@ contains
   function can_be_slower(problem) result(applies)
     type(start_problem_type), intent(in) :: problem
     logical :: applies
-    applies = floats_on_contacts(problem) .and. .not. problem%slowed
+    applies = floats_on_contacts(problem) .and. .not. problem%on_the_way
   end function can_be_slower
 end module gfb_start_list
