@@ -3,10 +3,9 @@ module gfb_scene_groups
   use gfb_accuracy_case, only: read_accuracy_case
   use gfb_bearing_case, only: read_bearing_case
   use gfb_bore_case, only: read_bore_case
-  use gfb_bump_foil_case, only: read_bump_foil_case
   use gfb_case_keys, only: case_keys_type
-  use gfb_contact_case, only: read_contact_case
   use gfb_dynamics_case, only: read_dynamics_case, analysis_of_state
+  use gfb_foil_groups, only: read_foil_groups
   use gfb_gas_case, only: read_gas_case
   use gfb_mesh_case, only: read_mesh_case
   use gfb_model_case, only: read_model_case, meshes_foils
@@ -21,9 +20,7 @@ module gfb_scene_groups
                             analysis_strip, analysis_modes
   use gfb_shaft_contact_case, only: read_shaft_contact_case
   use gfb_solver_case, only: read_solver_case
-  use gfb_strip_load_case, only: read_strip_load_case
   use gfb_sweep_case, only: read_sweep_case
-  use gfb_top_foil_case, only: read_top_foil_case
   implicit none (type, external)
   private
   public :: read_groups
@@ -62,12 +59,7 @@ contains
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, analysis)
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
-                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
-      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
-      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
-                             scene%bearing%clearance, analysis, scene%model%foil)
+      call read_foil_groups(keys, scene, modes, plate, bumps, both, arc)
     end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
     call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
