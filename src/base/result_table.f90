@@ -26,7 +26,7 @@ module gfb_result_table
   !> A row of the table.
   type, public :: result_type
     character(len=name_length) :: name
-    character(len=8) :: unit      !! SI, or '1'; empty for words; `own_unit`
+    character(len=16) :: unit     !! SI, or '1'; empty for words; `own_unit`
     integer :: kind               !! `quantity_number`, ...
     integer :: studies            !! sum of the bits of those that have it
     character(len=112) :: meaning !! attribute in the result files, one line
@@ -35,7 +35,7 @@ module gfb_result_table
     logical :: compared = .false. !! where groups of ranks meet, to see that answers are the same
     logical :: varies = .false.   !! with the machine and from run to run
     logical :: joins = .false.    !! in the manual it shares the line above
-    logical :: nodal = .false.    !! the largest or smallest of values at nodes
+    logical :: nodal = .false.    !! the largest or smallest of values at nodes, or bound to it
   end type result_type
 
   character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`, or of a key
@@ -217,6 +217,28 @@ module gfb_result_table
       'speed at which growth_rate changes its sign, the first along the sweep', &
       'with `&rotor` in a sweep of `speed_rpm`: speed at which `growth_rate` changes its sign, '// &
       'the first along the sweep; absent where it does not'), &
+    result_type('load_capacity', 'N', number, bearing, &
+      'load at which the smallest film has come down to the one asked for', &
+      'with `analysis = ''load_capacity''`: load, in the direction of `load`, at which the '// &
+      'smallest film has come down to `smallest_gap`', asked=.true., nodal=.true.), &
+    result_type('load_capacity_coefficient', 'lbf/(in^3 krpm)', number, bearing, &
+      'that load over L D . D . N: length, diameter, speed', &
+      'that load over L D . D . N, with length and diameter in inches, N in 1000 rpm'), &
+    result_type('load_capacity_coefficient_si', 'N s/m^3', number, bearing, &
+      'that load over L D . D . Omega, with Omega in rad/s', &
+      'that load over L D . D . Omega, with Omega in rad/s'), &
+    result_type('lift_off_speed_rpm', 'rpm', number, bearing, &
+      'speed at which the asperities carry the part of the load asked for', &
+      'with `analysis = ''lift_off''`: speed at which the asperities carry `contact_part` of '// &
+      'the load', asked=.true.), &
+    result_type('misalignment_allowance', 'rad', number, bearing, &
+      'tilt at which the smallest film has come down to the one asked for', &
+      'with `analysis = ''misalignment_allowance''`: tilt about `tilt_axis` at which the '// &
+      'smallest film has come down to `smallest_gap`', asked=.true., nodal=.true.), &
+    result_type('limit_reached', '1', truth, bearing, &
+      'whether the limit asked for is reached; 0: the branch of answers ends before', &
+      'of the last three analyses: 1 where film or asperities are at the limit asked for, 0 '// &
+      'where the branch of answers ends before, and its end is what is told'), &
     result_type('<quantity>_error', own_unit, number, accuracy, &
       'estimated from nested meshes, absolute', &
       'estimated error of that quantity, absolute; order of convergence that the meshes show, '// &

@@ -61,6 +61,11 @@ contains
       call fail(error, scene%file//": --branches has no use with analysis = 'linear_dynamics'")
       return
     end if
+    if (scene%capacity%question > 0) then
+      call fail(error, scene%file//": --branches needs analysis = 'equilibrium': a limit is "// &
+                'looked for on one branch')
+      return
+    end if
     if (scene%bearing%pads > 1) then
       call fail(error, scene%file//': --branches needs a bearing of one pad: count = 1 in &pads')
       return

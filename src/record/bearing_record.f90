@@ -6,7 +6,7 @@ module gfb_bearing_record
   use gfb_results, only: add_result
   use gfb_result_names, only: result_unit, result_meaning
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_scene_case, only: analysis_equilibrium, analysis_words
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer
@@ -28,6 +28,8 @@ module gfb_bearing_record
     type(history_row_type), allocatable :: history(:)
     type(contact_record_type) :: contacts
     type(quantity_type), allocatable :: judged(:) !! what else is known of the last answer
+    type(quantity_type), allocatable :: limit(:) !! where it is the limit that was asked for
+    logical :: at_fold = .false. !! that answer is the end of a branch in a fold, before a limit
     type(tilt_response_type) :: tilted
     type(dynamics_record_type) :: dynamics !! stiffness, damping, rotor
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
@@ -77,6 +79,7 @@ contains
     name = 'fixed_position'
     if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
     if (scene%dynamics%present) name = 'linear_dynamics'
+    if (scene%capacity%question > 0) name = trim(analysis_words(scene%capacity%question))
   end function analysis_name
 
   !> The word for what a sweep changes.

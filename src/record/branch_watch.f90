@@ -47,13 +47,17 @@ contains
     logical, intent(in) :: in_short_steps !! a path of short steps has led to the last answer
     type(history_row_type), intent(inout) :: history(:) !! the last row gets its result
     character(len=:), allocatable, intent(out) :: why !! it is another branch; empty: it is not
+    logical :: steps_alike
 
     why = ''
     if (scene%general%analysis /= analysis_equilibrium) return
     if (.not. meshes_foils(scene%model%foil)) return
     if (scene%top_foil%fixed_edge /= top_foil_trailing) return
     if (determinant_changed(history)) why = 'the determinant of the matrix changed its sign'
-    if (why == '' .and. .not. (in_short_steps .or. scene%sweep%turn_folds)) then
+    ! Neighbouring limits lie at other loads, speeds or tilts, some of them at a branch's end.
+    steps_alike = .not. (in_short_steps .or. scene%sweep%turn_folds .or. &
+                         scene%capacity%question > 0)
+    if (why == '' .and. steps_alike) then
       why = move_words(scene, history)
     end if
     call add_result(history(size(history))%quantity, 'branch_changed', why /= '')

@@ -138,6 +138,8 @@ contains
       groups = ' '
     case ('linear_dynamics')
       groups = ' pads bore shaft_contact sweep rotor '
+    case ('lift_off') ! which needs asperities
+      groups = ' pads bore sweep accuracy '
     case default
       groups = ' pads bore shaft_contact sweep accuracy '
     end select
@@ -181,15 +183,28 @@ contains
     if (analysis == 'fixed_position') then
       words = words//'&operation speed_rpm=30000.0 eccentricity=30.0e-6, 9.0e-6 /'//next// &
               "&sweep parameter='eccentricity_x' values=30.0e-6, 29.0e-6, 28.0e-6 /"//next
+    else if (analysis == 'load_capacity') then
+      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
+              "&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 /"//next
     else
       words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
               "&sweep parameter='load' values=100.0, 90.0, 80.0 /"//next
     end if
-    if (analysis == 'linear_dynamics') then
+    select case (analysis)
+    case ('linear_dynamics')
       words = words//'&dynamics frequency_ratios=0.5, 1.0 /'//next//'&rotor mass=1.0 /'//next
-    else
+    case ('load_capacity')
+      words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
+              "&accuracy quantity='load_capacity' /"//next
+    case ('lift_off')
+      words = words//'&capacity contact_part=0.01 /'//next// &
+              "&accuracy quantity='lift_off_speed_rpm' /"//next
+    case ('misalignment_allowance')
+      words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
+              "&accuracy quantity='misalignment_allowance' /"//next
+    case default
       words = words//"&accuracy quantity='minimum_gap' /"//next
-    end if
+    end select
   end function bearing_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.

@@ -66,6 +66,7 @@ module gfb_plausible_values
     range_type('strip_load', 'bump_pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
     range_type('strip_load', 'maximum_displacement', 0.0_wp, 1.0e-2_wp, 'm', 'mm,um'), &
     range_type('model', 'foundation_stiffness', 1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
+    range_type('capacity', 'smallest_gap', 1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm'), &
     range_type('solver', 'touch_down_gap', 0.0_wp, 1.0e-4_wp, 'm', 'mm,um')]
 
   !> A unit in which a number may be meant.

@@ -4,6 +4,7 @@ module gfb_scene
   use gfb_bearing_case, only: bearing_case_type
   use gfb_bore_case, only: bore_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_capacity_case, only: capacity_case_type
   use gfb_contact_case, only: contact_case_type
   use gfb_dynamics_case, only: dynamics_case_type
   use gfb_gas_case, only: gas_case_type
@@ -37,6 +38,7 @@ module gfb_scene
     type(sweep_case_type) :: sweep
     type(dynamics_case_type) :: dynamics
     type(rotor_case_type) :: rotor
+    type(capacity_case_type) :: capacity
     type(accuracy_case_type) :: accuracy
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil

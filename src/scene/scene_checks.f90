@@ -2,6 +2,7 @@
 module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
+  use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
   use gfb_crest_gap_rules, only: check_crest_gaps
   use gfb_dynamics_case, only: check_dynamics
@@ -54,6 +55,8 @@ contains
     call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
     call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
     call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
+    call check_capacity(keys, scene%capacity, scene%operation, scene%model, scene%solver, &
+                        scene%sweep, scene%accuracy, scene%shaft_contact%present)
     call check_shape(keys, scene)
     call check_plausible(keys, scene)
   end subroutine check_groups

@@ -3,6 +3,7 @@ module gfb_scene_groups
   use gfb_accuracy_case, only: read_accuracy_case
   use gfb_bearing_case, only: read_bearing_case
   use gfb_bore_case, only: read_bore_case
+  use gfb_capacity_case, only: read_capacity_case
   use gfb_case_keys, only: case_keys_type
   use gfb_dynamics_case, only: read_dynamics_case, analysis_of_state
   use gfb_foil_groups, only: read_foil_groups
@@ -17,7 +18,7 @@ module gfb_scene_groups
   use gfb_rotor_case, only: read_rotor_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
-                            analysis_strip, analysis_modes
+                            analysis_strip, analysis_modes, analysis_misalignment
   use gfb_shaft_contact_case, only: read_shaft_contact_case
   use gfb_solver_case, only: read_solver_case
   use gfb_sweep_case, only: read_sweep_case
@@ -58,6 +59,8 @@ contains
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, analysis)
+      call read_capacity_case(keys, scene%capacity, analysis)
+      scene%operation%tilt_is_sought = analysis == analysis_misalignment
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_foil_groups(keys, scene, modes, plate, bumps, both, arc)
     end associate

@@ -104,6 +104,7 @@ contains
     there%bore = changed%bore
     there%dynamics = changed%dynamics
     there%rotor = changed%rotor
+    there%capacity = changed%capacity
     there%gas = changed%gas
     there%operation = changed%operation
     there%top_foil = changed%top_foil

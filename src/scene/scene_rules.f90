@@ -263,7 +263,7 @@ contains
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     logical :: symmetric
 
-    symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. &
+    symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. .not. operation%tilt_is_sought .and. &
                 sweep%parameter /= sweep_tilt_x .and. sweep%parameter /= sweep_tilt_y
   end function is_symmetric
 

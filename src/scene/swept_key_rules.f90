@@ -109,6 +109,8 @@ contains
       if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
     case ('rotor')
       if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
+    case ('capacity')
+      if (scene%capacity%question == 0) problem = 'no limit is looked for'
     case ('dynamics')
       if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
     case ('model')

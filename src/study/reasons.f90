@@ -14,6 +14,7 @@ module gfb_reasons
   integer, parameter, public :: reason_inaccurate = 6     !! the number's error is too large
   integer, parameter, public :: reason_failed = 7         !! an error, which `detail` tells
   integer, parameter, public :: reason_stopped = 8        !! by a signal, which `detail` tells
+  integer, parameter, public :: reason_no_limit = 9       !! of load, speed or tilt
 
   !> Why there is no answer.
   type, public :: reason_type
@@ -46,6 +47,8 @@ contains
       words = 'no equilibrium found'
     case (reason_no_answer)
       words = 'no answer found'
+    case (reason_no_limit)
+      words = 'no limit found'
     case (reason_fixed_shaft)
       words = 'no answer found with the shaft fixed'
     case (reason_load_step)

@@ -16,12 +16,17 @@ module gfb_sweep_table
 
   !> A column that a table may have.
   type :: column_type
-    character(len=20) :: name !! of the result
+    character(len=26) :: name !! of the result
     character(len=16) :: head !! with the unit of the table
     real(wp) :: scale         !! table's number over SI number [1]
   end type column_type
 
   type(column_type), parameter :: columns(*) = [ &
+    column_type('load_capacity', 'capacity [N]', 1.0_wp), &
+    column_type('load_capacity_coefficient', 'in lbf/in^3krpm', 1.0_wp), &
+    column_type('lift_off_speed_rpm', 'lift-off [rpm]', 1.0_wp), &
+    column_type('misalignment_allowance', 'tilt [mrad]', 1.0e3_wp), &
+    column_type('limit_reached', 'at the limit', 1.0_wp), &
     column_type('eccentricity_x', 'e_x [um]', 1.0e6_wp), &
     column_type('eccentricity_y', 'e_y [um]', 1.0e6_wp), &
     column_type('attitude_angle', 'attitude [deg]', 1.0_wp), &

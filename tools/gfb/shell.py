@@ -3,7 +3,8 @@
 import re
 
 OPTION = re.compile(r"^  (--[a-z-]+)(?: ([A-Z]+))? {2,}(\S.*)$")
-ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics")
+ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
+            "misalignment_allowance")
 
 
 def options_of(text):

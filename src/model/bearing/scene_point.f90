@@ -4,7 +4,7 @@ module gfb_scene_point
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: operating_point
+  public :: operating_point, operating_point_type
 
 contains
 

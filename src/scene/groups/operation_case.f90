@@ -26,6 +26,7 @@ module gfb_operation_case
     logical :: lift_given(2) = .false.
     logical :: load_given = .false.
     logical :: eccentricity_given = .false.
+    logical :: tilt_is_sought = .false. !! a tilt is looked for, beginning with `tilt`
   end type operation_case_type
 
 contains

@@ -3,22 +3,27 @@ module gfb_scene_case
   use gfb_case_keys, only: case_keys_type
   implicit none (type, external)
   private
-  public :: scene_case_type, read_scene_case, is_bearing, is_structure, misplaced_group
+  public :: scene_case_type, read_scene_case, is_bearing, is_structure, asks_limit, &
+            misplaced_group
 
   integer, parameter, public :: analysis_equilibrium = 1    !! the load is given
   integer, parameter, public :: analysis_fixed_position = 2 !! the eccentricity is given
   integer, parameter, public :: analysis_strip = 3          !! a bump strip under crest loads
   integer, parameter, public :: analysis_modes = 4          !! natural modes of a foil or, or a part
   integer, parameter, public :: analysis_linear_dynamics = 5 !! small vibrations about 1 or 2
+  integer, parameter, public :: analysis_load_capacity = 6 !! load that leaves the least film
+  integer, parameter, public :: analysis_lift_off = 7      !! speed that lifts the asperities off
+  integer, parameter, public :: analysis_misalignment = 8  !! tilt that leaves the least film
 
-  character(len=*), parameter, public :: analysis_words(*) = [character(len=15) :: 'equilibrium', &
-                                                              'fixed_position', 'strip', &
-                                                              'modes', 'linear_dynamics']
+  character(len=*), parameter, public :: analysis_words(*) = &
+    [character(len=22) :: 'equilibrium', 'fixed_position', 'strip', 'modes', 'linear_dynamics', &
+                          'load_capacity', 'lift_off', 'misalignment_allowance']
 
   !> What is asked for.
   type :: scene_case_type
     character(len=:), allocatable :: title        !! free text
-    !> of the case file while it is read; then of the state about which the shaft vibrates
+    !> of the case file while it is read; then of the state about which the shaft vibrates, or
+    !> whose limit is looked for
     integer :: analysis = analysis_equilibrium
   end type scene_case_type
 
@@ -35,7 +40,8 @@ contains
     call keys%choice_key('analysis', scene%analysis, analysis_words, &
                          'position that carries the load, film of a given position, bump '// &
                          'strip under loads, natural modes, small vibrations of the shaft '// &
-                         'about one of the first two')
+                         'about one of the first two; load, speed or tilt up to a limit: '// &
+                         'see `&capacity`')
     call keys%finish_group()
   end subroutine read_scene_case
 
@@ -44,8 +50,16 @@ contains
     integer, intent(in) :: analysis !! 0 where it is not known
     logical :: bearing
     bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position .or. &
-              analysis == analysis_linear_dynamics
+              analysis == analysis_linear_dynamics .or. asks_limit(analysis)
   end function is_bearing
+
+  !> Whether an analysis looks for a limit of equilibria.
+  pure function asks_limit(analysis) result(asks)
+    integer, intent(in) :: analysis !! 0 where it is not known
+    logical :: asks
+    asks = analysis == analysis_load_capacity .or. analysis == analysis_lift_off .or. &
+           analysis == analysis_misalignment
+  end function asks_limit
 
   !> Whether an analysis is of foils alone.
   pure function is_structure(analysis) result(structure)

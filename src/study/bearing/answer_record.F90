@@ -33,6 +33,8 @@ contains
     type(quantity_type), allocatable :: vibrations(:)
 
     if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
+    if (record%at_fold) call forget_sign(record%judged)
+    if (converged .and. allocated(record%limit)) call add_quantity(record%judged, record%limit)
     call add_row(scene, bearing, newton, converged, record)
     if (.not. scene%dynamics%present) return
     if (converged) then
@@ -55,20 +57,29 @@ contains
     real(wp), intent(in) :: value !! of the sweep, in its unit
     logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
     type(quantity_type), allocatable :: vibrations(:)
-    integer :: i
+    logical :: turns
 
     call measure_tilt(scene, value, bearing, newton, record%tilted)
     if (scene%dynamics%present) call vibrate(here, log, bearing, newton, build, record%dynamics, vibrations)
     ! The last of the factors, for the next answer.
     call judge_answer(scene, log, bearing, newton, record%judged)
-    if (present(fold)) then
-      do i = 1, merge(size(record%judged), 0, fold)
-        if (record%judged(i)%name == 'determinant_sign') record%judged(i)%number = 0.0_wp ! it changes here
-      end do
-    end if
+    turns = record%at_fold
+    if (present(fold)) turns = turns .or. fold
+    if (turns) call forget_sign(record%judged)
     if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
+    if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
     call add_row(scene, bearing, newton, .true., record, value, fold)
   end subroutine record_swept
+
+  !> At a fold the determinant of the equations has no sign: it changes there.
+  pure subroutine forget_sign(judged)
+    type(quantity_type), intent(inout) :: judged(:)
+    integer :: i
+
+    do i = 1, size(judged)
+      if (judged(i)%name == 'determinant_sign') judged(i)%number = 0.0_wp
+    end do
+  end subroutine forget_sign
 
   !> Small vibrations about an answer.
   subroutine vibrate(scene, log, bearing, newton, build, record, found)

@@ -102,6 +102,7 @@ contains
       end if
     end associate
     if (allocated(error)) return
+    call sweep%approach_limit(report)
     if (.not. report%converged) call sweep%explain(report, .false., reason)
     call sweep%begin(report%converged)
     if (report%converged) call sweep%keep_point(next - 1)
@@ -185,17 +186,19 @@ contains
     integer :: point
 
     do point = first, size(sweep%scene%sweep%values)
+      call sweep%leave(operating_point(sweep%here%operation))
       call follow_keys(sweep%scene, plan, sweep%value, sweep%scene%sweep%values(point), sweep%path, sweep%bearing, &
                        sweep%newton, report)
       sweep%anew = .not. (report%converged .or. report%touched)
       if (sweep%anew) call start_anew(plan, sweep, point, report, error)
       if (allocated(error)) return
+      if (report%converged) call scene_of(sweep, point, scene, error)
+      if (allocated(error)) return
+      call sweep%approach_limit(report)
       if (.not. report%converged) then
         call sweep%stop_short(report, reason)
         return
       end if
-      call scene_of(sweep, point, scene, error)
-      if (allocated(error)) return
       call sweep%record_point(point)
       call sweep%keep_point(point)
     end do

@@ -72,6 +72,7 @@ contains
       self%factorizations_finest = newton%factorizations - newton%factorizations_before
       self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
                                      bearing%pad(1)%film%clearance, bearing%force_scale())
+      if (self%converged .and. allocated(self%sweep%record%limit)) call add_quantity(self%found, self%sweep%record%limit)
     end associate
   end subroutine solve_study
 

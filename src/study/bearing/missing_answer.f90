@@ -11,7 +11,7 @@ module gfb_missing_answer
   use gfb_bearing_system, only: bearing_system_type
   use gfb_continuation, only: path_report_type
   use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, &
-                         reason_stopped
+                         reason_no_limit, reason_stopped
   implicit none (type, external)
   private
   public :: explain_missing
@@ -31,6 +31,7 @@ contains
 
     reason%code = reason_no_answer
     if (scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
+    if (scene%capacity%question > 0) reason%code = reason_no_limit
     if (fixed) reason%code = reason_fixed_shaft
     reason%detail = report%reason
     if (stop_agreed()) then
@@ -49,7 +50,7 @@ contains
         call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '// &
                       text(point%tilt(2), 4)//') rad, film force ('//text(force(1), 5)//', '// &
                       text(force(2), 5)//') N, '//thinnest_film(bearing))
-      case (reason_no_equilibrium)
+      case (reason_no_equilibrium, reason_no_limit)
         call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
                       text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad, '// &

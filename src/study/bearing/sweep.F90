@@ -8,9 +8,8 @@ module gfb_sweep
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_petsc_session, only: wall_time
-  use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_scene_point, only: operating_point
+  use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
@@ -24,6 +23,7 @@ module gfb_sweep
   use gfb_answer_record, only: record_single, record_swept, fix_shaft, opposite_builder
   use gfb_onset, only: look_for_onset
   use gfb_last_answer, only: last_answer_type
+  use gfb_limit_search, only: find_limit, leave_limit
   implicit none (type)
   private
 
@@ -50,6 +50,8 @@ module gfb_sweep
     procedure :: keep_point => keep_value
     procedure :: keep_stopped
     procedure :: target_at
+    procedure :: approach_limit
+    procedure :: leave
     procedure :: stop_short
     procedure :: explain
     procedure :: watch
@@ -83,13 +85,38 @@ contains
     type(reason_type), intent(out) :: reason !! why there is no answer
     type(path_report_type) :: report
 
+    if (point > 1) call self%leave(self%target_at(point - 1))
     if (self%partitioned) then
       call follow_partitioned(self%bearing, self%newton, self%target_at(point), self%path, self%sides, report)
     else
       call follow_branch(self%scene, self%bearing, self%newton, self%target_at(point), self%path, report)
     end if
+    call self%approach_limit(report)
     if (.not. report%converged) call self%stop_short(report, reason)
   end subroutine reach_value
+
+  !> From the present answer to its limit, where the scene asks for one.
+  subroutine approach_limit(self, report)
+    class(sweep_type), target, intent(inout) :: self !! the sweep
+    type(path_report_type), intent(inout) :: report !! of the path to the answer, then to the limit
+
+    if (self%scene%capacity%question == 0) return
+    if (.not. report%converged) then
+      report%reason = 'no equilibrium to begin with: '//report%reason
+      return
+    end if
+    call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, report)
+    self%record%at_fold = report%folded
+  end subroutine approach_limit
+
+  !> From a limit back to the answer from which it was found, where the scene asks for limits.
+  subroutine leave(self, point)
+    class(sweep_type), target, intent(inout) :: self !! the sweep
+    type(operating_point_type), intent(in) :: point !! of that answer
+
+    if (self%scene%capacity%question == 0) return
+    call leave_limit(point, self%path, self%bearing, self%newton)
+  end subroutine leave
 
   !> Records a sweep point's answer. It is a load step of the scene: friction may carry its slip along.
   subroutine record_value(self, point)
