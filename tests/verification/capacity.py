@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+"""Limits: load capacity, lift-off speed and misalignment allowance, found from both sides and by bisection.
+
+The other way to each of them are plain equilibrium runs, every one from nothing: bisection, or one run a millionth before the
+limit and one a millionth beyond it.
+"""
+
+import copy
+import pathlib
+import signal
+import subprocess
+import tempfile
+
+import numpy
+
+from gfb_run import GFB, Bearing, Checks, observed_order, solve, summary_difference, write_case
+
+SAME = 1.0e-6      # of two ways to a limit
+GAP, GAP_4, GAP_5 = 3.0e-6, 4.0e-6, 5.0e-6  # [m]
+PART = 0.01        # of the load, on asperities
+MESHES = (32, 64, 128)  # nodes around
+POUNDS = 0.0254**3*1000.0*numpy.pi/30.0/4.4482216152605  # lbf/(in^3 krpm) over N s/m^3
+GU2020 = Bearing(radius=0.01905, length=0.0381, clearance=31.8e-6, viscosity=1.95e-5, ambient_pressure=1.0135e5)
+SPRINGS = {"foil": "elastic_foundation", "foundation_pressure": "axial_mean", "foundation_stiffness": 4.8e9}
+FOILS = {
+    "top_foil": {"thickness": 0.102e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "trailing"},
+    "bump_foil": {"bumps": 26, "half_length": 1.778e-3, "height": 0.508e-3, "pitch": 4.572e-3, "thickness": 0.102e-3,
+                  "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "trailing", "fixed_line": "half_flat"},
+    "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
+}
+BEAMS = {"model": {"foil": "beam"}, "mesh": (52, 4)} | FOILS
+ROUGH = {"shaft_contact": {"roughness": 0.4e-6, "pressure": 5.0e7}}
+
+
+def case(analysis, capacity=None, model=None, mesh=(60, 8), load=50.0, speed_rpm=30000.0, **groups):
+    """A case of the bearing of [Gu2020] on springs, or on what `model` says."""
+    content = {
+        "scene": {"analysis": analysis},
+        "bearing": {"radius": GU2020.radius, "length": GU2020.length, "clearance": GU2020.clearance},
+        "gas": {"viscosity": GU2020.viscosity, "ambient_pressure": GU2020.ambient_pressure},
+        "operation": {"speed_rpm": speed_rpm, "load": (-load, 0.0)},
+        "model": model or SPRINGS,
+        "mesh": {"circumferential_elements": mesh[0], "axial_elements": mesh[1]},
+        "output": {"fields": "none"},
+    }
+    if capacity:
+        content["capacity"] = capacity
+    return content | copy.deepcopy(groups)
+
+
+def bisect(inside, low, high):
+    """The place between two at which a claim begins to fail, to a few thousandths."""
+    while abs(high - low) > 4.0e-3*abs(high):
+        middle = 0.5*(low + high)
+        low, high = (middle, high) if inside(middle) else (low, middle)
+    return 0.5*(low + high)
+
+
+def on_both_sides(inside, place):
+    """Whether a claim holds a little before a place, and not a little beyond it, away from zero."""
+    return inside(place*(1.0 - SAME)) and not inside(place*(1.0 + SAME))
+
+
+def gap_of(folder, **changes):
+    """Smallest film of a plain equilibrium."""
+    return solve(folder, "plain", case("equilibrium", **changes))["minimum_gap"]
+
+
+def check_capacity(checks, folder):
+    """Springs: from a light load, from one that is too heavy, by bisection; the coefficient."""
+    limit, mesh = {"smallest_gap": GAP}, (40, 6)
+    light = solve(folder, "light", case("load_capacity", limit, mesh=mesh))
+    above = solve(folder, "heavy", case("load_capacity", limit, mesh=mesh, load=400.0))
+    plain = bisect(lambda load: gap_of(folder, load=load, mesh=mesh) > GAP, 200.0, 400.0)
+    found = light["load_capacity"]
+    checks.below("capacity, springs: from above", above["load_capacity"]/found - 1.0, SAME)
+    checks.below("capacity, springs: by bisection", plain/found - 1.0, 4.0e-3)
+    checks.that("capacity, springs: plain equilibria on both sides",
+                on_both_sides(lambda load: gap_of(folder, load=load, mesh=mesh) > GAP, found))
+    checks.below("capacity, springs: film", light["minimum_gap"]/GAP - 1.0, SAME)
+    checks.below("capacity, springs: it is the load", light["force_x"]/found + 1.0, SAME)
+    checks.that("capacity, springs: reached", light["limit_reached"] == above["limit_reached"] == "true")
+    si = found/(GU2020.length*(2.0*GU2020.radius)**2*30000.0*numpy.pi/30.0)
+    checks.below("coefficient in SI", light["load_capacity_coefficient_si"]/si - 1.0, 1.0e-12)
+    checks.below("coefficient in lbf/(in^3 krpm)", light["load_capacity_coefficient"]/(si*POUNDS) - 1.0, 1.0e-12)
+
+
+def check_beams(checks, folder):
+    """The same on beams, from equilibria on both sides of it; one rank and two."""
+    def content(load):
+        return case("load_capacity", {"smallest_gap": GAP_4}, load=load, **BEAMS)
+
+    light, above = (solve(folder, "beams", content(load)) for load in (50.0, 160.0))
+    found = light["load_capacity"]
+    checks.below("capacity, beams: from above", above["load_capacity"]/found - 1.0, SAME)
+    checks.that("capacity, beams: plain equilibria on both sides",
+                on_both_sides(lambda load: gap_of(folder, load=load, **BEAMS) > GAP_4, found))
+    checks.that("capacity, beams: reached", light["limit_reached"] == above["limit_reached"] == "true")
+    two = solve(folder, "ranks", content(50.0), ranks=2)
+    sizes = {name: 1.0e-5 for name in ("leading_edge_lift", "leading_edge_lift_edge", "trailing_edge_lift", "trailing_edge_lift_edge")}
+    sizes |= {name: 1.0 for name in ("force_y", "torque_x", "torque_y", "torque_x_without_suction", "torque_y_without_suction")}
+    worst, name = summary_difference(light, two, sizes)
+    checks.below(f"1 and 2 ranks ({name})", worst, 1.0e-6)
+
+
+def check_similarity(checks, folder):
+    """Rigid: half the speed with twice the viscosity carries the same load, and has twice the coefficient."""
+    limit = {"smallest_gap": GAP}
+    one = solve(folder, "rigid", case("load_capacity", limit, {"foil": "rigid"}))
+    other = solve(folder, "rigid", case("load_capacity", limit, {"foil": "rigid"}, speed_rpm=15000.0,
+                                        gas={"viscosity": 2.0*GU2020.viscosity, "ambient_pressure": GU2020.ambient_pressure}))
+    checks.below("rigid: capacity at the same bearing number", other["load_capacity"]/one["load_capacity"] - 1.0, SAME)
+    checks.below("rigid: coefficient", other["load_capacity_coefficient"]/one["load_capacity_coefficient"] - 2.0, SAME)
+
+
+def check_pads(checks, folder):
+    """Three pads: plain equilibria on both sides, and the same capacity under a load turned from pad to pad."""
+    def content(analysis, load, turn=0.0, **more):
+        vector = (-load*numpy.cos(turn), -load*numpy.sin(turn))
+        return case(analysis, more, pads={"count": 3, "preload": 5.0e-6}, operation={"speed_rpm": 30000.0, "load": vector})
+
+    one, turned = (solve(folder, "pads", content("load_capacity", 20.0, turn, smallest_gap=GAP))["load_capacity"]
+                   for turn in (0.0, 2.0*numpy.pi/3.0))
+    checks.below("pads: turned by a third", turned/one - 1.0, SAME)
+    checks.that("pads: plain equilibria on both sides", on_both_sides(
+        lambda load: solve(folder, "plain", content("equilibrium", load))["minimum_gap"] > GAP, one))
+
+
+def check_ends(checks, folder):
+    """Where no limit is met: the largest load and its reason, which a branch followed round its fold has, too; no answer."""
+    folds = BEAMS | {"mesh": (209, 4), "load": 196.0}
+    end = solve(folder, "end", case("load_capacity", {"smallest_gap": 0.5e-6}, **folds))
+    checks.that("fold: told", end["limit_reached"] == "false" and "not at the limit: the branch of answers ends in a fold" in end.log)
+    checks.that("fold: a thicker film", end["minimum_gap"] > 0.5e-6)
+    checks.that("fold: no sign of the determinant there", end["determinant_sign"] == 0)
+    rounded = solve(folder, "round", case("equilibrium", sweep={"parameter": "load", "values": (196.0, 202.0), "turn_folds": True},
+                                          **folds)).history()
+    checks.below("fold: that of the branch followed round it", max(-rounded["force_x"])/end["load_capacity"] - 1.0, 1.0e-4)
+    touched = solve(folder, "touched", case("load_capacity", {"smallest_gap": 1.0e-7}, {"foil": "rigid"}))
+    checks.that("touch-down: told", touched["limit_reached"] == "false" and "not at the limit: the shaft touches down" in touched.log)
+    for words, content in (
+            ("at every load tried, down to", case("load_capacity", {"smallest_gap": 4.0e-5})),
+            ("without any tilt about x", case("misalignment_allowance", {"smallest_gap": GAP}, load=500.0)),
+            ("at every speed tried, up to", case("lift_off", {"contact_part": 1.0e-6}, {"foil": "rigid"},
+                                                    shaft_contact={"roughness": 4.0e-6, "pressure": 5.0e7})),
+            ("no equilibrium to begin with: the shaft touches down", case("load_capacity", {"smallest_gap": GAP}, {"foil": "rigid"},
+                                                                         load=5.0e4))):
+        log = solve(folder, "none", content, status=2).log
+        checks.that(f"no limit: {words}", "no limit found: " in log and words in log)
+
+
+def check_lift_off(checks, folder):
+    """From a high speed, from a low one, plain equilibria on both sides."""
+    def lifted(speed):
+        answer = solve(folder, "plain", case("equilibrium", speed_rpm=speed, **ROUGH))
+        return numpy.hypot(answer["solid_contact_force_x"], answer["solid_contact_force_y"]) < PART*50.0
+
+    high, low = (solve(folder, "lift", case("lift_off", {"contact_part": PART}, speed_rpm=speed, **ROUGH))["lift_off_speed_rpm"]
+                 for speed in (30000.0, 1000.0))
+    checks.below("lift-off: from below", low/high - 1.0, SAME)
+    checks.that("lift-off: plain equilibria on both sides", on_both_sides(lambda speed: not lifted(speed), high))
+
+
+def check_misalignment(checks, folder):
+    """About both axes, from no tilt, from one that is too large and from the other sense; plain equilibria on both sides."""
+    for number, axis in enumerate("xy"):
+        def tilts(size, number=number):
+            return {"operation": {"speed_rpm": 30000.0, "load": (-50.0, 0.0), "tilt": tuple(size*(i == number) for i in (0, 1))}}
+
+        limit = {"smallest_gap": GAP, "tilt_axis": axis}
+        found = solve(folder, "tilt", case("misalignment_allowance", limit))["misalignment_allowance"]
+        above, other = (solve(folder, "tilt", case("misalignment_allowance", limit, **tilts(share*found)))["misalignment_allowance"]
+                        for share in (1.2, -0.1))
+        checks.below(f"misalignment about {axis}: from above", above/found - 1.0, SAME)
+        checks.below(f"misalignment about {axis}: in the other sense", other/found + 1.0, SAME)
+        checks.that(f"misalignment about {axis}: plain equilibria on both sides",
+                    on_both_sides(lambda size, tilts=tilts: gap_of(folder, **tilts(size)) > GAP, found))
+
+
+def check_sweeps(checks, folder):
+    """A point of a sweep is the limit of its own scene: over speed, over a key of the bearing and of &capacity."""
+    for parameter, values, group in (("speed_rpm", (20000.0, 40000.0), "operation"), ("bearing%clearance", (2.5e-5, 3.5e-5), ""),
+                                     ("capacity%smallest_gap", (2.0e-6, 4.0e-6), "")):
+        sweep, mesh = {"sweep": {"parameter": parameter, "values": values}}, (40, 6)
+        rows = solve(folder, "swept", case("load_capacity", {"smallest_gap": GAP}, mesh=mesh, **sweep)).history()
+        group, _, key = (parameter if "%" in parameter else f"{group}%{parameter}").partition("%")
+        content = case("load_capacity", {"smallest_gap": GAP}, mesh=mesh)
+        content[group][key] = values[-1]
+        alone = solve(folder, "alone", content)
+        checks.below(f"over {parameter}: the last one is that of its own scene",
+                     rows["load_capacity"][-1]/alone["load_capacity"] - 1.0, SAME)
+
+
+def check_pieces(checks, folder):
+    """A sweep by groups of ranks, and one that is stopped and resumed, have the limits of a sweep in one piece."""
+    content = case("load_capacity", {"smallest_gap": GAP}, mesh=(80, 12),
+                   sweep={"parameter": "speed_rpm", "values": (20000.0, 24000.0, 28000.0, 32000.0, 36000.0, 40000.0)})
+    content["output"]["restart_every"] = 1
+    whole = solve(folder, "pieces", content).history()
+    for words, options, ranks in (("by groups", ["--groups", "2"], 2), ("resumed", ["--restart"], 1)):
+        if words == "resumed":
+            path = write_case(folder, "pieces", content)
+            with subprocess.Popen([GFB, "--output", str(folder), str(path)], stdout=subprocess.PIPE, encoding="utf-8") as process:
+                next(line for line in process.stdout if line.startswith("point 1 of"))
+                process.send_signal(signal.SIGTERM)
+                log = process.stdout.read()
+            checks.that("stopped after a point", "--restart resumes from" in log)
+        rows = solve(folder, "pieces", content, ranks=ranks, options=options).history()
+        for name in "load_capacity", "limit_reached", "minimum_gap":
+            checks.below(f"{words}: {name}", max(abs(rows[name]/whole[name] - 1.0)), SAME if ranks > 1 else 0.0)
+
+
+def check_meshes(checks, folder):
+    """The mesh's order, and the error that &accuracy states against a fine mesh."""
+    found = {order: [solve(folder, "mesh", case("load_capacity", {"smallest_gap": GAP_5}, SPRINGS | {"film_order": order},
+                                                mesh=(n//order, n//4//order)))["load_capacity"] for n in MESHES]
+             for order in (1, 2)}
+    fine = found[2][2]
+    for order, values in found.items():
+        print(f"load capacity, order {order}:", *(f"{value:.6g}" for value in values))
+    checks.within("bilinear: order", observed_order(found[1][1] - fine, found[1][2] - fine), 1.5, 3.0)
+    checks.within("biquadratic: order", observed_order(found[2][0] - fine, found[2][1] - fine), 3.0, 5.0)
+    checks.below(f"both on {MESHES[2]} x {MESHES[2]//4}", found[1][2]/fine - 1.0, 1.0e-3)
+    asked = solve(folder, "asked", case("load_capacity", {"smallest_gap": GAP_5}, mesh=(64, 16),
+                                        accuracy={"quantity": "load_capacity", "target": 0.01}))
+    error = asked["load_capacity"] - fine
+    checks.that("the error that is stated is met", abs(error) <= 1.5*asked["load_capacity_error"])
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for check in (check_capacity, check_beams, check_similarity, check_pads, check_ends, check_lift_off, check_misalignment,
+                      check_sweeps, check_pieces, check_meshes):
+            check(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
