@@ -181,6 +181,17 @@ class BearingTest(unittest.TestCase):
         for line, height in zip(together[0].lines, (7.0, 6.0)):
             numpy.testing.assert_allclose(line.get_ydata(), [height]*2, rtol=1e-12)
 
+    def test_limits_are_drawn_first_where_nothing_is_named(self):
+        path = bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
+        with h5py.File(path, "r+") as file:
+            for name, unit, values in (("load_capacity", "N", [10.0, 20.0]), ("minimum_gap", "m", [4.0e-6]*2),
+                                       ("load_capacity_coefficient", "lbf/(in^3 krpm)", [0.4, 0.3])):
+                file[f"history/{name}"] = values
+                file[f"history/{name}"].attrs.update(unit=unit, meaning="made up")
+            charts = plot_main.draw_history(path, file, []).axes
+        self.assertEqual([chart.get_ylabel() for chart in charts], ["load capacity [N]", "coefficient [lbf/(in^3 krpm)]"])
+        numpy.testing.assert_allclose(charts[0].lines[0].get_ydata(), [10.0, 20.0])
+
     def test_foils_of_gfb(self):
         (self.folder/"beams.nml").write_text(BEAMS, encoding="utf-8")
         subprocess.run([os.environ["GFB"], "--output", self.folder, self.folder/"beams.nml"], check=True,

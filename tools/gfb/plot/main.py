@@ -42,10 +42,15 @@ from gfb.tool import stop  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
 USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
+USUAL_OF_LIMITS = {  # what is looked for, and what it makes of the bearing
+    "load_capacity": ("load_capacity", "load_capacity_coefficient", "attitude_angle", "friction_torque"),
+    "lift_off_speed_rpm": ("lift_off_speed_rpm", "minimum_gap", "attitude_angle", "friction_torque"),
+    "misalignment_allowance": ("misalignment_allowance", "attitude_angle", "maximum_pressure", "friction_torque")}
 ROUND_OFF = 1.0e-12  # of the largest number of a unit: a smaller one is zero
 USUAL_OF_ONE = ("force_x", "force_y", "eccentricity_x", "eccentricity_y", "attitude_angle", "minimum_gap", "minimum_gap_midplane",
                 "minimum_gap_edge", "maximum_pressure", "minimum_pressure", "torque_x", "torque_y", "friction_torque", "power_loss",
-                "critical_mass", "whirl_ratio")
+                "critical_mass", "whirl_ratio", "load_capacity", "load_capacity_coefficient", "lift_off_speed_rpm",
+                "misalignment_allowance")
 
 
 def main():
@@ -171,6 +176,8 @@ def draw_history(path, file, columns, together=False):
     if not columns:
         alone = any(data.shape == (1,) for data in history.values())
         usual = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
+        if not alone:
+            usual = next((names for limit, names in USUAL_OF_LIMITS.items() if limit in history), usual)
         columns = [name for name in usual if name in history]
         if not columns:
             stop(f"{path}: none of the usual columns is in it; name some, --list prints them")

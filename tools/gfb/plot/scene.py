@@ -14,7 +14,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "minimum_gap"
          "minimum_gap_midplane": "thinnest film, midplane", "minimum_gap_edge": "thinnest film, edges", "eccentricity_x": "e_x",
          "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
-         "minimum_pressure": "smallest pressure, absolute"}
+         "minimum_pressure": "smallest pressure, absolute", "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 SAME = 1.0e-9  # of the largest value: edges that differ less are one line
 
