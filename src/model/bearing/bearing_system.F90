@@ -19,7 +19,7 @@ module gfb_bearing_system
   use gfb_pad_matrix, only: fill_pad_constant, fill_pad
   implicit none (type)
   private
-  public :: create_film_part, create_bearing_system
+  public :: create_film_part, create_bearing_system, number_by
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -114,14 +114,15 @@ contains
     end do
   end subroutine create_numbers
 
-  !> From now on the matrix is filled by the local numbers of a pad and the shaft's behind them; 0: by the bearing's.
-  subroutine number_by(bearing, i)
-    type(bearing_system_type), intent(inout) :: bearing
+  !> From now on a matrix is filled by the local numbers of a pad and the shaft's behind them; 0: by the bearing's.
+  subroutine number_by(bearing, i, matrix)
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: i !! of the pad, or 0
+    Mat, intent(in) :: matrix !! like the bearing's
     PetscErrorCode :: ierr
 
     if (.not. allocated(bearing%numbers)) return
-    PetscCallA(MatSetLocalToGlobalMapping(bearing%jacobian, bearing%numbers(i), bearing%numbers(i), ierr))
+    PetscCallA(MatSetLocalToGlobalMapping(matrix, bearing%numbers(i), bearing%numbers(i), ierr))
   end subroutine number_by
 
   !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
@@ -131,10 +132,10 @@ contains
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call number_by(bearing, i)
+      call number_by(bearing, i, bearing%jacobian)
       call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_number(bearing, i), bearing%jacobian)
     end do
-    call number_by(bearing, 0)
+    call number_by(bearing, 0, bearing%jacobian)
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(bearing%first_shaft, 0.0_wp, bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -270,13 +271,13 @@ contains
       PetscCallA(MatZeroEntries(self%jacobian, ierr))
     end if
     do i = 1, size(self%pad)
-      call number_by(self, i)
+      call number_by(self, i, self%jacobian)
       associate (pad => self%pad(i))
         call fill_pad(pad, self%position(unknown, point), unknown(pad%first + 1:pad%last), &
                       gap(pad%first_node + 1:pad%last_node), shaft_number(self, i), fixed, self%events, self%jacobian)
       end associate
     end do
-    call number_by(self, 0)
+    call number_by(self, 0, self%jacobian)
     if (self%floats .and. self%last_rank) then
       call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
     end if

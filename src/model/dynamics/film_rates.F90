@@ -13,7 +13,9 @@ module gfb_film_rates
   use gfb_gas_film, only: gas_film_type
   use gfb_squeeze_term, only: squeeze_weights, squeeze_jacobian
   use gfb_film_matrix, only: no_shaft, element_columns, add_block
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_pad, only: pad_type
+  use gfb_bearing_system, only: bearing_system_type, number_by
   implicit none (type)
   private
   public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_from_foil, fill_friction, squeeze_column
@@ -50,23 +52,41 @@ contains
     Mat, intent(in) :: matrix
 
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes())
-    real(wp), dimension(size(bearing%pad(1)%film%shape, 1), size(bearing%pad(1)%film%shape, 1)) :: by_pressure, by_gap
+    PetscErrorCode :: ierr
+    integer :: i
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    PetscCallA(MatZeroEntries(matrix, ierr))
+    do i = 1, size(bearing%pad)
+      call number_by(bearing, i, matrix)
+      associate (pad => bearing%pad(i), nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node)
+        call fill_pad_film(pad, kind, unknown(pad%first + 1:pad%first + nodes), gap(pad%first_node + 1:pad%last_node), &
+                           bearing%position(unknown), matrix)
+      end associate
+    end do
+    call finish(bearing, matrix)
+  end subroutine fill_film
+
+  !> The same of one pad, by its local numbers.
+  subroutine fill_pad_film(pad, kind, pressure, gap, point, matrix)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: kind
+    real(wp), intent(in) :: pressure(:), gap(:) !! at the pad's nodes [Pa], [m]
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    Mat, intent(in) :: matrix
+
+    real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: by_pressure, by_gap
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(2*size(by_gap, 1), size(by_gap, 1))
     PetscInt :: row(size(by_gap, 1)), column(2*size(by_gap, 1) + 2)
-    type(operating_point_type) :: point
     integer :: element, b, place, n
-    PetscErrorCode :: ierr
 
     n = size(row)
-    call bearing%get_unknowns(unknown)
-    gap = bearing%gap(unknown)
-    point = bearing%position(unknown)
-    PetscCallA(MatZeroEntries(matrix, ierr))
-    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
+    associate (film => pad%film, foil => pad%foil)
       do element = 1, size(film%element_nodes, 2)
         call element_columns(film, foil, no_shaft, element, row, column)
-        call element_derivatives(film, kind, element, unknown(:size(gap)), gap, point, by_pressure, by_gap)
+        call element_derivatives(film, kind, element, pressure, gap, point, by_pressure, by_gap)
         block = 0.0_wp
         block(:n, :) = transpose(by_pressure)
         associate (nodes => film%element_nodes(:, element))
@@ -78,8 +98,7 @@ contains
         call add_block(matrix, row, column(:2*n), block)
       end do
     end associate
-    call finish(bearing, matrix)
-  end subroutine fill_film
+  end subroutine fill_pad_film
 
   !> An element's derivatives by pressures and by gaps; zero where only gaps count.
   pure subroutine element_derivatives(film, kind, element, pressure, gap, point, by_pressure, by_gap)
@@ -123,68 +142,89 @@ contains
     Vec, intent(in) :: column         !! scaled as the residual, by that unit
 
     real(wp) :: unknown(bearing%local_size()), value(bearing%local_size()), gap(bearing%film_nodes())
-    real(wp), dimension(size(bearing%pad(1)%film%shape, 1), size(bearing%pad(1)%film%shape, 1)) :: by_p, by_h, by_e
-    type(operating_point_type) :: point
-    integer :: element
     PetscErrorCode :: ierr
+    integer :: i
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
-    point = bearing%position(unknown)
     value = 0.0_wp
-    associate (film => bearing%pad(1)%film)
-      do element = 1, size(film%element_nodes, 2)
-        call element_squeeze(film, element, unknown(:size(gap)), gap, point, by_p, by_h, by_e)
-        associate (nodes => film%element_nodes(:, element))
-          value(nodes) = value(nodes) + matmul(by_h, film%motion(coordinate, nodes)) &
-            + matmul(by_e, film%motion_excess(coordinate, :, element))
-        end associate
-      end do
-      where (film%fixed) value(:size(gap)) = 0.0_wp
-    end associate
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node)
+        call add_squeeze_column(pad%film, coordinate, unknown(pad%first + 1:pad%first + nodes), &
+                                gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), &
+                                value(pad%first + 1:pad%first + nodes))
+      end associate
+    end do
     PetscCallA(VecSet(column, 0.0_wp, ierr))
     call bearing%exchange%add(value/bearing%equation_scale(bearing%point), column)
   end subroutine squeeze_column
+
+  !> The same of one pad's film.
+  pure subroutine add_squeeze_column(film, coordinate, pressure, gap, point, value)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: coordinate
+    real(wp), intent(in) :: pressure(:), gap(:) !! at the film's nodes [Pa], [m]
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(inout) :: value(:) !! at these nodes, zero before [SI]
+    real(wp), dimension(size(film%shape, 1), size(film%shape, 1)) :: by_p, by_h, by_e
+    integer :: element
+
+    do element = 1, size(film%element_nodes, 2)
+      call element_squeeze(film, element, pressure, gap, point, by_p, by_h, by_e)
+      associate (nodes => film%element_nodes(:, element))
+        value(nodes) = value(nodes) + matmul(by_h, film%motion(coordinate, nodes)) &
+          + matmul(by_e, film%motion_excess(coordinate, :, element))
+      end associate
+    end do
+    where (film%fixed) value = 0.0_wp
+  end subroutine add_squeeze_column
 
   !> Stiffness of the foil's own springs, or of foils that are meshed, without contacts.
   subroutine fill_springs(bearing, matrix)
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
     PetscErrorCode :: ierr
+    integer :: i
 
     PetscCallA(MatZeroEntries(matrix, ierr))
-    associate (foil => bearing%pad(1)%foil)
-      call foil%add_springs(matrix)
-      if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, matrix)
-    end associate
+    do i = 1, size(bearing%pad)
+      associate (foil => bearing%pad(i)%foil)
+        call number_by(bearing, i, matrix)
+        call foil%add_springs(matrix)
+        if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, i, matrix)
+      end associate
+    end do
     call finish(bearing, matrix)
   end subroutine fill_springs
 
-  !> A matrix of a meshed foil, and nothing else.
+  !> A matrix of a meshed foil, the same one for each pad, and nothing else.
   subroutine fill_from_foil(bearing, of_foil, matrix)
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     Mat, intent(in) :: of_foil !! in the foil's own numbers
     Mat, intent(in) :: matrix  !! like the bearing's; overwritten
     PetscErrorCode :: ierr
+    integer :: i
 
     PetscCallA(MatZeroEntries(matrix, ierr))
-    call add_of_foil(bearing, of_foil, matrix)
+    do i = 1, size(bearing%pad)
+      call add_of_foil(bearing, of_foil, i, matrix)
+    end do
     call finish(bearing, matrix)
   end subroutine fill_from_foil
 
-  !> Adds a matrix of the foil, in its own numbers.
-  subroutine add_of_foil(bearing, of_foil, matrix)
+  !> Adds a matrix of a pad's foil, in its own numbers.
+  subroutine add_of_foil(bearing, of_foil, pad, matrix)
     type(bearing_system_type), intent(in) :: bearing
     Mat, intent(in) :: of_foil, matrix
-    integer, parameter :: foil_block = 2 ! the film's is the first
-    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(1)%foil%row_entries]))
+    integer, intent(in) :: pad !! which
+    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(pad)%foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
     PetscScalar :: value(size(number))
     PetscErrorCode :: ierr
     integer, allocatable :: kept(:)
     integer :: i
 
-    associate (blocks => bearing%blocks)
+    associate (blocks => bearing%blocks, foil_block => 2*pad)
       PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
       do row = first, last - 1
         call copy_row(of_foil, row, entries, number, value)
@@ -199,32 +239,49 @@ contains
   !> A stiffness of the contacts along their surface, and nothing else.
   subroutine fill_friction(bearing, stiffness, matrix)
     type(bearing_system_type), intent(inout) :: bearing !! at its answer; left as it is
-    real(wp), intent(in) :: stiffness(:) !! of this rank's contacts [N/m]
+    real(wp), intent(in) :: stiffness(:) !! of this rank's contacts, pad by pad [N/m]
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
-    real(wp) :: kept(3, 3, size(stiffness)), unknown(bearing%local_size())
+    real(wp) :: unknown(bearing%local_size())
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, first
 
     call bearing%get_unknowns(unknown)
     PetscCallA(MatZeroEntries(matrix, ierr))
-    associate (foil => bearing%pad(1)%foil)
-      associate (point => foil%contacts%point, law => foil%contacts%law)
-        do i = 1, size(point)
-          kept(:, :, i) = point(i)%derivative
-          point(i)%derivative = 0.0_wp
-          point(i)%derivative(1, 1) = -stiffness(i)
-          if (.not. law(point(i)%law)%one_way) point(i)%derivative(2, 2) = -stiffness(i)
-        end do
-        call foil%set_lending(.false.)
-        call foil%add_jacobian(unknown, matrix)
-        call foil%set_lending(.true.)
-        do i = 1, size(point)
-          point(i)%derivative = kept(:, :, i)
-        end do
+    first = 0
+    do i = 1, size(bearing%pad)
+      call number_by(bearing, i, matrix)
+      associate (pad => bearing%pad(i), last => first + size(bearing%pad(i)%foil%contacts%point))
+        call add_friction(pad%foil, unknown(pad%first + 1:pad%last), stiffness(first + 1:last), matrix)
       end associate
-    end associate
+      first = first + size(bearing%pad(i)%foil%contacts%point)
+    end do
     call finish(bearing, matrix)
   end subroutine fill_friction
+
+  !> The same of one pad's foil, by its local numbers.
+  subroutine add_friction(foil, unknown, stiffness, matrix)
+    class(foil_model_type), intent(inout) :: foil !! left as it is
+    real(wp), intent(in) :: unknown(:)   !! the pad's, in SI
+    real(wp), intent(in) :: stiffness(:) !! of its contacts [N/m]
+    Mat, intent(in) :: matrix
+    real(wp) :: kept(3, 3, size(stiffness))
+    integer :: i
+
+    associate (point => foil%contacts%point, law => foil%contacts%law)
+      do i = 1, size(point)
+        kept(:, :, i) = point(i)%derivative
+        point(i)%derivative = 0.0_wp
+        point(i)%derivative(1, 1) = -stiffness(i)
+        if (.not. law(point(i)%law)%one_way) point(i)%derivative(2, 2) = -stiffness(i)
+      end do
+      call foil%set_lending(.false.)
+      call foil%add_jacobian(unknown, matrix)
+      call foil%set_lending(.true.)
+      do i = 1, size(point)
+        point(i)%derivative = kept(:, :, i)
+      end do
+    end associate
+  end subroutine add_friction
 
   !> Assembles a matrix and scales it as the bearing's.
   subroutine finish(bearing, matrix)
@@ -233,6 +290,7 @@ contains
     Vec :: left, right
     PetscErrorCode :: ierr
 
+    call number_by(bearing, 0, matrix)
     PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(VecDuplicate(bearing%state, left, ierr))

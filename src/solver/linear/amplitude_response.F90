@@ -26,7 +26,7 @@ module gfb_amplitude_response
 
   !> A vibration of one of the shaft's coordinates.
   type, public :: vibration_state_type
-    complex(wp), allocatable :: stiffness(:) !! along the surface, of this rank's contacts [N/m]
+    complex(wp), allocatable :: stiffness(:) !! along the surface, of this rank's contacts, pad by pad [N/m]
     complex(wp), allocatable, private :: sticking(:) !! the same of no amplitude [N/m]
     complex(wp) :: coefficient(shaft_coordinates) = 0.0_wp !! forces and torques over the motion [SI]
     real(wp) :: lost = 0.0_wp    !! energy that contacts lose in a cycle [J]
@@ -40,13 +40,12 @@ contains
   subroutine start_vibration(bearing, vibration)
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(vibration_state_type), intent(out) :: vibration !! whose contacts stick
-    real(wp) :: still(bearing%pad(1)%foil%local_unknowns()), lost
+    real(wp) :: still(bearing%local_size()), lost
+    integer :: i
 
     still = 0.0_wp
-    associate (contacts => bearing%pad(1)%foil%contacts)
-      allocate (vibration%stiffness(size(contacts%point)))
-      call vibrate_contacts(contacts, still, still, 0.0_wp, vibration%stiffness, lost)
-    end associate
+    allocate (vibration%stiffness(sum([(size(bearing%pad(i)%foil%contacts%point), i=1, size(bearing%pad))])))
+    call vibrate_pads(bearing, still, still, 0.0_wp, vibration%stiffness, lost)
     vibration%sticking = vibration%stiffness
   end subroutine start_vibration
 
@@ -139,10 +138,32 @@ contains
 
     call bearing%get_unknowns(in_phase, response%one)
     call bearing%get_unknowns(behind, response%other)
-    associate (foil => bearing%pad(1)%foil)
-      call vibrate_contacts(foil%contacts, foil%own_part(in_phase), foil%own_part(behind), amplitude, stiffness, lost)
-    end associate
+    call vibrate_pads(bearing, in_phase, behind, amplitude, stiffness, lost)
     total = sum_over_ranks([lost])
     lost = total(1)*merge(2.0_wp, 1.0_wp, bearing%pad(1)%whole%half)
   end subroutine answer_contacts
+
+  !> What this rank's contacts answer to a motion, pad by pad.
+  pure subroutine vibrate_pads(bearing, in_phase, behind, amplitude, stiffness, lost)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: in_phase(:), behind(:) !! local unknowns over the amplitude, in SI
+    real(wp), intent(in) :: amplitude !! [m]
+    complex(wp), intent(out) :: stiffness(:) !! [N/m]
+    real(wp), intent(out) :: lost !! [J]
+    real(wp) :: lost_here
+    integer :: i, first
+
+    lost = 0.0_wp
+    first = 0
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), foil => bearing%pad(i)%foil)
+        associate (last => first + size(foil%contacts%point))
+          call vibrate_contacts(foil%contacts, foil%own_part(in_phase(pad%first + 1:pad%last)), &
+                                foil%own_part(behind(pad%first + 1:pad%last)), amplitude, stiffness(first + 1:last), lost_here)
+        end associate
+        first = first + size(foil%contacts%point)
+      end associate
+      lost = lost + lost_here
+    end do
+  end subroutine vibrate_pads
 end module gfb_amplitude_response

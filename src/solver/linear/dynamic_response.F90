@@ -18,10 +18,12 @@ module gfb_dynamic_response
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns
+  use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+  use gfb_motion_symmetry, only: translations, tilts, motion_weights, motion_unknowns
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
   use gfb_direct_solver, only: failure_in_words
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
@@ -29,8 +31,6 @@ module gfb_dynamic_response
   implicit none (type)
   private
   public :: create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
-
-  integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4] !! of the shaft's coordinates
 
   !> The equations of motions with one symmetry about z = 0, or of all.
   type, public :: part_type
@@ -140,54 +140,40 @@ contains
   subroutine create_parts(bearing, response)
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
-    real(wp) :: has(bearing%local_size())
     integer :: i
 
     allocate (response%part(merge(2, 1, bearing%pad(1)%whole%half .and. .not. bearing%pad(1)%whole%opposite .and. &
                                   .not. allocated(response%opposite))))
-    associate (part => response%part, film => bearing%pad(1)%film)
-      has = 1.0_wp
-      has(bearing%first_shaft + 1:) = 0.0_wp
-      if (bearing%pad(1)%whole%opposite) then
-        part(1)%coordinate = tilts
-        part(1)%weight = -film%half_torque_weight
-        where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
-        call create_part(bearing, response%equations%steady, has, part(1))
-      else if (.not. bearing%pad(1)%whole%half) then
-        part(1)%coordinate = [translations, tilts]
-        part(1)%weight = film%force_weight
-        part(1)%weight(tilts, :) = -part(1)%weight(tilts, :) ! torques act on the shaft
-        call create_part(bearing, response%equations%steady, has, part(1))
+    associate (part => response%part, whole => bearing%pad(1)%whole, steady => response%equations%steady)
+      if (whole%opposite) then
+        call create_part(bearing, steady, tilts, .true., part(1))
+      else if (.not. whole%half) then
+        call create_part(bearing, steady, [translations, tilts], .true., part(1))
       else
-        part(1)%coordinate = translations
-        part(1)%weight = film%force_weight(translations, :)
-        call create_part(bearing, response%equations%steady, has, part(1))
+        call create_part(bearing, steady, translations, .true., part(1))
       end if
-      if (size(part) == 2) then
-        part(2)%coordinate = tilts
-        part(2)%weight = -film%half_torque_weight
-        where (abs(film%axial) <= epsilon(1.0_wp)*film%width) has(:size(film%axial)) = 0.0_wp
-        has(bearing%pad(1)%foil%first + 1:) = 0.0_wp
-        call create_part(bearing, response%equations%steady, has, part(2))
-      end if
+      if (size(part) == 2) call create_part(bearing, steady, tilts, .false., part(2))
       do i = 1, size(part)
         call keep_columns(part(i), response)
       end do
     end associate
   end subroutine create_parts
 
-  !> A complex matrix of the motions, still empty.
-  subroutine create_part(bearing, steady, has, part)
+  !> A part with its weights, and a complex matrix of the motions, still empty.
+  subroutine create_part(bearing, steady, coordinate, foils_move, part)
     type(bearing_system_type), intent(in) :: bearing
     Mat, intent(in) :: steady !! whose pattern it takes
-    real(wp), intent(in) :: has(:) !! 1 where the motion has a local unknown, else 0
+    integer, intent(in) :: coordinate(:) !! of the shaft that move
+    logical, intent(in) :: foils_move    !! or stay where they are
     type(part_type), intent(inout) :: part
     Vec :: flags
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 
+    part%coordinate = coordinate
+    part%weight = motion_weights(bearing, coordinate)
     PetscCallA(VecDuplicate(bearing%state, flags, ierr))
-    call bearing%exchange%put(has, flags)
+    call bearing%exchange%put(motion_unknowns(bearing, coordinate, foils_move), flags)
     PetscCallA(GFB_VecGetArrayRead(flags, values, ierr))
     part%kept = values > 0.5_wp
     PetscCallA(GFB_VecRestoreArrayRead(flags, values, ierr))
@@ -311,20 +297,38 @@ contains
     integer, intent(in) :: coordinate !! that moves
     real(wp), intent(in) :: motion    !! how far, with this change [m], [rad]
     Vec, intent(in) :: change         !! minus it, scaled
-    real(wp) :: force(size(part%coordinate)), value(bearing%local_size()), pressure(bearing%film_nodes()), gap
-    integer :: node
+    real(wp) :: force(size(part%coordinate)), value(bearing%local_size()), pressure(bearing%film_nodes())
+    integer :: i
 
     call bearing%get_unknowns(value, change)
-    pressure = value(:size(pressure))
-    associate (film => bearing%pad(1)%film, foil => bearing%pad(1)%foil)
-      do node = 1, merge(size(pressure), 0, bearing%pad(1)%contact%present)
-        gap = -motion*film%motion(coordinate, node)
-        if (foil%source(node) > 0) gap = gap + foil%rate(node)*value(foil%source(node))
-        pressure(node) = pressure(node) + response%solid_rate(node)*gap
-      end do
-    end associate
+    pressure = bearing%film_pressure(value)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
+        if (.not. pad%contact%present) cycle
+        call add_asperities(pad, response%solid_rate(first:last), coordinate, motion, value(pad%first + 1:pad%last), &
+                            pressure(first:last))
+      end associate
+    end do
     force = sum_over_ranks(matmul(part%weight, pressure))
   end function forces_of
+
+  !> Adds the pressures of a pad's asperities.
+  pure subroutine add_asperities(pad, solid_rate, coordinate, motion, value, pressure)
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: solid_rate(:) !! slope of their pressure over the gap [Pa/m]
+    integer, intent(in) :: coordinate
+    real(wp), intent(in) :: motion   !! [m], [rad]
+    real(wp), intent(in) :: value(:) !! minus the change of the pad's unknowns, in SI
+    real(wp), intent(inout) :: pressure(:) !! at the pad's nodes [Pa]
+    real(wp) :: gap
+    integer :: node
+
+    do node = 1, size(pressure)
+      gap = -motion*pad%film%motion(coordinate, node)
+      if (pad%foil%source(node) > 0) gap = gap + pad%foil%rate(node)*value(pad%foil%source(node))
+      pressure(node) = pressure(node) + solid_rate(node)*gap
+    end do
+  end subroutine add_asperities
 
   !> Frees what PETSc holds.
   recursive subroutine destroy_response(response)

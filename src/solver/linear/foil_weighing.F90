@@ -115,11 +115,10 @@ contains
     real(wp), intent(inout) :: left_out !! [rad/s]
     type(inner_modes_type), intent(out) :: inner
     Mat, intent(in) :: of_foil
-    integer, parameter :: foil_block = 2 ! the film's is the first
     type(craig_bampton_type) :: reduced
     PetscInt :: row(size(piece%number, 1))
     PetscErrorCode :: ierr
-    integer :: i, k, kept, modes
+    integer :: i, k, pad, kept, modes
 
     ! One mode more tells what is left out.
     call reduce_matrices(piece%stiffness, piece%mass, piece%is_retained, wanted + 1, reduced)
@@ -128,12 +127,16 @@ contains
     if (reduced%modes > modes) left_out = min(left_out, sqrt(reduced%eigenvalue(modes + 1)))
     inner%eigenvalue = reduced%eigenvalue(:modes)
     inner%coupling = reduced%mass(:kept, kept + 1:kept + modes)
-    allocate (inner%number(kept, size(piece%number, 2)), source=-1)
+    allocate (inner%number(kept, size(bearing%pad)*size(piece%number, 2)), source=-1)
     do k = 1, size(piece%number, 2)
       row = int(piece%number(:, k) - 1, pint)
       PetscCallA(MatSetValues(of_foil, int(kept, pint), row, int(kept, pint), row, [reduced%mass(:kept, :kept)], ADD_VALUES, ierr))
-      do i = 1, kept
-        if (piece%number(i, k) > 0) inner%number(i, k) = bearing%blocks%global_number(foil_block, piece%number(i, k))
+      do pad = 1, size(bearing%pad)
+        associate (number => inner%number(:, (pad - 1)*size(piece%number, 2) + k))
+          do i = 1, kept
+            if (piece%number(i, k) > 0) number(i) = bearing%blocks%global_number(2*pad, piece%number(i, k))
+          end do
+        end associate
       end do
     end do
   end subroutine reduce_piece
@@ -184,17 +187,19 @@ contains
     PetscCallA(ISDestroy(own, ierr))
   end subroutine find_lowest
 
-  !> Numbers, from 0, of this rank's unknowns of the foil among those of the bearing.
+  !> Numbers, from 0, of this rank's unknowns of the foils among those of the bearing.
   subroutine own_numbers(bearing, own)
     type(bearing_system_type), intent(in) :: bearing
     IS, intent(out) :: own
-    integer, parameter :: foil_block = 2
     PetscInt :: first, last, i
+    PetscInt, allocatable :: number(:)
     PetscErrorCode :: ierr
+    integer :: pad
 
     associate (blocks => bearing%blocks)
       PetscCallA(MatGetOwnershipRange(bearing%pad(1)%foil%elastic, first, last, ierr))
-      PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, last - first, [(int(blocks%global_number(foil_block, int(i)), pint), i=first + 1, last)], PETSC_COPY_VALUES, own, ierr))
+      number = [((int(blocks%global_number(2*pad, int(i)), pint), i=first + 1, last), pad=1, size(bearing%pad))]
+      PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, size(number, kind=pint), number, PETSC_COPY_VALUES, own, ierr))
     end associate
   end subroutine own_numbers
 end module gfb_foil_weighing

@@ -366,17 +366,19 @@ contains
     mode%share = of_rotor/max(tiny(1.0_wp), of_rotor + of_film)
   end subroutine weigh
 
-  !> Mean of the squared pressure of a part's film over the area, over ambient pressure.
+  !> Mean of the squared pressure of a part's films over their area, over ambient pressure.
   function mean_square(share, x) result(mean)
     type(share_type), intent(in) :: share
     Vec, intent(in) :: x
     real(wp) :: mean, sums(2), value(share%bearing%local_size())
+    integer :: i
 
     call take_film(share, x, share%response%one)
     call share%bearing%get_unknowns(value, share%response%one)
-    associate (film => share%bearing%pad(1)%film)
-      sums = sum_over_ranks(square_integrals(film, value))
-      mean = sums(1)/sums(2)/film%ambient_pressure**2
+    associate (pad => share%bearing%pad)
+      sums = sum_over_ranks(sum(reshape([(square_integrals(pad(i)%film, value(pad(i)%first + 1:pad(i)%last)), i=1, size(pad))], &
+                                        [2, size(pad)]), 2))
+      mean = sums(1)/sums(2)/pad(1)%film%ambient_pressure**2
     end associate
   end function mean_square
 

@@ -19,6 +19,7 @@ module gfb_stability
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_operating_point, only: operating_point_type
+  use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: foil_unit
   use gfb_direct_solver, only: use_factors, factor_matrix
@@ -88,19 +89,35 @@ contains
   subroutine measure_damping(bearing, damping)
     type(bearing_system_type), intent(in) :: bearing
     Vec, intent(in) :: damping
-    real(wp) :: area(size(bearing%pad(1)%mesh%mesh_node)), value(bearing%local_size())
+    real(wp) :: value(bearing%local_size())
+    integer :: i
+
+    value = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call measure_pad(pad, value(pad%first + 1:pad%last))
+      end associate
+    end do
+    value = value*bearing%pad(1)%film%ambient_pressure/bearing%pad(1)%film%clearance
+    call bearing%add_up(value, damping)
+  end subroutine measure_damping
+
+  !> The area that moves with each unknown of a pad's foil.
+  pure subroutine measure_pad(pad, value)
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(inout) :: value(:) !! one an unknown of the pad, zero before
+    real(wp) :: area(size(pad%mesh%mesh_node))
     integer :: element, node
 
     area = 0.0_wp
-    associate (film => bearing%pad(1)%film)
+    associate (film => pad%film)
       do element = 1, size(film%element_nodes, 2)
         associate (nodes => film%element_nodes(:, element))
           area(nodes) = area(nodes) + matmul(film%shape, film%geometry(element)%area)
         end associate
       end do
     end associate
-    value = 0.0_wp
-    associate (foil => bearing%pad(1)%foil)
+    associate (foil => pad%foil)
       do node = 1, size(area)
         if (foil%source(node) <= foil%first) cycle ! fixed
         associate (sum => value(foil%source(node)))
@@ -111,9 +128,7 @@ contains
         mine = mine*foil%unknown_scale**2/foil%equation_scale ! one of them is divided out again
       end associate
     end associate
-    value = value*bearing%pad(1)%film%ambient_pressure/bearing%pad(1)%film%clearance
-    call bearing%add_up(value, damping)
-  end subroutine measure_damping
+  end subroutine measure_pad
 
   !> Eigenvalues of \( A y = \lambda B y \) next to and beyond zero, where B is a damping of some of the
   !> unknowns.

@@ -19,11 +19,14 @@ contains
     Mat, intent(out) :: steady !! like the bearing's own
     type(bearing_system_type), allocatable, intent(inout) :: opposite !! gets the state, where there is one
     logical :: moved
+    integer :: i
 
     call bearing%settle(bearing%state, moved)
-    associate (foil => bearing%pad(1)%foil)
-      if (stick .and. foil%has_contacts()) call stick_contacts(foil%contacts)
-    end associate
+    do i = 1, size(bearing%pad)
+      associate (foil => bearing%pad(i)%foil)
+        if (stick .and. foil%has_contacts()) call stick_contacts(foil%contacts)
+      end associate
+    end do
     call linearise_exactly(bearing, steady)
     if (allocated(opposite)) call lend_state(bearing, opposite)
     call bearing%settle(bearing%state, moved)
@@ -34,10 +37,15 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! whose contacts are linearised
     Mat, intent(out) :: steady !! like the bearing's own
     PetscErrorCode :: ierr
+    integer :: i
 
-    call bearing%pad(1)%foil%set_lending(.false.)
+    do i = 1, size(bearing%pad)
+      call bearing%pad(i)%foil%set_lending(.false.)
+    end do
     call bearing%linearise_at(bearing%point, .true., bearing%state)
-    call bearing%pad(1)%foil%set_lending(.true.)
+    do i = 1, size(bearing%pad)
+      call bearing%pad(i)%foil%set_lending(.true.)
+    end do
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, steady, ierr))
   end subroutine linearise_exactly
 
@@ -47,22 +55,22 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_system_type), intent(inout) :: opposite
     real(wp) :: given(bearing%local_size()), taken(opposite%local_size())
-    integer :: i
+    integer :: i, k
 
     call bearing%get_unknowns(given)
     opposite%point = bearing%point
     taken = 0.0_wp
-    associate (nodes => bearing%film_nodes())
-      taken(:nodes) = given(:nodes)
-    end associate
+    call opposite%put_pressure(bearing%film_pressure(given), taken)
     taken(opposite%first_shaft + 1:) = given(bearing%first_shaft + 1:)
     call opposite%set_unknowns(taken)
-    opposite%pad(1)%held = bearing%pad(1)%foil%deflection(given)
-    associate (from => bearing%pad(1)%foil%contacts%point)
-      do i = 1, size(from)
-        opposite%pad(1)%foil%contacts%point(i)%derivative = from(i)%derivative
-      end do
-    end associate
+    do k = 1, size(bearing%pad)
+      associate (pad => bearing%pad(k), other => opposite%pad(k))
+        other%held = pad%foil%deflection(given(pad%first + 1:pad%last))
+        do i = 1, size(pad%foil%contacts%point)
+          other%foil%contacts%point(i)%derivative = pad%foil%contacts%point(i)%derivative
+        end do
+      end associate
+    end do
   end subroutine lend_state
 
   !> Slope of the asperities' pressure at this rank's nodes.
