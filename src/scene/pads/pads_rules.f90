@@ -2,11 +2,8 @@
 module gfb_pads_rules
   use gfb_bearing_case, only: bearing_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_dynamics_case, only: dynamics_case_type
   use gfb_model_case, only: model_case_type, coupling_partitioned
   use gfb_operation_case, only: operation_case_type
-  use gfb_solver_case, only: solver_case_type
-  use gfb_sweep_case, only: sweep_case_type
   implicit none (type, external)
   private
   public :: check_pads
@@ -16,19 +13,13 @@ module gfb_pads_rules
 contains
 
   !> Complains about what is known of one pad alone.
-  subroutine check_pads(keys, bearing, operation, dynamics, model, solver, sweep)
+  subroutine check_pads(keys, bearing, operation, model)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&pads` ask for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
-    type(dynamics_case_type), intent(in) :: dynamics !! what `&dynamics` asks for
     type(model_case_type), intent(in) :: model !! what `&model` asks for
-    type(solver_case_type), intent(in) :: solver !! what `&solver` asks for
-    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
 
     if (bearing%pads == 1) return
-    if (dynamics%present) then
-      call keys%complain('scene', 'analysis', "'linear_dynamics' "//one_pad)
-    end if
     if (operation%lift_given(1)) then
       call keys%complain('operation', 'leading_edge_lift', one_pad//': each pad has a free edge')
     end if
@@ -39,7 +30,5 @@ contains
     if (model%coupling == coupling_partitioned) then
       call keys%complain('model', 'coupling', "'partitioned' "//one_pad)
     end if
-    if (solver%stability) call keys%complain('solver', 'stability', one_pad)
-    if (sweep%turn_folds) call keys%complain('sweep', 'turn_folds', one_pad)
   end subroutine check_pads
 end module gfb_pads_rules
