@@ -197,7 +197,10 @@ module gfb_result_table
       'force that lifts the top foil''s free edge over its displacement; negative: unstable', &
       'the same, with a free edge: force that lifts it over its mean displacement, while '// &
       'film, foils and shaft follow; near zero the equilibrium is nearly neutral, below it '// &
-      'is unstable'), &
+      'is unstable; of several pads the least one'), &
+    result_type('edge_stiffness_<n>', 'N/m', number, bearing, &
+      'force that lifts the free edge of pad n over its displacement', &
+      'of several pads: the same of each'), &
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, at this load and speed', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &

@@ -47,10 +47,11 @@ contains
     force = bearing%point%edge_hold*(bearing%point%edge_height - edge_lift(bearing))
   end function edge_force
 
-  !> The vector whose product with a state is that lift over the clearance.
-  subroutine edge_direction(bearing, direction)
+  !> The vector whose product with a state is that lift, of all pads or of one, over the clearance.
+  subroutine edge_direction(bearing, direction, only)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: direction !! scaled
+    integer, intent(in), optional :: only !! pad
     real(wp) :: rate(bearing%local_size())
     PetscErrorCode :: ierr
     integer :: i
@@ -59,7 +60,11 @@ contains
     rate = 0.0_wp
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        rate(pad%first + 1:pad%last) = pad%edge%lift_rates(pad%last - pad%first)/size(bearing%pad)
+        if (present(only)) then
+          if (i == only) rate(pad%first + 1:pad%last) = pad%edge%lift_rates(pad%last - pad%first)
+        else
+          rate(pad%first + 1:pad%last) = pad%edge%lift_rates(pad%last - pad%first)/size(bearing%pad)
+        end if
       end associate
     end do
     call bearing%exchange%add(rate*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)

@@ -26,8 +26,9 @@ contains
     type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
     integer :: sign_of_determinant
-    real(wp) :: stiffness
-    logical :: known
+    real(wp), allocatable :: stiffness(:)
+    logical, allocatable :: known(:)
+    integer :: i
 
     allocate (list(0))
     if (scene%solver%stability) then
@@ -47,9 +48,12 @@ contains
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
     call add_result(list, 'determinant_sign', sign_of_determinant)
-    if (size(bearing%pad) > 1 .or. .not. bearing%pad(1)%foil%has_contacts()) return
+    if (.not. bearing%pad(1)%foil%has_contacts()) return
     call find_edge_stiffness(bearing, newton, known, stiffness)
-    if (known) call add_result(list, 'edge_stiffness', stiffness)
+    if (any(known)) call add_result(list, 'edge_stiffness', minval(stiffness, known))
+    do i = 1, merge(size(known), 0, size(known) > 1)
+      if (known(i)) call add_result(list, 'edge_stiffness_'//text(i), stiffness(i))
+    end do
   end subroutine judge_answer
 
   !> The stability as a sentence.
