@@ -5,7 +5,8 @@ module gfb_strip_companions
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
+                                has_sizes, one_bump
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
@@ -33,7 +34,9 @@ contains
     type(scene_type), intent(in) :: scene !! what is asked for
     real(wp), intent(in) :: force !! on all crests at the full load [N]
     type(companions_type) :: companions
+    type(bump_foil_case_type), allocatable :: one(:)
     real(wp) :: crest_force(scene%bump_foil%bumps)
+    integer :: bump
 
     associate (foil => scene%bump_foil)
       if (scene%strip_load%kind == load_plates) then
@@ -41,12 +44,12 @@ contains
       else
         crest_force = crest_forces(scene%strip_load, foil)
       end if
-      companions%walowit_anno = crest_force/(bump_stiffness(foil)*foil%pitch*foil%width)
-      companions%curved_bump = crest_force/ &
-        curved_bump_stiffness(foil%youngs_modulus, foil%poissons_ratio, foil%thickness, &
-                              foil%half_length, foil%height, foil%width, &
-                              scene%contact%friction_sleeve)
+      one = one_bump(foil, [(bump, bump=1, foil%bumps)])
     end associate
+    companions%walowit_anno = crest_force/(bump_stiffness(one)*one%pitch*one%width)
+    companions%curved_bump = crest_force/ &
+      curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, one%thickness, &
+                            one%half_length, one%height, one%width, scene%contact%friction_sleeve)
     call solve_chain(scene, crest_force, companions)
   end function strip_companions
 
@@ -63,6 +66,7 @@ contains
     allocate (companions%chain(0))
     associate (foil => scene%bump_foil, contact => scene%contact)
       if (foil%bumps > longest_chain .or. scene%strip_load%kind == load_plates) return
+      if (has_sizes(foil)) return ! its bumps are alike
       if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
       mirrored = foil%fixed_edge == fixed_edge_trailing
       chain = bump_chain_type(foil%half_length, foil%height, foil%thickness, foil%youngs_modulus, &

@@ -4,7 +4,7 @@ module gfb_scene_checks
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
-  use gfb_crest_gap_rules, only: check_crest_gaps
+  use gfb_crest_gap_rules, only: check_crest_gaps, check_bump_sizes
   use gfb_dynamics_case, only: check_dynamics
   use gfb_pads_rules, only: check_pads
   use gfb_foil_mass_case, only: check_foil_mass
@@ -47,6 +47,7 @@ contains
     call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
                              scene%general%analysis)
     call check_crest_gaps(keys, scene)
+    call check_bump_sizes(keys, scene)
     call check_plates(keys, scene%strip_load, scene%general%analysis)
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)

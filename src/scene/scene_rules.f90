@@ -3,8 +3,8 @@ module gfb_scene_rules
   use gfb_kinds, only: wp, long
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic, pad_angle, pad_turn, &
                               preload_angle
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, &
-                                has_flats, bumps_overlap
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
+                                has_flats, bumps_overlap, has_sizes, one_bump
   use gfb_case_keys, only: case_keys_type
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_contact_case, only: contact_case_type
@@ -174,6 +174,7 @@ contains
     integer, intent(in) :: analysis  !! 0 where it is not known
     type(model_case_type), intent(in) :: model !! what `&model` asks for
     integer(long) :: elements
+    integer :: edge !! bump at the fixed one
     logical :: strip, bearing
 
     bearing = is_bearing(analysis) .and. meshes_foils(model%foil)
@@ -187,6 +188,14 @@ contains
                            'half_length')
       else if (strip .and. foil%fixed_line > fixed_line_corner) then
         call keys%complain('bump_foil', 'fixed_line', 'there are no flats: pitch is 2 half_length')
+      end if
+    end if
+    if (strip .and. has_sizes(foil) .and. has_flats(foil) .and. &
+        foil%fixed_line > fixed_line_corner .and. foil%bumps > 0) then
+      edge = merge(foil%bumps, 1, foil%fixed_edge == fixed_edge_trailing)
+      if (.not. has_flats(one_bump(foil, edge))) then
+        call keys%complain('bump_foil', 'fixed_line', 'the bump at the fixed edge, '// &
+                           text(edge)//', has no flat: its pitch is 2 half_length')
       end if
     end if
     elements = int(mesh%arc_elements + mesh%flat_elements, long)*mesh%axial_elements

@@ -1,7 +1,8 @@
 !> Sizes for which the model has no meaning: films, foils and bumps are thin against the bearing.
 module gfb_shape_rules
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_bump_foil_case, only: bump_foil_case_type, has_sizes, bump_half_lengths, &
+                                bump_thicknesses
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
   use gfb_scene, only: scene_type
@@ -44,17 +45,45 @@ contains
     type(bump_foil_case_type), intent(in) :: foil
     real(wp), intent(in) :: radius !! of the bearing, 0 where there is none [m]
     character(len=*), parameter :: group = 'bump_foil'
+    character(len=:), allocatable :: key
 
-    if (foil%half_length > 0.0_wp .and. foil%thickness >= thin_in_bump*foil%half_length) then
+    if (has_sizes(foil) .and. foil%half_length > 0.0_wp) then
+      call check_thicknesses(keys, foil, thin*radius)
+    else if (foil%half_length > 0.0_wp .and. foil%thickness >= thin_in_bump*foil%half_length) then
       call must_be_less(keys, group, 'thickness', foil%thickness, thin_in_bump*foil%half_length, &
                         'half of half_length: a bump is a thin shell')
     else
       call must_be_less(keys, group, 'thickness', foil%thickness, thin*radius, &
                         '1/20 of the radius: the foil is a thin shell, unrolled')
     end if
-    call must_be_less(keys, group, 'height', foil%height, low_in_pad*radius, &
+    key = 'height'
+    if (allocated(foil%bump_height)) key = 'bump_height'
+    call must_be_less(keys, group, key, foil%height, low_in_pad*radius, &
                       '1/4 of the radius: the strip is unrolled')
   end subroutine check_bumps
+
+  !> The same of bumps with sizes of their own; the first that is too thick is named.
+  subroutine check_thicknesses(keys, foil, limit)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp), intent(in) :: limit !! of a shell on the pad, 0 where there is none [m]
+    real(wp) :: thickness(foil%bumps), half_length(foil%bumps)
+    character(len=:), allocatable :: key
+    integer :: bump
+
+    thickness = bump_thicknesses(foil)
+    half_length = bump_half_lengths(foil)
+    key = 'thickness'
+    if (allocated(foil%bump_thickness)) key = 'bump_thickness'
+    bump = findloc(thickness >= thin_in_bump*half_length, .true., 1)
+    if (bump > 0) then
+      call must_be_less(keys, 'bump_foil', key, thickness(bump), thin_in_bump*half_length(bump), &
+                        'half of half_length of bump '//text(bump)//': a bump is a thin shell')
+    else
+      call must_be_less(keys, 'bump_foil', key, maxval(thickness), limit, &
+                        '1/20 of the radius: the foil is a thin shell, unrolled')
+    end if
+  end subroutine check_thicknesses
 
   !> The shaft and the free edge stay near the foil. A rigid pad has a stricter rule of its own.
   subroutine check_position(keys, scene)

@@ -22,6 +22,8 @@ module gfb_beam_foil
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_stress, only: beam_stresses
+  use gfb_foil_pieces, only: element_section
+  use gfb_shell_geometry, only: shell_section_type
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   implicit none (type)
   private
@@ -68,13 +70,15 @@ contains
     real(wp) :: block(2*beam_unknowns, 2*beam_unknowns)
     PetscInt :: row(2*beam_unknowns)
     PetscErrorCode :: ierr
+    type(shell_section_type) :: section
     integer :: station, here, next
 
     if (size(surface%my_elements) == 0) return ! another rank's
-    associate (mesh => surface%mesh, section => surface%section)
+    associate (mesh => surface%mesh)
       do station = 1, mesh%stations - 1
         here = (station - 1)*mesh%rows + 1
         next = here + mesh%rows
+        section = element_section(mesh, surface%section, (station - 1)*(mesh%rows - 1) + 1)
         block = line_length(mesh, [1, mesh%rows])*beam_mass(section%density, section%thickness, mesh%position(:2, [here, next]))
         row = int([number(of_beam, station), number(of_beam, station + 1)] - 1, pint)
         PetscCallA(MatSetValues(mass, int(size(row), pint), row, int(size(row), pint), row, [block], ADD_VALUES, ierr))

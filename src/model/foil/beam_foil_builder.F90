@@ -17,7 +17,8 @@ module gfb_beam_foil_builder
   use gfb_foil_mesh, only: bump_strip_mesh, station_positions
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, linear_beam_stiffness, &
                              bent_beam_stiffness, beam_unknowns
-  use gfb_shell_geometry, only: node_unknowns
+  use gfb_shell_geometry, only: node_unknowns, shell_section_type
+  use gfb_foil_pieces, only: element_section
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of
@@ -65,7 +66,7 @@ contains
     call set_laws(scene, foil)
     foil%contacts%rows = foil%bumps%mesh%rows
     call add_contacts(scene, foil)
-    call create_stiffness(scene, foil)
+    call create_stiffness(foil)
     call place_unknowns(foil, merge(0, unknowns, mine), &
                         [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
     call add_pressure(film, mesh, element_nodes, &
@@ -119,19 +120,12 @@ contains
   end subroutine own_nodes
 
   !> One matrix of both foils' stiffness, on the solved width.
-  subroutine create_stiffness(scene, foil)
-    type(scene_type), intent(in) :: scene
+  subroutine create_stiffness(foil)
     type(beam_foil_type), intent(inout) :: foil
 
     integer, parameter :: around = 3*beam_unknowns !! unknowns of a station and its neighbours
-    type(beam_section_type) :: section(2)
     PetscErrorCode :: ierr
 
-    associate (top => scene%top_foil, bumps => scene%bump_foil)
-      section = plane_strain_section([top%thickness, bumps%thickness], &
-                                     [top%youngs_modulus, bumps%youngs_modulus], &
-                                     [top%poissons_ratio, bumps%poissons_ratio])
-    end associate
     PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
     PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
     PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
@@ -139,8 +133,8 @@ contains
     PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
     if (foil%owned > 0) then
       ! Film and crests see the top foil as a straight line between stations, the bumps show nodes only.
-      call add_beam(foil%top%mesh, section(1), .false., foil%top_number, foil%elastic)
-      call add_beam(foil%bumps%mesh, section(2), .true., foil%bump_number, foil%elastic)
+      call add_beam(foil%top, .false., foil%top_number, foil%elastic)
+      call add_beam(foil%bumps, .true., foil%bump_number, foil%elastic)
     end if
     PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
@@ -149,30 +143,35 @@ contains
     allocate (foil%row_entries(foil%owned), source=around)
   end subroutine create_stiffness
 
-  !> Adds the stiffness of a beam through a mesh's stations.
-  subroutine add_beam(mesh, section, bent, number, matrix)
-    type(quad_mesh_type), intent(in) :: mesh
-    type(beam_section_type), intent(in) :: section
+  !> Adds the stiffness of a beam through a surface's stations.
+  subroutine add_beam(surface, bent, number, matrix)
+    type(foil_surface_type), intent(in) :: surface
     logical, intent(in) :: bent         !! elements bend between their ends
     integer, intent(in) :: number(:, :) !! (5, stations)
     Mat, intent(in) :: matrix
 
+    type(shell_section_type) :: sheet
+    type(beam_section_type) :: section
     real(wp) :: stiffness(ends*beam_unknowns, ends*beam_unknowns)
     PetscInt :: row(ends*beam_unknowns)
     PetscErrorCode :: ierr
     integer :: station, here, next
 
-    do station = 1, mesh%stations - 1
-      here = (station - 1)*mesh%rows + 1
-      next = here + mesh%rows
-      if (bent) then
-        stiffness = bent_beam_stiffness(section, mesh%position(:radial, [here, next]))
-      else
-        stiffness = linear_beam_stiffness(section, mesh%position(:radial, [here, next]))
-      end if
-      row = int([number(component, station), number(component, station + 1)] - 1, pint)
-      PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness], ADD_VALUES, ierr))
-    end do
+    associate (mesh => surface%mesh)
+      do station = 1, mesh%stations - 1
+        here = (station - 1)*mesh%rows + 1
+        next = here + mesh%rows
+        sheet = element_section(mesh, surface%section, (station - 1)*(mesh%rows - 1) + 1)
+        section = plane_strain_section(sheet%thickness, sheet%youngs_modulus, sheet%poissons_ratio)
+        if (bent) then
+          stiffness = bent_beam_stiffness(section, mesh%position(:radial, [here, next]))
+        else
+          stiffness = linear_beam_stiffness(section, mesh%position(:radial, [here, next]))
+        end if
+        row = int([number(component, station), number(component, station + 1)] - 1, pint)
+        PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness], ADD_VALUES, ierr))
+      end do
+    end associate
   end subroutine add_beam
 
   !> Width that is solved [m].

@@ -46,7 +46,7 @@ contains
       end do
       foil%contacts%point = point(:found)
     end associate
-    call find_masters_of_crests(scene, height, film, ranges, foil)
+    call find_masters_of_crests(height, film, ranges, foil)
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not fixed everywhere.
@@ -77,8 +77,7 @@ contains
   end subroutine add_line
 
   !> The top foil's elements above the crests.
-  subroutine find_masters_of_crests(scene, height, film, ranges, foil)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
+  subroutine find_masters_of_crests(height, film, ranges, foil)
     real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(foil_ranges_type), intent(in) :: ranges
@@ -96,7 +95,7 @@ contains
     points = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
     above = top_mesh(film, height, stations_above(film, points(tangential, :)))
     before = lbound(above%position, 2) - 1
-    call find_masters(points, above%position, above%element_nodes - before, scene%bump_foil%height, element, coordinates)
+    call find_masters(points, above%position, above%element_nodes - before, height, element, coordinates)
     do i = 1, size(crest)
       nodes(:, i) = 1
       if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)

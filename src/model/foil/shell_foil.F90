@@ -14,7 +14,7 @@ module gfb_shell_foil
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
-  use gfb_foil_pieces, only: element_geometry, assemble_piece, retained_in_piece
+  use gfb_foil_pieces, only: element_geometry, element_section, assemble_piece, retained_in_piece
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
   use gfb_condensed_piece, only: condensed_piece_type
@@ -67,7 +67,8 @@ contains
     end if
     associate (bumps => self%bumps)
       do i = 1, size(bumps%my_elements)
-        call shell_mass(element_geometry(bumps%mesh, bumps%my_elements(i)), bumps%section, block, error)
+        call shell_mass(element_geometry(bumps%mesh, bumps%my_elements(i)), &
+                        element_section(bumps%mesh, bumps%section, bumps%my_elements(i)), block, error)
         if (allocated(error)) return
         call add_block(mass, ranges%of_bumps(element_unknowns(bumps, bumps%my_elements(i))), block)
       end do

@@ -8,6 +8,7 @@ module gfb_foil_mesh
   use gfb_text, only: text
   use gfb_quad_mesh, only: quad_mesh_type, add_node_set
   use gfb_bump_profile, only: arc_point, arc_normal
+  use gfb_axial_rows, only: axial_rows
   use gfb_substructures, only: substructure_type
   implicit none (type, external)
   private
@@ -22,6 +23,7 @@ module gfb_foil_mesh
     real(wp) :: half_length = 0.0_wp !! half the chord of the arc [m]
     real(wp) :: height = 0.0_wp      !! of the crest above the flats' mid-surface [m]
     real(wp) :: pitch = 0.0_wp       !! arc and flat [m]
+    real(wp) :: thickness = 0.0_wp   !! of arc and flat; 0: that of all [m]
   end type bump_type
 
   !> A strip: its bumps from the fixed edge on, how it begins there, how finely it is meshed.
@@ -41,6 +43,7 @@ module gfb_foil_mesh
     real(wp) :: normal(2, 2) = 0.0_wp !! of the element before and the one after, (x, v) each [1]
     integer :: crest = 0             !! bump whose crest it is, from the fixed edge; 0: none
     integer :: corner = 0            !! bump whose corner it is; 0: none
+    real(wp) :: thickness = 0.0_wp   !! of the element before it; 0: that of all [m]
     logical :: divides = .false.     !! substructures meet or end here
   end type station_type
 
@@ -182,17 +185,24 @@ contains
     where (flat <= rounding*shape%bump%pitch) flat = 0.0_wp
     associate (bump => shape%bump, bumps => size(shape%bump), whole => shape%flat_elements, &
                half => (shape%flat_elements + 1)/2)
-      if (shape%begins == fixed_line_half_flat) call add_flat(list, n, 0.5_wp*flat(1), half)
+      if (shape%begins == fixed_line_half_flat) then
+        call add_flat(list, n, 0.5_wp*flat(1), half, bump(1)%thickness)
+      end if
       do i = 1, bumps
-        if (shape%begins == fixed_line_flat) call add_flat(list, n, flat(i), whole)
+        if (shape%begins == fixed_line_flat) then
+          call add_flat(list, n, flat(i), whole, bump(i)%thickness)
+        end if
         call add_arc(list, n, bump(i), shape%arc_elements, i)
         if (shape%begins == fixed_line_corner) then
-          call add_flat(list, n, flat(i), whole)
+          call add_flat(list, n, flat(i), whole, bump(i)%thickness)
         else if (shape%begins == fixed_line_half_flat .and. i < bumps) then
-          call add_flat(list, n, 0.5_wp*(flat(i) + flat(i + 1)), whole)
+          call add_flat(list, n, 0.5_wp*(flat(i) + flat(i + 1)), whole, &
+                        0.5_wp*(bump(i)%thickness + bump(i + 1)%thickness))
         end if
       end do
-      if (shape%begins == fixed_line_half_flat) call add_flat(list, n, 0.5_wp*flat(bumps), half)
+      if (shape%begins == fixed_line_half_flat) then
+        call add_flat(list, n, 0.5_wp*flat(bumps), half, bump(bumps)%thickness)
+      end if
     end associate
     list(n)%divides = .true.
     station = list(:n)
@@ -218,6 +228,7 @@ contains
       point = arc_point(bump%half_length, bump%height, fraction)
       station(n)%along = begin + point(1)
       station(n)%height = point(2)
+      station(n)%thickness = bump%thickness
       station(n)%normal = spread(arc_normal(bump%half_length, bump%height, fraction), 2, 2)
       if (2*k == elements) station(n)%crest = number
       station(n)%divides = 2*k == elements .or. k == elements
@@ -226,11 +237,12 @@ contains
   end subroutine add_arc
 
   !> Adds the stations of a flat; none where it has no length.
-  pure subroutine add_flat(station, n, length, elements)
+  pure subroutine add_flat(station, n, length, elements, thickness)
     type(station_type), intent(inout) :: station(:)
     integer, intent(inout) :: n       !! stations so far
     real(wp), intent(in) :: length    !! [m]
     integer, intent(in) :: elements
+    real(wp), intent(in) :: thickness !! 0: that of all [m]
     real(wp), parameter :: up(2) = [0.0_wp, 1.0_wp]
     real(wp) :: begin
     integer :: k
@@ -242,6 +254,7 @@ contains
       n = n + 1
       station(n)%along = begin + length*real(k, wp)/real(elements, wp)
       station(n)%normal = spread(up, 2, 2)
+      station(n)%thickness = thickness
       station(n)%divides = k == elements
     end do
   end subroutine add_flat
@@ -278,6 +291,10 @@ contains
       kink = kink(size(kink):1:-1)
       normal = normal(:, 2:1:-1, size(x):1:-1)
       normal(1, :, :) = -normal(1, :, :)
+    end if
+    if (any(station%thickness > 0.0_wp)) then
+      mesh%column_thickness = station(2:)%thickness
+      if (mirrored) mesh%column_thickness = station(size(x):2:-1)%thickness
     end if
     mesh%rows = size(rows)
     mesh%stations = size(x)

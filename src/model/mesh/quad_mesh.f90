@@ -6,7 +6,7 @@ module gfb_quad_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: node_set, set_count, add_node_set, sub_mesh
+  public :: node_set, set_count, add_node_set, sub_mesh, own_thickness
 
   !> Nodes that have a name, such as a line of crests.
   type, public :: node_set_type
@@ -26,6 +26,8 @@ module gfb_quad_mesh
     real(wp), allocatable :: axis_1(:, :)
     real(wp), allocatable :: axis_2(:, :)        !! (3, nodes) unit rotation axis across it
     type(node_set_type), allocatable :: sets(:)
+    !> of every column of elements of the whole mesh; not allocated: the section's [m]
+    real(wp), allocatable :: column_thickness(:)
     !> nodes of a station; numbers run along stations first
     integer :: rows = 0
     integer :: stations = 0                      !! of the whole mesh
@@ -50,6 +52,17 @@ contains
     integer :: elements
     elements = max(0, self%stations - 1)*(self%rows - 1)
   end function whole_elements
+
+  !> Thickness of an element of its own, 0 where it is the section's [m].
+  pure function own_thickness(mesh, element) result(thickness)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    integer, intent(in) :: element !! of the whole mesh
+    real(wp) :: thickness
+
+    thickness = 0.0_wp
+    if (.not. allocated(mesh%column_thickness)) return
+    thickness = mesh%column_thickness((element - 1)/(mesh%rows - 1) + 1)
+  end function own_thickness
 
   !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no
   !> such set.
@@ -108,6 +121,9 @@ contains
     part%rows = mesh%rows
     part%stations = stretch(2) - stretch(1) + 1
     part%half = mesh%half
+    if (allocated(mesh%column_thickness)) then
+      part%column_thickness = mesh%column_thickness(stretch(1):stretch(2) - 1)
+    end if
     allocate (part%sets(0))
     before = (stretch(1) - 1)*mesh%rows
     first = max(before + 1, lbound(mesh%position, 2))

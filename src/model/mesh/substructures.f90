@@ -1,7 +1,7 @@
 !> Pieces of a mesh that are condensed onto the nodes where they can be loaded or joined.
 module gfb_substructures
   use gfb_kinds, only: wp
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, own_thickness
   implicit none (type, external)
   private
   public :: substructure, find_kinds, kind_count, places_in
@@ -102,7 +102,9 @@ contains
       congruent = all(places_in(one, mesh%element_nodes(:, one%elements(i))) == &
                       places_in(other, mesh%element_nodes(:, other%elements(i)))) .and. &
                   all(abs(mesh%director(:, :, one%elements(i)) - &
-                          mesh%director(:, :, other%elements(i))) <= congruence)
+                          mesh%director(:, :, other%elements(i))) <= congruence) .and. &
+                  abs(own_thickness(mesh, one%elements(i)) - &
+                      own_thickness(mesh, other%elements(i))) <= 0.0_wp
       if (.not. congruent) return
     end do
   end function are_congruent

@@ -131,6 +131,7 @@ contains
       if (pressed .and. .not. scene%contact%friction_top > 0.0_wp) return
       force = crest_forces(scene%strip_load, scene%bump_foil)
       gap = gap_of_crest(scene%bump_foil, [(i, i=1, size(force))])
+      if (pressed) gap = 0.0_wp ! the force acts wherever the crest is
       if (strip%plate == plate_forced) strip%free_travel = minval(gap)
       do i = 1, size(force)
         call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &

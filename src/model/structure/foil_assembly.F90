@@ -14,8 +14,8 @@ module gfb_foil_assembly
   use gfb_substructures, only: substructure_type, kind_count
   use gfb_foil_sharing, only: cut_columns, share_kinds, pass_on, lines_at_seams
   use gfb_mesh_dm, only: distribute_mesh
-  use gfb_foil_pieces, only: number_slots, condense_piece, element_geometry, add_symmetric_block, &
-                             create_foil_matrix
+  use gfb_foil_pieces, only: number_slots, condense_piece, element_geometry, element_section, &
+                             add_symmetric_block, create_foil_matrix
   use gfb_foil_structure, only: foil_structure_type
   use gfb_cost_events, only: enter_stage, leave_stage
   implicit none (type)
@@ -150,7 +150,8 @@ contains
     else
       PetscCallA(MatSetOption(matrix, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE, ierr))
       do i = 1, size(structure%my_elements)
-        call shell_stiffness(element_geometry(structure%mesh, structure%my_elements(i)), structure%section, block, error)
+        call shell_stiffness(element_geometry(structure%mesh, structure%my_elements(i)), &
+                             element_section(structure%mesh, structure%section, structure%my_elements(i)), block, error)
         if (allocated(error)) exit
         call add_symmetric_block(matrix, element_unknowns(structure, structure%my_elements(i)), block)
       end do
@@ -176,7 +177,8 @@ contains
     if (structure%reduced) error stop 'a condensed foil has no mass matrix of its own'
     call create_foil_matrix(structure%row_entries(), at_seam(structure), structure%unknowns, matrix)
     do i = 1, size(structure%my_elements)
-      call shell_mass(element_geometry(structure%mesh, structure%my_elements(i)), structure%section, block, error)
+      call shell_mass(element_geometry(structure%mesh, structure%my_elements(i)), &
+                      element_section(structure%mesh, structure%section, structure%my_elements(i)), block, error)
       if (allocated(error)) exit
       call add_symmetric_block(matrix, element_unknowns(structure, structure%my_elements(i)), block)
     end do

@@ -9,7 +9,8 @@ module gfb_foil_builder
   use gfb_scene_case, only: analysis_modes
   use gfb_bearing_case, only: pad_length
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none, &
+                                bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
   use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
   use gfb_film_mesh, only: film_mesh_type, axial_rows
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
@@ -246,18 +247,20 @@ contains
     if (shape%mirrored) shape%edge = pad_length(scene%bearing)
   end function shape_on_pad
 
-  !> Shape of a scene's strip, its leading end at x = 0.
+  !> Shape of a scene's strip, its leading end at x = 0; a pitch that falls short of the arc does so in round-off.
   function strip_shape(scene) result(shape)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
 
     associate (foil => scene%bump_foil)
       allocate (shape%bump(foil%bumps))
-      shape%bump%half_length = foil%half_length
-      shape%bump%height = foil%height
-      shape%bump%pitch = max(foil%pitch, 2.0_wp*foil%half_length)
+      shape%bump%half_length = bump_half_lengths(foil)
+      shape%bump%height = bump_heights(foil)
+      shape%bump%pitch = max(bump_pitches(foil), 2.0_wp*shape%bump%half_length)
       shape%begins = foil%fixed_line
       shape%mirrored = foil%fixed_edge == fixed_edge_trailing
+      if (allocated(foil%bump_thickness)) shape%bump%thickness = bump_thicknesses(foil)
+      if (shape%mirrored) shape%bump = shape%bump(foil%bumps:1:-1)
       if (shape%mirrored) shape%edge = sum(shape%bump%pitch)
     end associate
     shape%arc_elements = scene%mesh%arc_elements

@@ -9,13 +9,13 @@ module gfb_foil_pieces
                                 shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, own_thickness
   use gfb_substructures, only: substructure_type, places_in
   use gfb_super_element, only: super_element_type, hold_blocks, form_explicitly
   implicit none (type)
   private
   public :: number_slots, condense_piece, assemble_piece, retained_in_piece, piece_unknowns, &
-            element_geometry, add_symmetric_block, create_foil_matrix
+            element_geometry, element_section, add_symmetric_block, create_foil_matrix
 
   integer, parameter, public :: element_row = 9*node_unknowns !! entries of a row: a node, its neighbours
 
@@ -104,9 +104,9 @@ contains
       associate (corner => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
                  geometry => element_geometry(mesh, substructure%elements(i)))
         if (mass) then
-          call shell_mass(geometry, section, block, error)
+          call shell_mass(geometry, element_section(mesh, section, substructure%elements(i)), block, error)
         else
-          call shell_stiffness(geometry, section, block, error)
+          call shell_stiffness(geometry, element_section(mesh, section, substructure%elements(i)), block, error)
         end if
         if (allocated(error)) return
         call add_symmetric_block(matrix, reshape(number(:, corner), [shell_unknowns]) - 1, block)
@@ -148,6 +148,17 @@ contains
       geometry%axis(:, 2, :) = mesh%axis_2(:, nodes)
     end associate
   end function element_geometry
+
+  !> What an element of a mesh is made of.
+  pure function element_section(mesh, section, element) result(own)
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material of the foil
+    integer, intent(in) :: element !! number in the whole mesh
+    type(shell_section_type) :: own
+
+    own = section
+    if (own_thickness(mesh, element) > 0.0_wp) own%thickness = own_thickness(mesh, element)
+  end function element_section
 
   !> Adds a symmetric block by global numbers, from 0; negative ones are skipped.
   !>

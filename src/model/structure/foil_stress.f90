@@ -6,10 +6,10 @@ module gfb_foil_stress
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, beam_resultants, beam_unknowns
-  use gfb_shell_geometry, only: shell_unknowns
+  use gfb_shell_geometry, only: shell_section_type, shell_unknowns
   use gfb_shell_stress, only: shell_stress_type, shell_stress, von_mises, lower_face, upper_face
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_pieces, only: element_geometry
+  use gfb_foil_pieces, only: element_geometry, element_section
   implicit none (type, external)
   private
   public :: shell_stresses, beam_stresses
@@ -33,7 +33,8 @@ contains
       associate (nodes => foil%mesh%element_nodes(:, foil%my_elements(i)))
         displacement = reshape(moved(:, foil%local_node(nodes)), [shell_unknowns])
       end associate
-      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), foil%section, &
+      call shell_stress(element_geometry(foil%mesh, foil%my_elements(i)), &
+                        element_section(foil%mesh, foil%section, foil%my_elements(i)), &
                         displacement, 0.0_wp, 0.0_wp, stress, error)
       value(:, i) = [stress%membrane, stress%bending, stress%von_mises(lower_face), &
                      stress%von_mises(upper_face)]
@@ -47,22 +48,22 @@ contains
     real(wp) :: value(components, size(foil%my_elements)) !! [Pa]
 
     integer, parameter :: in_plane(beam_unknowns) = [1, 2, 4] !! u, v and the turn about the axis
+    type(shell_section_type) :: sheet
     type(beam_section_type) :: section
     real(wp) :: force(2)
     integer :: i, node, ends(2)
 
-    associate (sheet => foil%section)
+    do i = 1, size(foil%my_elements)
+      sheet = element_section(foil%mesh, foil%section, foil%my_elements(i))
       section = plane_strain_section(sheet%thickness, sheet%youngs_modulus, sheet%poissons_ratio)
-      do i = 1, size(foil%my_elements)
-        node = minval(foil%mesh%element_nodes(:, foil%my_elements(i)))
-        ends = [node, node + foil%mesh%rows]
-        force = beam_resultants(section, foil%mesh%position(:2, ends), &
-                                moved(in_plane, foil%local_node(ends)))
-        value(1:3, i) = force(1)/sheet%thickness*[sheet%poissons_ratio, 1.0_wp, 0.0_wp]
-        value(4:6, i) = 6.0_wp*force(2)/sheet%thickness**2*[sheet%poissons_ratio, 1.0_wp, 0.0_wp]
-        value(7, i) = von_mises(value(1:3, i) - value(4:6, i))
-        value(8, i) = von_mises(value(1:3, i) + value(4:6, i))
-      end do
-    end associate
+      node = minval(foil%mesh%element_nodes(:, foil%my_elements(i)))
+      ends = [node, node + foil%mesh%rows]
+      force = beam_resultants(section, foil%mesh%position(:2, ends), &
+                              moved(in_plane, foil%local_node(ends)))
+      value(1:3, i) = force(1)/sheet%thickness*[sheet%poissons_ratio, 1.0_wp, 0.0_wp]
+      value(4:6, i) = 6.0_wp*force(2)/sheet%thickness**2*[sheet%poissons_ratio, 1.0_wp, 0.0_wp]
+      value(7, i) = von_mises(value(1:3, i) - value(4:6, i))
+      value(8, i) = von_mises(value(1:3, i) + value(4:6, i))
+    end do
   end function beam_stresses
 end module gfb_foil_stress

@@ -13,7 +13,7 @@ module gfb_strain_energy
   use gfb_shell_geometry, only: shell_geometry_type, node_unknowns, shell_nodes, shell_unknowns
   use gfb_shell_element, only: shell_internal_force
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: element_geometry
+  use gfb_foil_pieces, only: element_geometry, element_section
   implicit none (type)
   private
   public :: strain_products
@@ -50,7 +50,8 @@ contains
         geometry = element_geometry(foil%mesh, foil%my_elements(i))
         do k = 1, size(motion)
           corner(:, k) = without_mean(moved(:, local, k))
-          call shell_internal_force(geometry, foil%section, corner(:, k), on_corner(:, k), error)
+          call shell_internal_force(geometry, element_section(foil%mesh, foil%section, foil%my_elements(i)), &
+                                    corner(:, k), on_corner(:, k), error)
           if (allocated(error)) exit
         end do
       end associate

@@ -11,6 +11,7 @@ module gfb_bump_foil_case
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest
+  public :: has_sizes, bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, one_bump
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -39,6 +40,12 @@ module gfb_bump_foil_case
     logical :: poissons_ratio_given = .false.
     !> at rest, one a bump from the smallest x on; not allocated: all crests touch [m]
     real(wp), allocatable :: crest_gap(:)
+    ! Sizes of each bump from the smallest x on, where they are given so; the single ones are then
+    ! their means, that of the heights the largest one.
+    real(wp), allocatable :: bump_pitch(:)       !! [m]
+    real(wp), allocatable :: bump_half_length(:) !! [m]
+    real(wp), allocatable :: bump_height(:)      !! [m]
+    real(wp), allocatable :: bump_thickness(:)   !! [m]
   end type bump_foil_case_type
 
 contains
@@ -52,11 +59,12 @@ contains
     logical, intent(in) :: with_mass  !! and its density too
     logical, intent(in) :: with_pitch !! more of it than an arc is meshed; no pad tells the pitch
     logical, intent(in) :: with_width !! no bearing tells the width
-    logical :: gaps !! are given
+    real(wp) :: lowest !! height [m]
+    logical :: gaps    !! are given
 
     call keys%start_group('bump_foil', required=as_shell, optional=.true., &
                           present_in_file=foil%present)
-    call length_key('thickness', foil%thickness, 'thickness of the foil')
+    call length_key('thickness', foil%thickness, 'thickness of the foil', 'bump_thickness')
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
                        as_shell, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
@@ -64,13 +72,16 @@ contains
                        given=foil%poissons_ratio_given)
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
                        default=no_default)
-    call length_key('half_length', foil%half_length, "half the chord of a bump's arc")
-    call length_key('height', foil%height, 'height of a bump')
+    call length_key('half_length', foil%half_length, "half the chord of a bump's arc", &
+                    'bump_half_length')
+    call length_key('height', foil%height, 'height of a bump', 'bump_height')
     call keys%integer_key('bumps', foil%bumps, 'number of bumps', at_least(1.0_wp), &
                           as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       with_pitch, default='length of the pad / `bumps`')
+                       with_pitch .and. .not. keys%holds('bump_foil', 'bump_pitch'), &
+                       default='length of the pad / `bumps`')
+    call read_sizes(keys, foil)
     if (as_shell .and. .not. with_width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
                        with_width, default='required for strips; a bearing''s length')
@@ -81,21 +92,122 @@ contains
                        'between a bump''s crest and the top foil or plate', not_negative, &
                        '0: all crests touch')
     gaps = keys%key%given
-    call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%height, foil%crest_gap)
+    lowest = foil%height
+    if (allocated(foil%bump_height)) lowest = minval(foil%bump_height)
+    call read_height_deviation(keys, foil%present, gaps, foil%bumps, lowest, foil%crest_gap)
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
 
   contains
 
     !> A length that need not be given.
-    subroutine length_key(name, value, meaning)
+    subroutine length_key(name, value, meaning, list)
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(inout) :: value !! [m]
-      call keys%real_key(name, value, 'm', meaning, positive, as_shell, default=no_default)
+      character(len=*), intent(in), optional :: list !! key that says it bump by bump
+      logical :: required
+      required = as_shell
+      if (present(list)) required = required .and. .not. keys%holds('bump_foil', list)
+      call keys%real_key(name, value, 'm', meaning, positive, required, default=no_default)
     end subroutine length_key
   end subroutine read_bump_foil_case
 
-  !> Gap at rest between a bump's crest and the top foil [m].
+  !> Reads the sizes that differ from bump to bump.
+  subroutine read_sizes(keys, foil)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(inout) :: foil
+
+    call size_list('pitch', foil%bump_pitch, 'from bump to bump, arc plus flat')
+    if (allocated(foil%bump_pitch)) foil%pitch = mean(foil%bump_pitch)
+    call size_list('half_length', foil%bump_half_length, "half the chord of the bump's arc")
+    if (allocated(foil%bump_half_length)) foil%half_length = mean(foil%bump_half_length)
+    call size_list('height', foil%bump_height, 'height of the bump')
+    if (allocated(foil%bump_height)) foil%height = maxval(foil%bump_height)
+    call size_list('thickness', foil%bump_thickness, 'thickness of the bump, arc and flat')
+    if (allocated(foil%bump_thickness)) foil%thickness = mean(foil%bump_thickness)
+
+  contains
+
+    !> One list, which stands for the single size.
+    subroutine size_list(name, list, meaning)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), allocatable, intent(out) :: list(:) !! [m]
+
+      call bump_list_key(keys, 'bump_'//name, list, foil%bumps, 'm', meaning, positive, &
+                         '`'//name//'` of all bumps')
+      if (keys%key%given .and. keys%holds('bump_foil', name)) then
+        call keys%complain('bump_foil', 'bump_'//name, 'contradicts '//name//': give one of them')
+      end if
+    end subroutine size_list
+  end subroutine read_sizes
+
+  !> Mean of a list, to the last digit where all values are one.
+  pure function mean(list) result(value)
+    real(wp), intent(in) :: list(:)
+    real(wp) :: value
+    value = list(1) + sum(list - list(1))/size(list)
+  end function mean
+
+  !> Whether a size is given bump by bump.
+  elemental function has_sizes(foil) result(has)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    logical :: has
+    has = allocated(foil%bump_pitch) .or. allocated(foil%bump_half_length) .or. &
+          allocated(foil%bump_height) .or. allocated(foil%bump_thickness)
+  end function has_sizes
+
+  !> A foil of one of the bumps alone.
+  elemental function one_bump(foil, bump) result(one)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer, intent(in) :: bump !! its number, from the smallest x on
+    type(bump_foil_case_type) :: one
+
+    one = foil
+    one%bumps = 1
+    if (allocated(foil%bump_pitch)) one%pitch = foil%bump_pitch(bump)
+    if (allocated(foil%bump_half_length)) one%half_length = foil%bump_half_length(bump)
+    if (allocated(foil%bump_height)) one%height = foil%bump_height(bump)
+    if (allocated(foil%bump_thickness)) one%thickness = foil%bump_thickness(bump)
+    if (allocated(one%bump_pitch)) deallocate (one%bump_pitch)
+    if (allocated(one%bump_half_length)) deallocate (one%bump_half_length)
+    if (allocated(one%bump_height)) deallocate (one%bump_height)
+    if (allocated(one%bump_thickness)) deallocate (one%bump_thickness)
+    if (allocated(one%crest_gap)) deallocate (one%crest_gap)
+  end function one_bump
+
+  !> Pitch of each bump [m].
+  pure function bump_pitches(foil) result(pitch)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp) :: pitch(foil%bumps)
+    pitch = foil%pitch
+    if (allocated(foil%bump_pitch)) pitch = foil%bump_pitch
+  end function bump_pitches
+
+  !> Half the chord of each bump's arc [m].
+  pure function bump_half_lengths(foil) result(half_length)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp) :: half_length(foil%bumps)
+    half_length = foil%half_length
+    if (allocated(foil%bump_half_length)) half_length = foil%bump_half_length
+  end function bump_half_lengths
+
+  !> Height of each bump [m].
+  pure function bump_heights(foil) result(height)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp) :: height(foil%bumps)
+    height = foil%height
+    if (allocated(foil%bump_height)) height = foil%bump_height
+  end function bump_heights
+
+  !> Thickness of each bump [m].
+  pure function bump_thicknesses(foil) result(thickness)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp) :: thickness(foil%bumps)
+    thickness = foil%thickness
+    if (allocated(foil%bump_thickness)) thickness = foil%bump_thickness
+  end function bump_thicknesses
+
+  !> Gap at rest between a bump's crest and the top foil, which is as high as the highest bump [m].
   elemental function gap_of_crest(foil, bump) result(gap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: bump !! number of the bump, from the smallest x on
@@ -103,21 +215,39 @@ contains
 
     gap = 0.0_wp
     if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
+    if (allocated(foil%bump_height)) gap = gap + (foil%height - foil%bump_height(bump))
   end function gap_of_crest
 
-  !> Whether there are flats between the bumps.
+  !> Whether there are flats between the bumps; with sizes bump by bump, at any of them.
   elemental function has_flats(foil) result(flats)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: flats
-    flats = foil%pitch > 2.0_wp*foil%half_length*(1.0_wp + rounding)
+
+    if (has_sizes(foil)) then
+      flats = any(bump_pitches(foil) > 2.0_wp*bump_half_lengths(foil)*(1.0_wp + rounding))
+    else
+      flats = foil%pitch > 2.0_wp*foil%half_length*(1.0_wp + rounding)
+    end if
   end function has_flats
 
   !> Whether a pitch is shorter than the bump's arc, or not known.
   elemental function bumps_overlap(foil) result(overlap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: overlap
-    overlap = foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)
+
+    if (has_sizes(foil)) then
+      overlap = any(overlapping(foil))
+    else
+      overlap = foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)
+    end if
   end function bumps_overlap
+
+  !> Which pitches are shorter than the bump's arc.
+  pure function overlapping(foil) result(overlap)
+    type(bump_foil_case_type), intent(in) :: foil
+    logical :: overlap(foil%bumps)
+    overlap = bump_pitches(foil) < 2.0_wp*bump_half_lengths(foil)*(1.0_wp - rounding)
+  end function overlapping
 
   !> Bumps that overlap, are more than half a circle, or do not fit on the pad.
   subroutine check_geometry(keys, foil, bearing)
@@ -125,7 +255,9 @@ contains
     type(bump_foil_case_type), intent(in) :: foil
     type(bearing_case_type), intent(in) :: bearing
 
-    if (foil%half_length > 0.0_wp) then
+    if (has_sizes(foil)) then
+      call check_bumps(keys, foil)
+    else if (foil%half_length > 0.0_wp) then
       if (foil%height > foil%half_length) then
         call keys%complain('bump_foil', 'height', 'must not exceed half_length = '// &
                            text(foil%half_length)//' m: a bump is at most half a circle')
@@ -137,9 +269,57 @@ contains
     end if
     if (bearing%radius > 0.0_wp .and. &
         foil%bumps*foil%pitch > pad_length(bearing)*(1.0_wp + rounding)) then
-      call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of the pitch '// &
-                         text(foil%pitch)//' m are longer than the pad, '// &
+      call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of the '// &
+                         trim(merge('mean pitch', 'pitch     ', allocated(foil%bump_pitch)))// &
+                         ' '//text(foil%pitch)//' m are longer than the pad, '// &
                          text(pad_length(bearing))//' m')
     end if
   end subroutine check_geometry
+
+  !> Bumps with sizes of their own that overlap, or are more than half a circle.
+  subroutine check_bumps(keys, foil)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp) :: height(foil%bumps), half_length(foil%bumps)
+    character(len=:), allocatable :: key
+
+    if (.not. foil%half_length > 0.0_wp) return
+    half_length = bump_half_lengths(foil)
+    key = 'height'
+    if (allocated(foil%bump_height)) key = 'bump_height'
+    height = bump_heights(foil)
+    call complain_of_bumps(keys, key, height > half_length, height, &
+                           'must not exceed half_length: a bump is at most half a circle', &
+                           'half_length', half_length)
+    if (.not. foil%pitch > 0.0_wp) return
+    key = 'pitch'
+    if (allocated(foil%bump_pitch)) key = 'bump_pitch'
+    call complain_of_bumps(keys, key, overlapping(foil), bump_pitches(foil), &
+                           'must be at least 2 half_length, or bumps overlap', &
+                           '2 half_length', 2.0_wp*half_length)
+  end subroutine check_bumps
+
+  !> Complains about sizes of single bumps, the first few by their numbers.
+  subroutine complain_of_bumps(keys, key, wrong, value, rule, other, limit)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: key      !! that is wrong
+    logical, intent(in) :: wrong(:)          !! at which bumps
+    real(wp), intent(in) :: value(:)         !! of the bumps [m]
+    character(len=*), intent(in) :: rule, other !! what holds; what it is compared with
+    real(wp), intent(in) :: limit(:)         !! of the bumps [m]
+    integer, parameter :: most = 3           !! bumps that are named
+    character(len=:), allocatable :: words
+    integer :: bump
+
+    if (.not. any(wrong)) return
+    words = rule
+    do bump = 1, size(wrong)
+      if (.not. wrong(bump)) cycle
+      if (count(wrong(:bump)) > most) exit
+      words = words//merge('; ', ', ', count(wrong(:bump)) == 1)//'bump '//text(bump)//' has '// &
+              text(value(bump))//' m with '//other//' = '//text(limit(bump))//' m'
+    end do
+    if (count(wrong) > most) words = words//', and '//text(count(wrong) - most)//' more'
+    call keys%complain('bump_foil', key, words)
+  end subroutine complain_of_bumps
 end module gfb_bump_foil_case

@@ -7,7 +7,7 @@ module gfb_load_steps
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_bump_foil_case, only: fixed_edge_none, bump_half_lengths
   use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
   use gfb_foil_mesh, only: crest_positions
   use gfb_foil_builder, only: strip_shape
@@ -196,7 +196,8 @@ contains
   function what_lifts(scene) result(words)
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
-    real(wp), allocatable :: force(:), crest(:)
+    real(wp), allocatable :: force(:), crest(:), half_length(:)
+    real(wp) :: corner(2) !! the outermost ones [m]
     real(wp) :: total, size_of_load, centre, reach
 
     words = ''
@@ -207,14 +208,16 @@ contains
       crest = crest_positions(strip_shape(scene))
       total = sum(force)
       size_of_load = sum(abs(force))
-      reach = maxval(crest) - minval(crest) + 2.0_wp*foil%half_length
+      half_length = bump_half_lengths(foil)
+      corner = [minval(crest) - half_length(1), maxval(crest) + half_length(foil%bumps)]
+      reach = maxval(crest) - minval(crest) + half_length(1) + half_length(foil%bumps)
       if (.not. size_of_load > 0.0_wp) return
       if (total <= rounding*size_of_load) then
         words = 'the load lifts the strip off the sleeve: the forces on the crests add up to '//text(total, 4)// &
                 ' N towards the sleeve, and the strip is fixed nowhere'
         return
       end if
-      centre = (dot_product(force, crest)/total - 0.5_wp*(maxval(crest) + minval(crest)))/reach
+      centre = (dot_product(force, crest)/total - 0.5_wp*(corner(1) + corner(2)))/reach
       if (abs(centre) > 0.5_wp) then
         words = 'the load tips the strip over: it acts beyond the last corner line, and the strip is fixed nowhere'
       end if
