@@ -6,7 +6,7 @@ module gfb_strip_companions
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
-                                has_sizes, one_bump
+                                has_sizes, one_bump, solid_width
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
@@ -46,10 +46,11 @@ contains
       end if
       one = one_bump(foil, [(bump, bump=1, foil%bumps)])
     end associate
-    companions%walowit_anno = crest_force/(bump_stiffness(one)*one%pitch*one%width)
+    companions%walowit_anno = crest_force/(bump_stiffness(one)*one%pitch*solid_width(one))
     companions%curved_bump = crest_force/ &
       curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, one%thickness, &
-                            one%half_length, one%height, one%width, scene%contact%friction_sleeve)
+                            one%half_length, one%height, solid_width(one), &
+                            scene%contact%friction_sleeve)
     call solve_chain(scene, crest_force, companions)
   end function strip_companions
 
@@ -70,7 +71,7 @@ contains
       if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
       mirrored = foil%fixed_edge == fixed_edge_trailing
       chain = bump_chain_type(foil%half_length, foil%height, foil%thickness, foil%youngs_modulus, &
-                              foil%poissons_ratio, foil%pitch, foil%width, foil%bumps, &
+                              foil%poissons_ratio, foil%pitch, solid_width(foil), foil%bumps, &
                               foil%fixed_edge /= fixed_edge_none, contact%friction_top, &
                               contact%friction_sleeve)
     end associate

@@ -119,8 +119,7 @@ contains
   end subroutine show_step
 
   !> Quantities of what it cost.
-  function cost_quantities(scene, strip, newton, start_time) result(list)
-    type(scene_type), intent(in) :: scene !! what is asked for
+  function cost_quantities(strip, newton, start_time) result(list)
     type(strip_system_type), intent(in) :: strip !! with its unknowns and super-elements
     type(newton_type), intent(in) :: newton !! its solver, with the counts of all steps
     real(wp), intent(in) :: start_time !! [s]
@@ -129,7 +128,8 @@ contains
     integer :: stations, rows
 
     stations = strip%foil%mesh%stations
-    rows = scene%mesh%axial_elements + 1
+    rows = strip%foil%mesh%rows
+    if (strip%foil%mesh%half) rows = 2*rows - 1
     memory = sum_over_ranks([peak_memory()])
     call add_result(list, 'unknowns', strip%unknowns)
     call add_result(list, 'foil_unknowns_full', node_unknowns*stations*rows)

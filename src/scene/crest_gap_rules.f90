@@ -7,6 +7,8 @@ module gfb_crest_gap_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
   use gfb_strip_load_case, only: load_plates
+  use gfb_text, only: text
+  use gfb_kinds, only: wp
   implicit none (type, external)
   private
   public :: check_crest_gaps, check_bump_sizes
@@ -50,15 +52,40 @@ contains
       if (is_bearing(analysis) .and. scene%model%foil > 0) then
         if (.not. meshes_foils(scene%model%foil)) then
           words = "needs foil = 'shell' in &model, or 'beam': no other foil has bumps"
+          if (scene%bump_foil%strips > 1) call keys%complain('bump_foil', 'strips', words)
         end if
       else if (analysis == analysis_modes .and. part > 0) then
+        if (scene%bump_foil%strips > 1) then
+          call keys%complain('bump_foil', 'strips', 'must be 1 for modes: each strip has its own')
+        end if
         if (part /= part_strip .and. part /= part_top_foil) then
           words = "needs part = 'strip' in &modes: the other parts are those of one bump"
         end if
+      else if (analysis == analysis_strip .and. scene%bump_foil%strips > 1 .and. &
+               scene%mesh%edge_refinement > 1.0_wp) then
+        call keys%complain('mesh', 'edge_refinement', 'must be 1 for strips side by side: each '// &
+                           'has equal rows')
       end if
     end associate
     call complain_of(keys, key, words)
+    call check_nested_strips(keys, scene)
   end subroutine check_bump_sizes
+
+  !> Complains where the meshes of an estimated error would not refine each other: each must share
+  !> its elements out evenly among the strips.
+  subroutine check_nested_strips(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: multiple
+
+    if (scene%bump_foil%strips <= 1 .or. .not. scene%accuracy%present) return
+    multiple = merge(4, 8, modulo(scene%bump_foil%strips, 2) == 0)*scene%bump_foil%strips
+    if (modulo(scene%mesh%axial_elements, multiple) == 0) return
+    call keys%complain('bump_foil', 'strips', 'needs axial_elements in &mesh that are a '// &
+                       'multiple of '//text(multiple)//', not '// &
+                       text(scene%mesh%axial_elements)//', so that the meshes of &accuracy '// &
+                       'refine each other')
+  end subroutine check_nested_strips
 
   !> Complains about keys of the bump foil that stand in the file; not where there are no words.
   subroutine complain_of(keys, key, words)

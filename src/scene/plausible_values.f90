@@ -59,6 +59,7 @@ module gfb_plausible_values
     range_type('bump_foil', 'bump_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'cut_width', 1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'width', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
     range_type('contact', 'friction_top', 0.0_wp, 2.0_wp, '1', '%'), &
     range_type('contact', 'friction_sleeve', 0.0_wp, 2.0_wp, '1', '%'), &

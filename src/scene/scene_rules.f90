@@ -198,6 +198,10 @@ contains
                            text(edge)//', has no flat: its pitch is 2 half_length')
       end if
     end if
+    if (foil%strips > mesh%axial_elements) then
+      call keys%complain('bump_foil', 'strips', 'must not be more than axial_elements = '// &
+                         text(mesh%axial_elements)//' in &mesh: each strip has its share of them')
+    end if
     elements = int(mesh%arc_elements + mesh%flat_elements, long)*mesh%axial_elements
     if (strip .and. foil%bumps > most_in_all/elements) then
       call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of '//text(elements)// &

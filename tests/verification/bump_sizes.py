@@ -27,10 +27,11 @@ def run_strip(folder, name, foil, **groups):
     """A strip of shells; a key that is None is left out."""
     content = {"scene": {"analysis": "strip"}, "model": {}, "mesh": dict(SMALL),
                "bump_foil": {key: value for key, value in foil.items() if value is not None},
-               "strip_load": {"pressure": 0.2e6, **HELD}}
+               "strip_load": {"pressure": 0.2e6}}
     ranks = groups.pop("ranks", 1)
-    for group, keys in groups.items():
+    for group, keys in {"strip_load": HELD, **groups}.items():
         content.setdefault(group, {}).update(keys)
+    content["strip_load"] = {key: value for key, value in content["strip_load"].items() if value is not None}
     return gfb_run.solve(folder, name, content, ranks)
 
 
@@ -179,13 +180,13 @@ def check_stepped_heights(checks, folder):
                  5.0e-2)
 
 
-def bearing(folder, name, foil, model, ranks=1, **groups):
+def bearing(folder, name, foil, kind, ranks=1, **groups):
     """A small bearing at a position."""
     groups = {"top_foil": {"thickness": 1.02e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29},
               "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}, **groups,
               "bump_foil": {key: value for key, value in foil.items() if value is not None and key != "width"}}
     groups["mesh"] = {"arc_elements": 6, "flat_elements": 2}
-    content = case_groups(BEARING, mesh=(96, 4), foil=model, eccentricity=[25.0e-6, 5.0e-6], speed_rpm=30000.0,
+    content = case_groups(BEARING, mesh=(96, 4), foil=kind, eccentricity=[25.0e-6, 5.0e-6], speed_rpm=30000.0,
                           groups=groups)
     return gfb_run.solve(folder, name, content, ranks)
 

@@ -38,6 +38,7 @@ COARSER = (  # which inputs, what is changed
     (r"gu2020_strip_case1_.*", STRIP | {"strip_load": {"steps_up": 3}}),
     (r"gu2020_strip_case2_.*", STRIP | {"strip_load": {"steps_up": 8, "steps_down": 8}}),
     (r"strip_linear|strip_modes", STRIP),
+    (r"third_generation_strip", STRIP | {"strip_load": {"steps_up": 4, "steps_down": 4}}),
     (r"rigid_slit|rigid_ring_sweep", FILM),
     (r"foundation_.*_sweep", FILM),
     (r"gu2020_fig11[ab]_.*", SHELLS | TWO_TILTS),

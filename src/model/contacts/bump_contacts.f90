@@ -3,7 +3,7 @@ module gfb_bump_contacts
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_contact_set, only: contact_set_type, contact_point_type
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, solid_rows
   implicit none (type, external)
   private
   public :: bump_contact, crest_name, line_shares, line_length, normal_line_force
@@ -42,13 +42,19 @@ contains
   end function crest_name
 
   !> Share of a line's length that each of its nodes stands for (trapezoid rule); they add up to
-  !> one.
+  !> one. Over a cut there is no line.
   pure function line_shares(mesh, line) result(share)
     type(quad_mesh_type), intent(in) :: mesh !! of the strip
     integer, intent(in) :: line(:) !! nodes in order of z
     real(wp) :: share(size(line))
     integer :: i, n
 
+    if (size(line) == 0) return ! on another rank
+    if (allocated(mesh%cut)) then
+      share = 0.5_wp*([0.0_wp, solid_lengths(mesh)] + [solid_lengths(mesh), 0.0_wp])/ &
+              sum(solid_lengths(mesh))
+      return
+    end if
     n = size(line)
     associate (z => mesh%position(axial, line))
       do i = 1, n
@@ -62,8 +68,23 @@ contains
     type(quad_mesh_type), intent(in) :: mesh !! of the strip
     integer, intent(in) :: line(:) !! nodes in order of z
     real(wp) :: length
-    length = mesh%position(axial, line(size(line))) - mesh%position(axial, line(1))
+
+    if (allocated(mesh%cut)) then
+      length = sum(solid_lengths(mesh))
+    else
+      length = mesh%position(axial, line(size(line))) - mesh%position(axial, line(1))
+    end if
   end function line_length
+
+  !> Lengths of a line's elements, 0 over cuts [m].
+  pure function solid_lengths(mesh) result(length)
+    type(quad_mesh_type), intent(in) :: mesh !! with cuts
+    real(wp) :: length(mesh%rows - 1)
+
+    associate (z => mesh%row_axial)
+      length = merge(z(2:) - z(:mesh%rows - 1), 0.0_wp, solid_rows(mesh))
+    end associate
+  end function solid_lengths
 
   !> Normal force of a contact per length of its line [N/m].
   pure function normal_line_force(contacts, i) result(force)

@@ -163,6 +163,7 @@ contains
   function beam_contacts(self) result(contacts)
     class(beam_foil_type), intent(in) :: self !! the beam foil
     type(contact_set_type) :: contacts
+    integer, allocatable :: part_of_line(:)
     integer :: i, rows
 
     contacts = self%contacts
@@ -173,6 +174,9 @@ contains
       contacts%point((i - 1)*rows + 1:i*rows) = self%contacts%point(i)
       call spread_line(self%bumps%mesh, contacts%point((i - 1)*rows + 1:i*rows))
     end do
+    if (.not. allocated(self%bumps%mesh%cut)) return
+    part_of_line = pack([(i, i=1, size(contacts%point))], contacts%point%length > 0.0_wp)
+    contacts%point = contacts%point(part_of_line)
   end function beam_contacts
 
   !> Gives copies of a line's contact, one a node, the nodes' parts of it.

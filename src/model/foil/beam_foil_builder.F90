@@ -13,15 +13,15 @@ module gfb_beam_foil_builder
   use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: bump_strip_mesh, station_positions
+  use gfb_quad_mesh, only: node_set, quad_mesh_type, solid_rows
+  use gfb_foil_mesh, only: station_positions
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, linear_beam_stiffness, &
                              bent_beam_stiffness, beam_unknowns
   use gfb_shell_geometry, only: node_unknowns, shell_section_type
   use gfb_foil_pieces, only: element_section
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, crest_name, line_length, contact_sleeve, contact_top
-  use gfb_foil_builder, only: shape_on_pad, plate_section, section_of
+  use gfb_foil_builder, only: shape_on_pad, plate_section, section_of, strip_on_pad
   use gfb_foil_surface, only: foil_surface_type
   use gfb_top_mesh, only: top_mesh
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
@@ -53,7 +53,7 @@ contains
     window = [1, merge(film%stations(), 0, mine)]
     foil%top%mesh = top_mesh(film, top_height(scene), window)
     window = [1, merge(size(station_positions(shape_on_pad(scene))), 0, mine)]
-    foil%bumps%mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, window)
+    foil%bumps%mesh = strip_on_pad(scene, film, window)
     unknowns = 0
     call number_stations(foil%top%mesh%stations, scene%top_foil%fixed_edge == top_foil_leading, unknowns, foil%top_number)
     call number_stations(foil%bumps%mesh%stations, scene%bump_foil%fixed_edge /= fixed_edge_trailing, unknowns, &
@@ -116,6 +116,9 @@ contains
       surface%part%mesh_node = surface%local_node
       allocate (surface%part%owned(size(surface%part%mesh_node)), source=.true.)
       surface%my_elements = [(i, i=1, merge(mesh%elements(), 0, mine))]
+      if (allocated(mesh%cut) .and. mine) then
+        surface%my_elements = pack(surface%my_elements, [(solid_rows(mesh), i=2, mesh%stations)])
+      end if
     end associate
   end subroutine own_nodes
 

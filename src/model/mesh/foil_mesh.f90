@@ -6,9 +6,8 @@ module gfb_foil_mesh
   use gfb_kinds, only: wp
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
   use gfb_text, only: text
-  use gfb_quad_mesh, only: quad_mesh_type, add_node_set
+  use gfb_quad_mesh, only: quad_mesh_type, add_node_set, solid_rows
   use gfb_bump_profile, only: arc_point, arc_normal
-  use gfb_axial_rows, only: axial_rows
   use gfb_substructures, only: substructure_type
   implicit none (type, external)
   private
@@ -95,7 +94,7 @@ contains
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     type(substructure_type), allocatable :: pieces(:)
     integer, allocatable :: divide(:)
-    integer :: i, first, last
+    integer :: i, n, first, last
 
     divide = dividing_stations(shape)
     allocate (pieces(size(divide) - 1))
@@ -112,6 +111,8 @@ contains
       pieces(i)%retained(size(pieces(i)%nodes) - mesh%rows + 1:) = .true.
       pieces(i)%elements = numbers((divide(i) - 1)*(mesh%rows - 1) + 1, &
         (divide(i + 1) - 1)*(mesh%rows - 1))
+      if (allocated(mesh%cut)) pieces(i)%elements = &
+        pack(pieces(i)%elements, [(solid_rows(mesh), n=divide(i), divide(i + 1) - 1)])
     end do
   end function strip_substructures
 
@@ -299,6 +300,7 @@ contains
     mesh%rows = size(rows)
     mesh%stations = size(x)
     mesh%half = half
+    mesh%row_axial = rows
     node = (first - 1)*mesh%rows
     allocate (mesh%position(3, node + 1:last*mesh%rows), mesh%axis_1(3, node + 1:last*mesh%rows))
     allocate (mesh%axis_2(3, node + 1:last*mesh%rows))

@@ -6,7 +6,8 @@ module gfb_quad_mesh
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: node_set, set_count, add_node_set, sub_mesh, own_thickness
+  public :: node_set, set_count, add_node_set, sub_mesh, own_thickness, solid_rows, &
+            loose_rows
 
   !> Nodes that have a name, such as a line of crests.
   type, public :: node_set_type
@@ -28,6 +29,10 @@ module gfb_quad_mesh
     type(node_set_type), allocatable :: sets(:)
     !> of every column of elements of the whole mesh; not allocated: the section's [m]
     real(wp), allocatable :: column_thickness(:)
+    !> z of a station's nodes, rising [m]
+    real(wp), allocatable :: row_axial(:)
+    !> rows of elements that are cut away; not allocated: none
+    logical, allocatable :: cut(:)
     !> nodes of a station; numbers run along stations first
     integer :: rows = 0
     integer :: stations = 0                      !! of the whole mesh
@@ -63,6 +68,23 @@ contains
     if (.not. allocated(mesh%column_thickness)) return
     thickness = mesh%column_thickness((element - 1)/(mesh%rows - 1) + 1)
   end function own_thickness
+
+  !> Which rows of elements are there, not cut away.
+  pure function solid_rows(mesh) result(solid)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    logical :: solid(max(0, mesh%rows - 1))
+
+    solid = .true.
+    if (allocated(mesh%cut)) solid = .not. mesh%cut
+  end function solid_rows
+
+  !> Which rows of nodes have no element beside them.
+  pure function loose_rows(mesh) result(loose)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    logical :: loose(mesh%rows)
+
+    loose = .not. ([.false., solid_rows(mesh)] .or. [solid_rows(mesh), .false.])
+  end function loose_rows
 
   !> Nodes of a set, none where they lie outside the stretch; stops the program where there is no
   !> such set.
@@ -121,6 +143,8 @@ contains
     part%rows = mesh%rows
     part%stations = stretch(2) - stretch(1) + 1
     part%half = mesh%half
+    if (allocated(mesh%row_axial)) part%row_axial = mesh%row_axial
+    if (allocated(mesh%cut)) part%cut = mesh%cut
     if (allocated(mesh%column_thickness)) then
       part%column_thickness = mesh%column_thickness(stretch(1):stretch(2) - 1)
     end if

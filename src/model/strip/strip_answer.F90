@@ -123,7 +123,7 @@ contains
       line = node_set(strip%foil%mesh, crest_name(bump))
       share = line_shares(strip%foil%mesh, line)
       do i = 1, size(line)
-        if (.not. strip%foil%owns(line(i))) cycle
+        if (.not. strip%foil%owns(line(i)) .or. strip%foil%unknown(radial, line(i)) < 0) cycle
         PetscCallA(VecGetValues(strip%state, 1_pint, [int(strip%foil%unknown(radial, line(i)), pint)], value, ierr))
         deflection(bump) = deflection(bump) - share(i)*value(1)*strip%scale%length
       end do

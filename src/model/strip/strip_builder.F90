@@ -8,14 +8,14 @@ module gfb_strip_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest
+  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest, solid_width
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
   use gfb_contact_laws, only: set_contact_laws
   use gfb_bump_contacts, only: bump_contact, crest_name, corner_name, line_shares, &
                                line_length, contact_sleeve, contact_top
   use gfb_contact_set, only: contact_point_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, solid_rows
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: strip_chain, strip_columns, strip_kinds
   use gfb_mesh_dm, only: columns_window
@@ -24,7 +24,7 @@ module gfb_strip_builder
   use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
-  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports
+  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports, cut_strip_mesh
   use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
                               plate_moved
   implicit none (type)
@@ -58,7 +58,7 @@ contains
       end if
       strip%scale%length = typical_deflection(load, foil)
       strip%scale%angle = strip%scale%length/foil%half_length
-      strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*foil%width/ &
+      strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*solid_width(foil)/ &
                           scene%mesh%axial_elements
       call set_contact_laws(scene%contact, scene%bump_foil, strip%scale%length, strip%contacts)
       if (foil%fixed_edge == fixed_edge_none) then
@@ -94,21 +94,46 @@ contains
       call divide(no_chain(), strip_chain(shape, size(rows), plan%reduced), rank_count(), division, error)
       if (allocated(error)) return
       column_part = strip_columns(shape, plan%reduced, division%bumps)
-      mesh = bump_strip_mesh(shape, rows, plan%half, columns_window(column_part, this_rank() + 1))
+      if (foil%strips > 1) then
+        mesh = cut_strip_mesh(scene, shape, foil%width, scene%mesh%axial_elements, plan%half, &
+                              columns_window(column_part, this_rank() + 1))
+      else
+        mesh = bump_strip_mesh(shape, rows, plan%half, columns_window(column_part, this_rank() + 1))
+      end if
       pieces = strip_substructures(shape, mesh)
-      pieces%kind = strip_kinds(shape, rows, plan%half)
+      pieces%kind = strip_kinds(shape, mesh%row_axial, plan%half)
       call find_symmetry_supports(mesh, fixed)
       if (scene%strip_load%support == support_held) fixed(radial, node_set(mesh, 'corners')) = .true.
       line = node_set(mesh, 'fixed_edge')
       if (foil%fixed_edge /= fixed_edge_none) then
         fixed(:, line) = .true.
       else if (plan%pinned .and. size(line) > 0) then
-        fixed([tangential, axial], line(1)) = .true.
-        fixed(tangential, line(size(line))) = .not. plan%half
+        call pin_strips(solid_rows(mesh), line, plan%half, fixed)
       end if
       call create_foil_structure(mesh, section_of(foil), fixed, pieces, plan%reduced, structure, error, column_part)
     end associate
   end subroutine build_structure
+
+  !> Holds a node of each strip, and the other end of its line along the motion.
+  pure subroutine pin_strips(solid, line, half, fixed)
+    logical, intent(in) :: solid(:)  !! rows of elements that are not cut away
+    integer, intent(in) :: line(:)   !! nodes across all strips
+    logical, intent(in) :: half      !! the first row is that of symmetry
+    logical, allocatable, intent(inout) :: fixed(:, :)
+    logical :: there(size(line) + 1) !! elements before and behind the rows
+    integer :: row, first
+
+    there = [.false., solid, .false.]
+    first = 1
+    do row = 1, size(line)
+      if (there(row + 1) .and. .not. there(row)) then
+        fixed([tangential, axial], line(row)) = .true.
+        first = row
+      else if (there(row) .and. .not. there(row + 1) .and. .not. (half .and. first == 1)) then
+        fixed(tangential, line(row)) = .true.
+      end if
+    end do
+  end subroutine pin_strips
 
   !> Contacts of this rank's corner and crest nodes.
   subroutine add_contacts(scene, strip)
@@ -135,7 +160,7 @@ contains
       if (strip%plate == plate_forced) strip%free_travel = minval(gap)
       do i = 1, size(force)
         call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
-                      force(i)/scene%bump_foil%width, gap(i) - strip%free_travel)
+                      force(i)/solid_width(scene%bump_foil), gap(i) - strip%free_travel)
       end do
     end associate
   end subroutine add_contacts
@@ -209,7 +234,7 @@ contains
         line = node_set(strip%foil%mesh, crest_name(bump))
         share = line_shares(strip%foil%mesh, line)
         do i = 1, size(line)
-          if (.not. strip%foil%owns(line(i))) cycle
+          if (.not. strip%foil%owns(line(i)) .or. strip%foil%unknown(radial, line(i)) < 0) cycle
           PetscCallA(VecSetValue(strip%full_load, int(strip%foil%unknown(radial, line(i)), pint), -force(bump)*share(i)*solved, INSERT_VALUES, ierr))
         end do
       end do

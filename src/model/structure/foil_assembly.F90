@@ -10,7 +10,7 @@ module gfb_foil_assembly
   use gfb_shell_geometry, only: shell_section_type, shell_nodes, node_unknowns, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, solid_rows
   use gfb_substructures, only: substructure_type, kind_count
   use gfb_foil_sharing, only: cut_columns, share_kinds, pass_on, lines_at_seams
   use gfb_mesh_dm, only: distribute_mesh
@@ -88,6 +88,9 @@ contains
       width = mesh%rows - 1
       columns = pack([(i, i=1, size(mine))], mine)
       structure%my_elements = [(((columns(i) - 1)*width + k, k=1, width), i=1, size(columns))]
+      if (allocated(mesh%cut)) then
+        structure%my_elements = pack(structure%my_elements, [(solid_rows(mesh), i=1, size(columns))])
+      end if
       structure%mine = pack([(i, i=1, size(structure%substructure))], mine(structure%substructure%column))
       allocate (structure%local_node(lbound(node_count, 1):ubound(node_count, 1)), source=0)
     end associate

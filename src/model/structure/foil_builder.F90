@@ -13,8 +13,9 @@ module gfb_foil_builder
                                 bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
   use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
   use gfb_film_mesh, only: film_mesh_type, axial_rows
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh, loose_rows
   use gfb_top_mesh, only: top_mesh
+  use gfb_strip_rows, only: strip_rows, cut_rows
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, &
                            aligned_stations, crest_positions, dividing_stations, &
                            fixed_line_corner
@@ -28,7 +29,7 @@ module gfb_foil_builder
   implicit none (type)
   private
   public :: build_part, build_top, build_bumps, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
-            find_symmetry_supports
+            find_symmetry_supports, strip_on_pad, cut_strip_mesh
 
   integer, parameter, public :: axial = 3         !! component of a displacement
   integer, parameter, public :: about_tangent = 5 !! rotation about the second axis
@@ -220,21 +221,27 @@ contains
   end function plate_stations
 
   !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent; of the
-  !> opposite motions all others.
+  !> opposite motions all others. A node in the middle of a cut is part of nothing and cannot move.
   pure subroutine find_symmetry_supports(mesh, fixed, opposite)
     type(quad_mesh_type), intent(in) :: mesh !! of a foil
     logical, allocatable, intent(out) :: fixed(:, :) !! (5, nodes), under the mesh's numbers
     logical, intent(in), optional :: opposite !! the other half moves against its mirror
-    logical :: held(node_unknowns)
+    logical :: held(node_unknowns), loose(mesh%rows)
     integer :: node
 
     allocate (fixed(node_unknowns, lbound(mesh%position, 2):ubound(mesh%position, 2)), source=.false.)
+    if (allocated(mesh%cut)) then
+      loose = loose_rows(mesh)
+      do node = lbound(fixed, 2), ubound(fixed, 2)
+        fixed(:, node) = loose(modulo(node - 1, mesh%rows) + 1)
+      end do
+    end if
     if (.not. mesh%half) return
     held = .false.
     held([axial, about_tangent]) = .true.
     if (present(opposite)) held = held .neqv. opposite
     do node = lbound(fixed, 2), ubound(fixed, 2)
-      if (abs(mesh%position(3, node)) <= 0.0_wp) fixed(:, node) = held
+      if (abs(mesh%position(3, node)) <= 0.0_wp) fixed(:, node) = fixed(:, node) .or. held
     end do
   end subroutine find_symmetry_supports
 
@@ -266,6 +273,37 @@ contains
     shape%arc_elements = scene%mesh%arc_elements
     shape%flat_elements = scene%mesh%flat_elements
   end function strip_shape
+
+  !> Mesh of a bearing's strip on the film's rows, or of strips side by side on rows of their own.
+  function strip_on_pad(scene, film, window) result(mesh)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's mesh
+    integer, intent(in) :: window(2) !! first and last station of the stretch
+    type(quad_mesh_type) :: mesh
+
+    if (scene%bump_foil%strips > 1) then
+      mesh = cut_strip_mesh(scene, shape_on_pad(scene), scene%bearing%length, &
+                            film%axial()*merge(2, 1, film%half), film%half, window)
+    else
+      mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, window)
+    end if
+  end function strip_on_pad
+
+  !> Mesh of strips side by side: one strip without what is cut away.
+  function cut_strip_mesh(scene, shape, width, axial, half, window) result(mesh)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(strip_shape_type), intent(in) :: shape !! of each of them
+    real(wp), intent(in) :: width    !! of all, cuts included [m]
+    integer, intent(in) :: axial     !! elements over the whole width, about
+    logical, intent(in) :: half      !! half the width is meshed
+    integer, intent(in) :: window(2) !! first and last station of the stretch
+    type(quad_mesh_type) :: mesh
+
+    associate (strips => scene%bump_foil%strips, cut => scene%bump_foil%cut_width)
+      mesh = bump_strip_mesh(shape, strip_rows(width, axial, half, strips, cut), half, window)
+      mesh%cut = cut_rows(mesh%row_axial, width, strips, cut)
+    end associate
+  end function cut_strip_mesh
 
   !> What the bump foil is made of.
   pure function section_of(foil) result(section)
@@ -323,9 +361,9 @@ contains
 
     shape = shape_on_pad(scene)
     column_part = strip_columns(shape, reduced, division%bumps)
-    mesh = bump_strip_mesh(shape, film%row_axial, film%half, columns_window(column_part, this_rank() + 1))
+    mesh = strip_on_pad(scene, film, columns_window(column_part, this_rank() + 1))
     piece = strip_substructures(shape, mesh)
-    piece%kind = strip_kinds(shape, film%row_axial, film%half)
+    piece%kind = strip_kinds(shape, mesh%row_axial, film%half)
     call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, 'fixed_edge')) = .true.
     call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)

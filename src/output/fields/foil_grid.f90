@@ -5,6 +5,7 @@ module gfb_foil_grid
   use gfb_bump_contacts, only: normal_line_force
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
+  use gfb_quad_mesh, only: solid_rows
   use gfb_grid_file, only: grid_field_type, block_bounds
   use gfb_result_set, only: result_grid_type, add_grid_field
   implicit none (type, external)
@@ -17,19 +18,21 @@ module gfb_foil_grid
 contains
 
   !> Points and cells of a foil; station by station, rows of the whole width, whatever was solved.
+  !> Over cuts there are no cells.
   subroutine create_foil_grid(foil, name, grid)
     class(foil_surface_type), intent(in) :: foil !! surface of shells or beams
     character(len=*), intent(in) :: name !! of the grid and its file
     type(result_grid_type), intent(out) :: grid !! with points and cells, without fields
     integer :: rows, stations, first, last, i, corner
-    integer, allocatable :: node(:)
+    integer, allocatable :: node(:), kept(:)
     logical, allocatable :: mirrored(:)
 
     rows = full_rows(foil)
     stations = foil%mesh%stations
     grid%name = name
     grid%grid%points = stations*rows
-    grid%grid%cells = (stations - 1)*(rows - 1)
+    kept = kept_columns(foil)
+    grid%grid%cells = (stations - 1)*size(kept)
     call block_bounds(grid%grid%points, this_rank(), rank_count(), first, last)
     allocate (node(last - first + 1), mirrored(last - first + 1))
     do i = first, last
@@ -42,7 +45,7 @@ contains
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
     allocate (grid%grid%cell(4, last - first + 1))
     do i = first, last
-      corner = (i - 1)/(rows - 1)*rows + modulo(i - 1, rows - 1) + 1
+      corner = (i - 1)/size(kept)*rows + kept(modulo(i - 1, size(kept)) + 1)
       grid%grid%cell(:, i - first + 1) = [corner, corner + 1, corner + rows + 1, corner + rows]
     end do
     allocate (grid%point_field(0), grid%cell_field(0))
@@ -54,13 +57,15 @@ contains
     class(foil_surface_type), intent(in) :: foil
     type(result_grid_type), intent(inout) :: grid
     real(wp) :: mine(1, size(foil%my_elements))
+    integer, allocatable :: kept(:)
     integer :: first, last, i
 
     mine = real(this_rank(), wp)
+    kept = kept_columns(foil)
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
     call add_grid_field(grid%cell_field, 'rank', '1', 'that computed the element', &
                         fetch_entries(foil%mesh%elements(), foil%my_elements, mine, &
-                                      [(solved_cell(foil, i), i=first, last)]))
+                                      [(solved_cell(foil, kept, i), i=first, last)]))
   end subroutine add_rank
 
   !> Adds the displacement vectors of this rank's nodes.
@@ -139,11 +144,12 @@ contains
     real(wp), intent(in) :: stress(:, :) !! (8, elements of this rank), see `gfb_foil_stress` [Pa]
     type(result_grid_type), intent(inout) :: grid !! of the foil, gets four fields
     real(wp), allocatable :: block(:, :)
-    integer, allocatable :: wanted(:)
+    integer, allocatable :: wanted(:), kept(:)
     integer :: first, last, i
 
+    kept = kept_columns(foil)
     call block_bounds(grid%grid%cells, this_rank(), rank_count(), first, last)
-    wanted = [(solved_cell(foil, i), i=first, last)]
+    wanted = [(solved_cell(foil, kept, i), i=first, last)]
     block = fetch_entries(foil%mesh%elements(), foil%my_elements, stress, wanted)
     call add_grid_field(grid%cell_field, 'membrane_stress', 'Pa', &
                         'at the centre: along the axis, across it, shear', block(1:3, :))
@@ -179,6 +185,23 @@ contains
     if (foil%mesh%half) rows = 2*rows - 1
   end function full_rows
 
+  !> Rows of elements of the whole width that are not cut away.
+  pure function kept_columns(foil) result(kept)
+    class(foil_surface_type), intent(in) :: foil
+    integer, allocatable :: kept(:)
+    logical :: solid(full_rows(foil) - 1)
+    integer :: i
+
+    associate (solved => solid_rows(foil%mesh))
+      if (foil%mesh%half) then
+        solid = [solved(size(solved):1:-1), solved]
+      else
+        solid = solved
+      end if
+    end associate
+    kept = pack([(i, i=1, size(solid))], solid)
+  end function kept_columns
+
   !> The solved node that a point of the whole width is, or mirrors.
   pure subroutine solved_node(foil, point, node, mirrored)
     class(foil_surface_type), intent(in) :: foil
@@ -195,16 +218,16 @@ contains
   end subroutine solved_node
 
   !> The solved element that a cell of the whole width is, or mirrors.
-  pure function solved_cell(foil, cell) result(element)
+  pure function solved_cell(foil, kept, cell) result(element)
     class(foil_surface_type), intent(in) :: foil
-    integer, intent(in) :: cell !! from 1
+    integer, intent(in) :: kept(:) !! of `kept_columns`
+    integer, intent(in) :: cell    !! from 1
     integer :: element
-    integer :: columns, half, column
+    integer :: half, column
 
-    columns = full_rows(foil) - 1
     half = foil%mesh%rows - 1
-    column = modulo(cell - 1, columns) + 1
+    column = kept(modulo(cell - 1, size(kept)) + 1)
     if (foil%mesh%half) column = merge(column - half, half + 1 - column, column > half)
-    element = (cell - 1)/columns*half + column
+    element = (cell - 1)/size(kept)*half + column
   end function solved_cell
 end module gfb_foil_grid

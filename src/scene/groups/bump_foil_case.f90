@@ -11,7 +11,8 @@ module gfb_bump_foil_case
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest
-  public :: has_sizes, bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, one_bump
+  public :: solid_width, has_sizes, one_bump
+  public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -35,6 +36,8 @@ module gfb_bump_foil_case
     integer :: bumps = 0
     real(wp) :: pitch = 0.0_wp              !! arc plus flat; from the bumps where not given [m]
     real(wp) :: width = 0.0_wp              !! of a strip, along the axis [m]
+    integer :: strips = 1                   !! side by side along the axis
+    real(wp) :: cut_width = 0.0_wp          !! between two of them [m]
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
     logical :: poissons_ratio_given = .false.
@@ -85,6 +88,7 @@ contains
     if (as_shell .and. .not. with_width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
                        with_width, default='required for strips; a bearing''s length')
+    call read_cuts(keys, foil)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
@@ -111,6 +115,32 @@ contains
       call keys%real_key(name, value, 'm', meaning, positive, required, default=no_default)
     end subroutine length_key
   end subroutine read_bump_foil_case
+
+  !> Reads how the strip is cut into strips side by side.
+  subroutine read_cuts(keys, foil)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(inout) :: foil
+    character(len=*), parameter :: meaning = 'width of each cut between two strips'
+    real(wp) :: strip !! width of each [m]
+    logical :: right
+
+    call keys%integer_key('strips', foil%strips, 'equal strips side by side along the axis, '// &
+                          'cut apart; the width is that of all with the cuts', &
+                          at_least(1.0_wp))
+    right = keys%last_key_is_right()
+    if (foil%present .and. foil%strips <= 1) then
+      call keys%useless_key('cut_width', meaning, 'needs strips = 2 in &bump_foil, or more')
+      return
+    end if
+    call keys%real_key('cut_width', foil%cut_width, 'm', meaning, positive, &
+                       foil%strips > 1, default='required with `strips`')
+    if (.not. right .or. .not. keys%last_key_is_right() .or. .not. foil%width > 0.0_wp) return
+    strip = solid_width(foil)/real(foil%strips, wp)
+    if (foil%cut_width < strip) return
+    call keys%complain('bump_foil', 'cut_width', 'must be less than the width of a strip, '// &
+                       text(max(0.0_wp, strip), 4)//' m: so much is left of '// &
+                       text(foil%width)//' m for each of '//text(foil%strips))
+  end subroutine read_cuts
 
   !> Reads the sizes that differ from bump to bump.
   subroutine read_sizes(keys, foil)
@@ -147,6 +177,13 @@ contains
     real(wp) :: value
     value = list(1) + sum(list - list(1))/size(list)
   end function mean
+
+  !> Width of all strips without the cuts [m].
+  elemental function solid_width(foil) result(width)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp) :: width
+    width = foil%width - real(foil%strips - 1, wp)*foil%cut_width
+  end function solid_width
 
   !> Whether a size is given bump by bump.
   elemental function has_sizes(foil) result(has)

@@ -56,7 +56,8 @@ contains
                           from_to(2.0_wp, real(most_a_side, wp)))
     call keys%real_key('edge_refinement', mesh%edge_refinement, '1', 'width of the elements '// &
                        'in the middle over that at the edges of the width: narrow ones where '// &
-                       'the pressure falls; 1: equal ones', from_to(1.0_wp, 100.0_wp))
+                       'the pressure falls; 1: equal ones, as strips side by side '// &
+                       'always have', from_to(1.0_wp, 100.0_wp))
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
     if (modulo(mesh%arc_elements, 2) /= 0) then

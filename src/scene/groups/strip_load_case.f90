@@ -1,7 +1,7 @@
 !> `&strip_load`: what presses on a bump strip, and what it rests on.
 module gfb_strip_load_case
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type, bump_pitches
+  use gfb_bump_foil_case, only: bump_foil_case_type, bump_pitches, solid_width
   use gfb_bump_stiffness, only: walowit_anno_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_scene_case, only: analysis_strip, misplaced_group
@@ -161,7 +161,7 @@ contains
     type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp) :: force(foil%bumps)
-    force = crest_pressures(load, foil%bumps)*bump_pitches(foil)*foil%width
+    force = crest_pressures(load, foil%bumps)*bump_pitches(foil)*solid_width(foil)
   end function crest_forces
 
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
@@ -198,7 +198,7 @@ contains
       deflection = load%maximum_displacement
     else if (load%kind == load_plates .and. min(foil%pitch, foil%width) > 0.0_wp .and. &
              foil%bumps > 0 .and. stiffness > 0.0_wp) then
-      deflection = load%maximum_force/(foil%bumps*stiffness*foil%pitch*foil%width)
+      deflection = load%maximum_force/(foil%bumps*stiffness*foil%pitch*solid_width(foil))
     else if (load%kind == load_crest_pressure .and. stiffness > 0.0_wp) then
       deflection = abs(load%pressure)/stiffness
       if (load%distribution == distribution_table) then

@@ -127,7 +127,7 @@ contains
     else
       along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
     end if
-    across = find_places(small%whole%row_axial, bearing%whole%row_axial(row), small%whole%half)
+    across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(row), small%whole%half)
     value = interpolated(small%foil, small_surface, number, coarse, along, across)
     call put_own(bearing%foil, number, wanted, value, unknown)
   end subroutine transfer_surface

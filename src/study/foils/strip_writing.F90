@@ -48,7 +48,7 @@ contains
     associate (run => steps%run)
       call add_quantity(summary, answer_quantities(run%full, run%last, plates, run%converged))
       call add_quantity(summary, more)
-      call add_quantity(summary, cost_quantities(scene, steps%strip, steps%newton, context%start_time))
+      call add_quantity(summary, cost_quantities(steps%strip, steps%newton, context%start_time))
       run%companions = strip_companions(scene, run%full%force)
       call show_closing_block(context%log, run, plates)
       call warn(context%log, scene, run%full)

@@ -1,0 +1,57 @@
+!> Rows of strips side by side along the axis, and where they are cut apart.
+module gfb_strip_rows
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: strip_rows, cut_rows
+
+contains
+
+  !> Rows of equal strips side by side, symmetric about z = 0 to the last digit: equal elements on
+  !> each, its share of all, none over the cuts; one row in the middle of a cut at z = 0.
+  pure function strip_rows(width, axial, half, strips, cut) result(rows)
+    real(wp), intent(in) :: width !! whole width, cuts included [m]
+    integer, intent(in) :: axial  !! elements over the whole width, about
+    logical, intent(in) :: half   !! z >= 0 only
+    integer, intent(in) :: strips !! more than one
+    real(wp), intent(in) :: cut   !! width of each cut [m]
+    real(wp), allocatable :: rows(:)
+    real(wp) :: strip !! width of each [m]
+    integer :: elements, i, k
+
+    strip = strip_width(width, strips, cut)
+    elements = max(1, nint(real(axial, wp)/real(strips, wp)))
+    if (modulo(strips, 2) == 1 .and. modulo(axial, 2) == 0) then ! a row lies at z = 0
+      elements = 2*max(1, nint(0.5_wp*real(axial, wp)/real(strips, wp)))
+    end if
+    allocate (rows(0))
+    do k = 1, strips
+      rows = [rows, (0.5_wp*(strip + cut)*real(2*k - 1 - strips, wp) + &
+                     0.5_wp*strip*real(2*i - elements, wp)/real(elements, wp), i=0, elements)]
+      if (2*k == strips) rows = [rows, 0.0_wp]
+    end do
+    if (half) rows = pack(rows, rows >= 0.0_wp)
+  end function strip_rows
+
+  !> Which rows of elements are cut away.
+  pure function cut_rows(rows, width, strips, cut) result(is_cut)
+    real(wp), intent(in) :: rows(:) !! of `strip_rows` [m]
+    real(wp), intent(in) :: width   !! whole width, cuts included [m]
+    integer, intent(in) :: strips   !! more than one
+    real(wp), intent(in) :: cut     !! width of each cut [m]
+    logical :: is_cut(size(rows) - 1)
+    real(wp) :: strip, middle(size(rows) - 1)
+
+    strip = strip_width(width, strips, cut)
+    middle = 0.5_wp*(rows(2:) + rows(:size(rows) - 1))
+    is_cut = modulo(middle + 0.5_wp*width, strip + cut) > strip
+  end function cut_rows
+
+  !> Width of one of equal strips [m].
+  pure function strip_width(width, strips, cut) result(strip)
+    real(wp), intent(in) :: width, cut !! of all, of each cut [m]
+    integer, intent(in) :: strips
+    real(wp) :: strip
+    strip = (width - real(strips - 1, wp)*cut)/real(strips, wp)
+  end function strip_width
+end module gfb_strip_rows
