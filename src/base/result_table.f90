@@ -18,10 +18,10 @@ module gfb_result_table
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
                                 load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
-                                origin = 512
+                                origin = 512, sample = 1024
   character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
     'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
-    'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`']
+    'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`', '`&sample`']
 
   !> A row of the table.
   type, public :: result_type
@@ -45,6 +45,8 @@ module gfb_result_table
     film_and_contact = 'film and solid contact', &
     film_and_contact_brake = 'film and solid contact brake', &
     all_modes_found = 'all modes asked for were found', &
+    all_members = 'all members have an answer', &
+    seed_and_reason = 'seed of the member, and why it has no answer', &
     of_this_step = 'of this step', &
     of_all_steps = 'of all load steps', &
     of_shifted_stiffness = 'of the shifted stiffness', &
@@ -63,7 +65,7 @@ module gfb_result_table
 
   type(result_type), parameter :: every_study(*) = [ &
     result_type('analysis', '', word, bearing + strip + modes, 'kind of analysis'), &
-    result_type('converged', '1', truth, bearing + strip + modes + ensemble, &
+    result_type('converged', '1', truth, bearing + strip + modes + ensemble + sample, &
       'whether {the answer was found}')]
 
   type(result_type), parameter :: sweeps(*) = [ &
@@ -327,18 +329,29 @@ module gfb_result_table
       'history: name of the case file'), &
     result_type('reason', '', word, ensemble, 'why there is no answer; empty where there is', &
       'history: why there is no answer; empty where there is one'), &
-    result_type('exit_status', '1', total, ensemble, &
+    result_type('exit_status', '1', total, ensemble + sample, &
       'that gfb would have had with this case alone', &
       'history: exit status that gfb would have had with this case alone'), &
     result_type('group', '1', total, ensemble, 'of ranks that computed it', &
       'history: group of ranks that computed it', varies=.true.), &
-    result_type('members', '1', total, ensemble, 'cases of the table'), &
-    result_type('converged_members', '1', total, ensemble, 'of them', &
-      'cases of the table that have an answer'), &
+    result_type('members', '1', total, ensemble + sample, &
+      'cases of the table, draws of the sample'), &
+    result_type('converged_members', '1', total, ensemble + sample, 'of them', &
+      'of them, those that have an answer'), &
     result_type('groups', '1', total, ensemble + origin, '{of ranks}', &
       'of ranks, each with cases, a stretch of the sweep, or some of the frequencies'), &
-    result_type('member_<n>', '', word, ensemble, '{case file}', &
-      'name of the case, and how it ended')]
+    result_type('member_<n>', '', word, ensemble + sample, '{case file}', &
+      'name of the case, and how it ended; of a sample seed and reason of a member without '// &
+      'answer'), &
+    result_type('seed', '1', total, sample, 'that chooses the random heights', &
+      'history: seed that chooses the random heights of the member'), &
+    result_type('<quantity>_mean', own_unit, number, sample, 'mean over the members', &
+      'mean, standard deviation and quantiles (in percent) of that quantity over the members '// &
+      'that have an answer'), &
+    result_type('<quantity>_deviation', own_unit, number, sample, &
+      'standard deviation of the members', joins=.true.), &
+    result_type('<quantity>_q<n>', own_unit, number, sample, &
+      'n percent of the members are below', joins=.true.)]
 
   type(result_type), parameter :: origins(*) = [ &
     result_type('program_version', '', word, origin, 'version of gfb'), &

@@ -78,8 +78,10 @@ contains
     call create_study(scene, branches, study, error)
     if (.not. allocated(error)) call context%take_case(scene%name, error)
     if (allocated(error)) return
-    if (scene%accuracy%present) then
-      if (context%resumes) call context%log%line('restart: not with &accuracy, the run starts anew')
+    if (scene%accuracy%present .or. scene%sample%present) then
+      if (context%resumes) then
+        call context%log%line('restart: not with &accuracy or &sample, the run starts anew')
+      end if
     else if (.not. branches) then
       call context%find_restart(scene, error)
     end if

@@ -11,6 +11,10 @@ module gfb_run_groups
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_check_scene, only: check_scene
   use gfb_reduction_choice, only: choose_reduction
+  use gfb_divided_sample, only: run_divided_sample
+  use gfb_sample, only: sample_type
+  use gfb_studies, only: create_study
+  use gfb_study, only: study_type
   use gfb_divided_sweep, only: run_divided_sweep
   use gfb_divided_frequencies, only: run_divided_frequencies
   use gfb_scene_table, only: run_scene_table, scene_runner
@@ -64,7 +68,9 @@ contains
       if (allocated(scenes(1)%model%reduction_reason)) then
         context%reduction = 'bumps '//scenes(1)%model%reduction_reason
       end if
-      if (scenes(1)%sweep%present) then
+      if (scenes(1)%sample%present) then
+        call run_sample(scenes(1), context, job, status, error)
+      else if (scenes(1)%sweep%present) then
         call run_divided_sweep(scenes(1), context, job, status)
       else
         call run_divided_frequencies(scenes(1), context, job, status)
@@ -74,6 +80,24 @@ contains
     end if
     call agree_on_signal(job%largest(agreed_signal()))
   end subroutine run_groups
+
+  !> One sample divided.
+  subroutine run_sample(scene, context, job, status, error)
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(job_type), target, intent(inout) :: job
+    integer, intent(out) :: status
+    type(error_type), allocatable, intent(out) :: error
+    class(study_type), allocatable :: study
+
+    status = 0
+    call create_study(scene, .false., study, error)
+    if (allocated(error)) return
+    select type (study)
+    type is (sample_type)
+      call run_divided_sample(scene, study, context, job, status)
+    end select
+  end subroutine run_sample
 
   !> Reads all case files.
   !>
@@ -106,7 +130,13 @@ contains
       call add('gfb: '//text(line%groups)//' groups need as many ranks at least, and the job '// &
                'has '//text(job%ranks)//': mpiexec -n '//text(line%groups)//' gfb ...', error)
     end if
-    if (size(scenes) == 1 .and. scenes(1)%dynamics%present .and. .not. scenes(1)%sweep%present) then
+    if (size(scenes) == 1 .and. scenes(1)%sample%present) then
+      if (line%groups > scenes(1)%sample%count) then
+        call add(scenes(1)%file//': &sample: '//text(line%groups)//' groups for '// &
+                 text(scenes(1)%sample%count)//' members: some would have nothing to do', error)
+      end if
+    else if (size(scenes) == 1 .and. scenes(1)%dynamics%present .and. &
+             .not. scenes(1)%sweep%present) then
       call check_frequencies(line, scenes(1), error)
     else if (size(scenes) == 1) then
       call check_sweep(line, scenes(1), error)
@@ -144,6 +174,7 @@ contains
 
     if (.not. scene%sweep%present) then
       call add(scene%file//': has no &sweep whose points, nor &dynamics whose frequencies, '// &
+               'nor &sample whose members, '// &
                'could be divided among groups; --groups is for those, or for several cases', error)
       return
     end if

@@ -6,6 +6,7 @@ module gfb_studies
   use gfb_model_case, only: meshes_foils
   use gfb_study, only: study_type
   use gfb_refinement, only: refinement_type
+  use gfb_sample, only: sample_type
   use gfb_bearing_study, only: bearing_study_type
   use gfb_branches_study, only: branches_study_type
   use gfb_strip_study, only: strip_study_type
@@ -25,6 +26,7 @@ contains
     class(study_type), allocatable, intent(out) :: study !! that was chosen
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(refinement_type), allocatable :: refinement
+    type(sample_type), allocatable :: sample
 
     if (branches) call check_branches(scene, error)
     if (allocated(error)) return
@@ -40,6 +42,11 @@ contains
         allocate (bearing_study_type :: study)
       end if
     end select
+    if (scene%sample%present) then
+      allocate (sample)
+      call move_alloc(study, sample%pattern)
+      call move_alloc(sample, study)
+    end if
     if (.not. scene%accuracy%present) return
     allocate (refinement)
     call move_alloc(study, refinement%pattern)
@@ -55,6 +62,10 @@ contains
 
     if (scene%accuracy%present) then
       call fail(error, scene%file//': &accuracy: is for one answer, not for all of --branches')
+      return
+    end if
+    if (scene%sample%present) then
+      call fail(error, scene%file//': &sample: has one answer a member, not all of --branches')
       return
     end if
     if (scene%dynamics%present) then

@@ -141,7 +141,7 @@ contains
     case ('lift_off') ! which needs asperities
       groups = ' pads bore sweep accuracy '
     case default
-      groups = ' pads bore shaft_contact sweep accuracy '
+      groups = ' pads bore shaft_contact sweep accuracy sample '
     end select
   end function offered
 
@@ -203,7 +203,7 @@ contains
       words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
               "&accuracy quantity='misalignment_allowance' /"//next
     case default
-      words = words//"&accuracy quantity='minimum_gap' /"//next
+      words = words//"&accuracy quantity='minimum_gap' /"//next//'&sample count=100 /'//next
     end select
   end function bearing_example
 

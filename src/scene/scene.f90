@@ -14,6 +14,7 @@ module gfb_scene
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
   use gfb_rotor_case, only: rotor_case_type
+  use gfb_sample_case, only: sample_case_type
   use gfb_scene_case, only: scene_case_type
   use gfb_shaft_contact_case, only: shaft_contact_case_type
   use gfb_solver_case, only: solver_case_type
@@ -40,6 +41,7 @@ module gfb_scene
     type(rotor_case_type) :: rotor
     type(capacity_case_type) :: capacity
     type(accuracy_case_type) :: accuracy
+    type(sample_case_type) :: sample
     type(top_foil_case_type) :: top_foil
     type(bump_foil_case_type) :: bump_foil
     type(strip_load_case_type) :: strip_load

@@ -10,6 +10,7 @@ module gfb_scene_checks
   use gfb_foil_mass_case, only: check_foil_mass
   use gfb_plausible_values, only: check_plausible
   use gfb_rotor_case, only: check_rotor
+  use gfb_sample_rules, only: check_sample
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: check_shell_bearing, check_sweep, check_foundation, check_half_width, &
                              check_rigid_position, check_strip, check_plates, &
@@ -57,6 +58,7 @@ contains
     call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
     call check_capacity(keys, scene%capacity, scene%operation, scene%model, scene%solver, &
                         scene%sweep, scene%accuracy, scene%shaft_contact%present)
+    call check_sample(keys, scene)
     call check_shape(keys, scene)
     call check_plausible(keys, scene)
   end subroutine check_groups

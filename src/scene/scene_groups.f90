@@ -1,6 +1,5 @@
 !> Reads the groups of a case file into a scene.
 module gfb_scene_groups
-  use gfb_accuracy_case, only: read_accuracy_case
   use gfb_bearing_case, only: read_bearing_case
   use gfb_bore_case, only: read_bore_case
   use gfb_capacity_case, only: read_capacity_case
@@ -14,13 +13,13 @@ module gfb_scene_groups
                             part_strip, part_top_foil
   use gfb_operation_case, only: read_operation_case
   use gfb_pads_case, only: read_pads_case
-  use gfb_output_case, only: read_output_case
   use gfb_rotor_case, only: read_rotor_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
                             analysis_strip, analysis_modes, analysis_misalignment
   use gfb_shaft_contact_case, only: read_shaft_contact_case
   use gfb_solver_case, only: read_solver_case
+  use gfb_study_groups, only: read_study_groups
   use gfb_sweep_case, only: read_sweep_case
   implicit none (type, external)
   private
@@ -66,8 +65,7 @@ contains
     end associate
     call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
     call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
-    call read_output_case(keys, scene%output)
-    call read_accuracy_case(keys, scene%accuracy, scene%general%analysis)
+    call read_study_groups(keys, scene)
     scene%general%analysis = state
   end subroutine read_groups
 

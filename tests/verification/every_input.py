@@ -48,6 +48,7 @@ COARSER = (  # which inputs, what is changed
     (r"gu2020_dynamics|gu2020_dynamics_beam", SHELLS | {"dynamics": {"frequency_ratios": (0.5, 1.0)}}),
     (r"gu2020_dynamics_amplitude", SHELLS | {"dynamics": {"vibration_amplitudes": (1.0e-7, 2.0e-6)}}),
     (r"gu2020_dynamics_foundation", FILM | {"dynamics": {"frequency_ratios": (0.5, 1.0)}}),
+    (r"random_bumps", {"mesh": {"axial_elements": 8}, "sample": {"count": 3}}),
     (r"gu2020_position_.*", PAPER),
     (r"capacity_speed", {"mesh": {"circumferential_elements": 104, "axial_elements": 8}, "sweep": {"values": (20000.0, 40000.0)}}),
     (r"capacity_lift_off", FILM | {"sweep": {"values": (10.0, 80.0)}}),

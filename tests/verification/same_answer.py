@@ -76,6 +76,8 @@ def column_difference(first, second, size):
 def difference(one, other, text):
     """Compares two answers to a case file's text; a NaN of a summary equals nothing."""
     sizes = sizes_of(text, one)
+    sizes |= {name: sizes[kind[1]] for name in one.summary  # statistics of a sample
+              if (kind := re.fullmatch(r"(\w+)_(mean|deviation|q\d+)", name)) and kind[1] in sizes}
     rows, columns = history_of(one), history_of(other)
     history = max(((column_difference(rows[key], columns[key], sizes.get(key)), key)
                    for key in set(rows) & set(columns) - COST), default=(0.0, "no steps"))

@@ -7,39 +7,53 @@ module gfb_height_deviation_keys
   use gfb_value_rules, only: at_least, positive
   implicit none (type, external)
   private
-  public :: read_height_deviation
+  public :: read_height_deviation, height_deviation_type, drawn_gaps
 
   character(len=*), parameter :: group = 'bump_foil'
   character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
 
+  !> How the heights deviate.
+  type :: height_deviation_type
+    real(wp) :: deviation = 0.0_wp !! standard deviation; 0: none was asked for [m]
+    integer :: seed = 1            !! chooses the heights
+  end type height_deviation_type
+
 contains
 
+  !> The gaps that random heights leave [m].
+  pure function drawn_gaps(random, seed, bumps) result(gap)
+    type(height_deviation_type), intent(in) :: random !! their law
+    integer, intent(in) :: seed  !! in the place of the law's own
+    integer, intent(in) :: bumps !! of the strip
+    real(wp) :: gap(bumps)       !! [m]
+
+    gap = crest_gaps(random%deviation*normal_deviations(seed, bumps))
+  end function drawn_gaps
+
   !> Reads the law of the heights, and the gaps that they leave where none are given.
-  subroutine read_height_deviation(keys, in_file, gaps, bumps, height, gap)
+  subroutine read_height_deviation(keys, in_file, gaps, bumps, height, law, gap)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     logical, intent(in) :: in_file !! the file has the group
     logical, intent(in) :: gaps    !! and gives the gaps themselves
     integer, intent(in) :: bumps   !! of the strip, 0 where not known
     real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
+    type(height_deviation_type), intent(out) :: law !! of the heights, where they are random
     real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
-    real(wp) :: deviation !! of the heights [m]
     character(len=:), allocatable :: key
-    integer :: seed
     logical :: random, right
 
-    deviation = 0.0_wp
     key = 'crest_gap'
-    call keys%real_key('height_deviation', deviation, 'm', 'standard deviation of the bumps'' '// &
-                       'heights; at rest the highest crest touches', positive, &
+    call keys%real_key('height_deviation', law%deviation, 'm', 'standard deviation of the '// &
+                       'bumps'' heights; at rest the highest crest touches', positive, &
                        default=no_default, given=random)
     right = keys%last_key_is_right()
-    call read_law(keys, in_file .and. .not. random, seed, right)
+    call read_law(keys, in_file .and. .not. random, law%seed, right)
     if (gaps .and. random) then
       call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
                          'from the heights; give one of them')
     else if (right .and. bumps > 0) then
       key = 'height_deviation'
-      gap = crest_gaps(deviation*normal_deviations(seed, bumps))
+      gap = drawn_gaps(law, law%seed, bumps)
     end if
     if (.not. allocated(gap) .or. .not. height > 0.0_wp) return
     if (all(gap < height)) return

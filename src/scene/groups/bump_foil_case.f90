@@ -5,7 +5,8 @@ module gfb_bump_foil_case
   use gfb_bump_list, only: bump_list_key
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_height_deviation_keys, only: read_height_deviation
+  use gfb_height_deviation_keys, only: read_height_deviation, height_deviation_type, &
+                                       drawn_gaps
   use gfb_text, only: text
   use gfb_value_rules, only: at_least, between, not_negative, positive
   implicit none (type, external)
@@ -13,6 +14,7 @@ module gfb_bump_foil_case
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest
   public :: solid_width, has_sizes, one_bump
   public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
+  public :: drawn_gaps
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -49,6 +51,7 @@ module gfb_bump_foil_case
     real(wp), allocatable :: bump_half_length(:) !! [m]
     real(wp), allocatable :: bump_height(:)      !! [m]
     real(wp), allocatable :: bump_thickness(:)   !! [m]
+    type(height_deviation_type) :: random   !! law of the heights from which the gaps follow
   end type bump_foil_case_type
 
 contains
@@ -98,7 +101,8 @@ contains
     gaps = keys%key%given
     lowest = foil%height
     if (allocated(foil%bump_height)) lowest = minval(foil%bump_height)
-    call read_height_deviation(keys, foil%present, gaps, foil%bumps, lowest, foil%crest_gap)
+    call read_height_deviation(keys, foil%present, gaps, foil%bumps, lowest, foil%random, &
+                               foil%crest_gap)
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
 

@@ -10,6 +10,7 @@
       --together                          columns of one unit in one chart
   tools/plot CASE.h5 --show dynamics    stiffness and damping over the frequency of vibration; of a sweep
                                         the last point, or the one of --step
+  tools/plot SAMPLE.h5 [COLUMN ...]     of &sample: histogram and cumulative share of minimum_gap, or of other results
   tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
       --show bumps                        mean deflection of every crest line
       --show loop                         force against travel of the plate or largest crest deflection
@@ -34,7 +35,7 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-from gfb.plot import dynamics, foil, rotor, strip  # noqa: E402
+from gfb.plot import dynamics, foil, rotor, sample, strip  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
@@ -121,6 +122,8 @@ def draw(options, paths, files):
         if len(files) > 1:
             stop("stiffness and damping are drawn of one file")
         return dynamics.draw(path, file, options.step)
+    if "sample" in file and not of_strips:
+        return sample.draw(path, file, options.columns)
     if of_strips or (not options.columns and strip.is_strip(file)):
         return strip.draw(paths, files, options.show, options.step)
     if foil.is_foil(file):

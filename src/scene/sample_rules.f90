@@ -1,0 +1,80 @@
+!> What `&sample` asks of the other groups, and its members.
+module gfb_sample_rules
+  use gfb_kinds, only: wp
+  use gfb_bump_foil_case, only: drawn_gaps, bump_heights
+  use gfb_case_keys, only: case_keys_type
+  use gfb_scene, only: scene_type
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: check_sample, sample_member
+
+contains
+
+  !> Complains about what a sample cannot have beside it.
+  subroutine check_sample(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    if (.not. scene%sample%present) return
+    if (.not. keys%meant('bump_foil', 'height_deviation')) then
+      call keys%complain('sample', 'count', 'needs height_deviation in &bump_foil: without it '// &
+                         'all members are the same')
+    else
+      call check_heights(keys, scene)
+    end if
+    if (scene%sweep%present) then
+      call keys%complain('sample', 'count', 'needs a scene of one answer, without &sweep')
+    end if
+    if (scene%accuracy%present) then
+      call keys%complain('sample', 'count', 'cannot stand beside &accuracy: one member on one '// &
+                         'mesh has its error, then all have it on that mesh')
+    end if
+    if (scene%dynamics%present) then
+      call keys%complain('sample', 'count', "has no use with analysis = 'linear_dynamics'")
+    end if
+    if (scene%output%restart_every > 0) then
+      call keys%complain('sample', 'count', 'is of many runs, which no restart file resumes: '// &
+                         'restart_every must be 0')
+    end if
+  end subroutine check_sample
+
+  !> Every member keeps the rule that the scene keeps: no gap as large as a bump.
+  subroutine check_heights(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: number
+
+    associate (foil => scene%bump_foil)
+      if (foil%bumps < 1 .or. .not. foil%height > 0.0_wp) return
+      if (.not. foil%random%deviation > 0.0_wp) return
+      if (foil%random%seed > huge(0) - scene%sample%count) then
+        call keys%complain('sample', 'count', 'leads to a seed that is too large')
+        return
+      end if
+      do number = 2, scene%sample%count
+        associate (seed => foil%random%seed + number - 1)
+          if (maxval(drawn_gaps(foil%random, seed, foil%bumps)) < minval(bump_heights(foil))) cycle
+          call keys%complain('sample', 'count', 'seed '//text(seed)//' leaves a gap that is '// &
+                             'not less than the height of the bumps, '//text(minval(bump_heights(foil)))//' m')
+          return
+        end associate
+      end do
+    end associate
+  end subroutine check_heights
+
+  !> A member: the scene with another seed.
+  pure function sample_member(scene, number) result(member)
+    type(scene_type), intent(in) :: scene !! with `&sample`
+    integer, intent(in) :: number !! of the member, from 1
+    type(scene_type) :: member
+
+    member = scene
+    member%sample%present = .false.
+    associate (foil => member%bump_foil)
+      foil%random%seed = scene%bump_foil%random%seed + number - 1
+      foil%crest_gap = drawn_gaps(foil%random, foil%random%seed, foil%bumps)
+      member%name = scene%name//'.seed'//text(foil%random%seed)
+    end associate
+  end function sample_member
+end module gfb_sample_rules
