@@ -351,7 +351,7 @@ module gfb_result_table
     result_type('<quantity>_deviation', own_unit, number, sample, &
       'standard deviation of the members', joins=.true.), &
     result_type('<quantity>_q<n>', own_unit, number, sample, &
-      'n percent of the members are below', joins=.true.)]
+      'quantile of the members, its percentage in the name', joins=.true.)]
 
   type(result_type), parameter :: origins(*) = [ &
     result_type('program_version', '', word, origin, 'version of gfb'), &

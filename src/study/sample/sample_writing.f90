@@ -17,7 +17,7 @@ module gfb_sample_writing
   use gfb_sample_case, only: percent_of
   use gfb_sample_statistics, only: mean_of, deviation_of, quantile_of
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_table_file, only: table_member_type
   use gfb_text, only: text
   implicit none (type, external)
@@ -64,8 +64,8 @@ contains
                       first_line(members(i)%reason)//')', seed_and_reason)
     end do
     call context%log%heading('statistics')
-    call add_statistics(rows, scene%sample%quantiles, scene%general%analysis == &
-                        analysis_equilibrium, context%log, summary, arrays)
+    call add_statistics(rows, scene%sample%quantiles, given_names(scene%general%analysis), &
+                        context%log, summary, arrays)
     call add_quantity(summary, cost_quantities(cost))
     call show_members(members, ranks, context%log)
     call write_result_set(scene, context%folder, converged, origin, summary, rows, arrays, &
@@ -82,10 +82,10 @@ contains
   end function first_line
 
   !> Statistics of every result that one answer may be asked for, for summary, file and log.
-  subroutine add_statistics(rows, quantiles, under_load, log, summary, arrays)
+  subroutine add_statistics(rows, quantiles, given, log, summary, arrays)
     type(history_row_type), intent(in) :: rows(:)
     real(wp), intent(in) :: quantiles(:)
-    logical, intent(in) :: under_load !! forces are the load, which is the same in all members
+    character(len=name_length), intent(in) :: given(:) !! not found, but the same in all members
     type(run_log_type), intent(in) :: log
     type(quantity_type), allocatable, intent(inout) :: summary(:)
     type(case_array_type), allocatable, intent(out) :: arrays(:)
@@ -97,13 +97,26 @@ contains
     call add_array('quantiles', '1', 'parts of the members below the quantiles', quantiles, arrays)
     names = asked_names()
     do i = 1, size(names)
-      if (under_load .and. index(names(i), 'force_') == 1) cycle
+      if (any(given == names(i))) cycle
       numbers = history_values(rows, trim(names(i)))
       numbers = pack(numbers, .not. ieee_is_nan(numbers))
       if (size(numbers) < 2) cycle
       call add_result_statistics(trim(names(i)), numbers, quantiles, log, summary, arrays)
     end do
   end subroutine add_statistics
+
+  !> Results that the case gives.
+  pure function given_names(analysis) result(names)
+    integer, intent(in) :: analysis !! of the scene
+    character(len=name_length), allocatable :: names(:)
+
+    allocate (names(0))
+    if (analysis == analysis_equilibrium) then
+      names = [character(len=name_length) :: 'force_x', 'force_y']
+    end if
+    if (analysis /= analysis_fixed_position) return
+    names = [character(len=name_length) :: 'eccentricity_x', 'eccentricity_y']
+  end function given_names
 
   !> Statistics of one result.
   subroutine add_result_statistics(name, numbers, quantiles, log, summary, arrays)
