@@ -24,6 +24,7 @@ from gfb.plot import film as plot_film  # noqa: E402 (found only now)
 from gfb.plot import foil as plot_foil  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.plot import rotor as plot_rotor  # noqa: E402
+from gfb.plot import sample as plot_sample  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
@@ -292,6 +293,20 @@ class RotorTest(unittest.TestCase):
         self.assertEqual(len(shown), 1)
         numpy.testing.assert_allclose(shown[0].get_ydata(), (3.0/numpy.hypot(3.0, 40.0), -6.0/numpy.hypot(6.0, 80.0)))
         self.assertEqual(above.get_ylabel(), "frequency [Hz]")
+
+    def test_members_of_a_sample_are_counted_and_summed_up(self):
+        path, gaps = self.folder/"sample.h5", numpy.array([4.0e-6, numpy.nan, 2.0e-6, 3.0e-6])
+        with h5py.File(path, "w") as file:
+            file["history/seed"], file["history/minimum_gap"] = numpy.arange(4), gaps
+            file["history/minimum_gap"].attrs["unit"] = "m"
+            file["sample/quantiles"], file["sample/minimum_gap/quantiles"] = [[0.5]], [[3.0e-6]]
+            file["sample/minimum_gap/mean"] = [[3.0e-6]]
+            bars, steps = plot_sample.draw(path, file).axes
+        self.assertEqual(sum(bar.get_height() for bar in bars.patches), 3)
+        numpy.testing.assert_allclose(bars.lines[0].get_xdata(), 3.0)
+        numpy.testing.assert_allclose(steps.lines[0].get_xydata(), [(2.0, 1/3), (3.0, 2/3), (4.0, 1.0)])
+        numpy.testing.assert_allclose(steps.lines[1].get_xydata(), [(3.0, 0.5)])
+        self.assertIn("no statistics of gap", call(self.folder, "sample.h5", "gap")[1])
 
     def test_map_takes_load_or_speed_from_sweep_or_case(self):
         paths = [self.sweep(f"{speed}.h5", "load", (10.0, 20.0, 30.0), f"speed_rpm = {speed}.0",
