@@ -13,11 +13,15 @@
 !> nearer to one and now farther, so that values show an order, or a small difference, by chance.
 !> Twice the last difference, or what the one before lets expect, \( |f_2 - f_1| / 2^q \) with the
 !> elements' order, stands for its error, whichever is larger.
+!>
+!> Components of one tensor, such as a 2 x 2 block of stiffness, share one order: that of their
+!> differences' Frobenius norms, which no turn of the axes changes. A single component's differences
+!> may pass through zero although the tensor converges, and then show any order.
 module gfb_grid_convergence
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: estimate_error
+  public :: estimate_error, estimate_errors
 
   real(wp), parameter :: trusted_factor = 1.25_wp !! F_s where the order is as it should be [1]
   real(wp), parameter :: doubtful_factor = 3.0_wp !! where it is not, or is not known [1]
@@ -75,4 +79,43 @@ contains
       found%error = doubtful_factor*max(abs(last), abs(before))
     end if
   end function estimate_error
+
+  !> Judges the components of a tensor on meshes from coarse to fine; they share one order.
+  !>
+  !> Each has \( E = F_s \max(|f_3 - f_2|, |f_2 - f_1| / 2^q) / (2^q - 1) \), so that a difference that
+  !> happens to vanish does not count.
+  pure function estimate_errors(value, formal_order) result(found)
+    real(wp), intent(in) :: value(:, :) !! [in one unit] (component, mesh), each mesh twice as fine
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(convergence_type) :: found(size(value, 1))
+    real(wp), dimension(size(value, 1)) :: last, before
+    real(wp) :: rest, factor, gain
+    integer :: n, i
+
+    n = size(value, 2)
+    if (n < 3) then
+      found = [(estimate_error(value(i, :), formal_order, nodal=.false.), i=1, size(found))]
+      return
+    end if
+    last = value(:, n) - value(:, n - 1)
+    before = value(:, n - 1) - value(:, n - 2)
+    found%value = value(:, n)
+    found%trusted = .true.
+    rest = rounding*maxval(abs(value))
+    if (max(norm2(last), norm2(before)) <= rest) then
+      found%error = max(abs(last), abs(before))
+      return
+    end if
+    found%order = log(max(norm2(before), rest)/max(norm2(last), rest))/log(2.0_wp)
+    found%trusted = found%order >= lowest_order
+    if (found(1)%trusted) then
+      factor = doubtful_factor
+      if (abs(found(1)%order - formal_order) <= tolerance*formal_order .and. &
+          dot_product(last, before) > 0.0_wp) factor = trusted_factor
+      gain = 2.0_wp**min(found(1)%order, formal_order)
+      found%error = factor*max(abs(last), abs(before)/gain)/(gain - 1.0_wp)
+    else
+      found%error = doubtful_factor*max(abs(last), abs(before))
+    end if
+  end function estimate_errors
 end module gfb_grid_convergence

@@ -206,10 +206,14 @@ module gfb_result_table
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, at this load and speed', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
-      'rigid shaft whirls, at this load and speed; absent where none does'), &
+      'rigid shaft whirls, at this load and speed; absent where none does', asked=.true.), &
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
-      'the same: frequency of that whirl over the speed of the shaft'), &
+      'the same: frequency of that whirl over the speed of the shaft', asked=.true.), &
+    result_type('coefficients', '1', number, bearing, &
+      'stiffness and damping at all frequencies, each entry over the largest of its block', &
+      'stiffness and damping at all frequencies, each entry over the largest of its 2 x 2 '// &
+      'block: as `coefficients_error` and `coefficients_order` only', asked=.true.), &
     result_type('growth_rate', '1/s', number, bearing, &
       'growth of the rotor''s least damped mode, exp(growth t); negative: it dies out', &
       'with `&rotor`: growth of its least damped mode, exp(growth t); negative: it dies out'), &

@@ -12,7 +12,8 @@ module gfb_dynamics_record
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
   implicit none (type, external)
   private
-  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, remember_dynamics
+  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, remember_dynamics, &
+            coefficients_of
 
   !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense [1].
   integer, parameter, public :: mode_numbers = 6
@@ -44,6 +45,8 @@ module gfb_dynamics_record
     !> (row, column, amplitude, frequency) Z in SI
     complex(wp), allocatable :: at_amplitude(:, :, :, :)
     real(wp), allocatable :: friction_loss(:, :, :) !! (x or y, amplitude, frequency) [J]
+    !> Of stiffness and damping, from nested meshes, in the order of `coefficients_of` [SI]
+    real(wp), allocatable :: error(:)
   end type dynamics_point_type
 
   !> At all answers so far; none without an answer.
@@ -72,6 +75,33 @@ contains
 
     damping = aimag(point%coefficient(:, :, i))/point%frequency(i)
   end function damping_of
+
+  !> All stiffness behind each other, then all damping.
+  pure function coefficients_of(point) result(values)
+    type(dynamics_point_type), intent(in) :: point !! an answer
+    real(wp), allocatable :: values(:) !! [SI] (row, column, frequency, stiffness or damping)
+    integer :: i
+
+    allocate (values(0))
+    do i = 1, size(point%frequency)
+      values = [values, reshape(stiffness_of(point, i), [shaft_coordinates**2])]
+    end do
+    do i = 1, size(point%frequency)
+      values = [values, reshape(damping_of(point, i), [shaft_coordinates**2])]
+    end do
+  end function coefficients_of
+
+  !> Errors of stiffness (1) or damping (2) at one of the frequencies.
+  pure function error_of(point, part, i) result(error)
+    type(dynamics_point_type), intent(in) :: point
+    integer, intent(in) :: part !! 1 or 2
+    integer, intent(in) :: i !! number of the frequency
+    real(wp) :: error(shaft_coordinates, shaft_coordinates)
+    integer :: first
+
+    first = ((part - 1)*size(point%frequency) + i - 1)*shaft_coordinates**2
+    error = reshape(point%error(first + 1:first + shaft_coordinates**2), shape(error))
+  end function error_of
 
   !> The arrays of the result file; none without an answer. Those of a sweep have its points first.
   function dynamics_arrays(record, sweeps, points) result(arrays)
@@ -121,9 +151,38 @@ contains
                     'the same over velocity or angular velocity', damping, three(3), sweeps)
     three(2:)%order = shaft_coordinates
     call add_arrays(arrays, three)
+    if (allocated(record%point(1)%error)) call add_error_arrays(record%point(1), arrays)
     call add_mode_arrays(record, sweeps, points, arrays)
     if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)
   end function dynamics_arrays
+
+  !> Adds the errors of the coefficients; there is one answer.
+  subroutine add_error_arrays(point, arrays)
+    type(dynamics_point_type), intent(in) :: point
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(case_array_type) :: two(2)
+    real(wp), allocatable :: values(:, :)
+    integer, parameter :: entries = shaft_coordinates**2
+    character(len=*), parameter :: meaning = 'error of every entry, estimated from nested '// &
+                                             'meshes, absolute, ['//order
+    integer :: part, i
+
+    allocate (values(entries, size(point%frequency)))
+    do part = 1, 2
+      do i = 1, size(point%frequency)
+        values(:, i) = reshape(transpose(error_of(point, part, i)), [entries])
+      end do
+      if (part == 1) then
+        call fill_array('/dynamics/stiffness_error', 'N/m, N/rad; N m/m, N m/rad', &
+                        meaning//'of stiffness', values, two(1))
+      else
+        call fill_array('/dynamics/damping_error', 'N s/m, N s/rad; N m s/m, N m s/rad', &
+                        meaning//'of damping', values, two(2))
+      end if
+    end do
+    two%order = shaft_coordinates
+    call add_arrays(arrays, two)
+  end subroutine add_error_arrays
 
   !> Adds what was found at the shaft's amplitudes. Tilts stay small ones: their columns are NaN.
   subroutine add_amplitude_arrays(point, arrays)
@@ -212,17 +271,40 @@ contains
         words = words//',c'//trim(names(row))//trim(names(column))
       end do
     end do
+    if (size(record%point) > 0) then
+      if (allocated(record%point(1)%error)) words = words//error_names()
+    end if
     words = words//new_line('a')
     do k = 1, size(record%point)
       associate (point => record%point(k))
         do i = 1, size(point%frequency)
           if (sweep_name /= '') words = words//exact_text(values(k))//','
           words = words//exact_text(point%frequency(i))//matrix_text(stiffness_of(point, i))// &
-                  matrix_text(damping_of(point, i))//new_line('a')
+                  matrix_text(damping_of(point, i))
+          if (allocated(point%error)) then
+            words = words//matrix_text(error_of(point, 1, i))//matrix_text(error_of(point, 2, i))
+          end if
+          words = words//new_line('a')
         end do
       end associate
     end do
   end function dynamics_table
+
+  !> Names of the columns of errors, each behind a comma.
+  pure function error_names() result(words)
+    character(len=:), allocatable :: words
+    character(len=*), parameter :: kinds = 'kc'
+    integer :: part, row, column
+
+    words = ''
+    do part = 1, len(kinds)
+      do row = 1, shaft_coordinates
+        do column = 1, shaft_coordinates
+          words = words//','//kinds(part:part)//trim(names(row))//trim(names(column))//'_error'
+        end do
+      end do
+    end do
+  end function error_names
 
   !> A matrix row by row, each number behind a comma.
   pure function matrix_text(matrix) result(words)

@@ -55,7 +55,8 @@ contains
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
     call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
     call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis)
+    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis, &
+                        scene%dynamics%present)
     call check_capacity(keys, scene%capacity, scene%operation, scene%model, scene%solver, &
                         scene%sweep, scene%accuracy, scene%shaft_contact%present)
     call check_sample(keys, scene)

@@ -1,7 +1,8 @@
 !> What nested meshes say of one number: values, errors, and whether the target is met.
 module gfb_mesh_sequence
   use gfb_kinds, only: wp
-  use gfb_accuracy_case, only: accuracy_case_type, asked_name
+  use gfb_accuracy_case, only: accuracy_case_type, all_coefficients, asked_name
+  use gfb_coefficient_errors, only: entry_errors, worst_error
   use gfb_grid_convergence, only: convergence_type, estimate_error
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: is_nodal
@@ -33,9 +34,14 @@ module gfb_mesh_sequence
     logical :: nodal = .false.             !! the number is the largest or smallest at the nodes
     type(mesh_answer_type), allocatable :: answer(:)
     real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
+    real(wp), allocatable :: coefficients(:, :) !! (entry, mesh) the same of stiffness, damping [SI]
   contains
     procedure :: add => sequence_add
     procedure :: add_failure => sequence_add_failure
+    procedure :: add_coefficients => sequence_add_coefficients
+    procedure :: drop_coefficients => sequence_drop_coefficients
+    procedure :: coefficient_errors => sequence_coefficient_errors
+    procedure :: is_of_many => sequence_is_of_many
     procedure :: met => sequence_met
     procedure :: quantities => sequence_quantities
     procedure :: show => sequence_show
@@ -76,9 +82,47 @@ contains
     one%found = .true.
     one%unknowns = unknowns
     one%seconds = seconds
-    one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
+    if (self%is_of_many()) then
+      one%estimate = worst_error(self%coefficients, self%formal_order)
+    else
+      one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
+    end if
     self%answer = [self%answer, one]
   end subroutine sequence_add
+
+  !> Takes a mesh's stiffness and damping, before its value.
+  pure subroutine sequence_add_coefficients(self, values)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    real(wp), intent(in) :: values(:) !! [SI] as many on every mesh
+    real(wp), allocatable :: all(:)
+
+    allocate (all(0))
+    if (allocated(self%coefficients)) all = reshape(self%coefficients, [size(self%coefficients)])
+    self%coefficients = reshape([all, values], [size(values), size(all)/size(values) + 1])
+  end subroutine sequence_add_coefficients
+
+  !> A mesh without an answer: coarser ones' stiffness and damping no longer count.
+  pure subroutine sequence_drop_coefficients(self)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    if (allocated(self%coefficients)) deallocate (self%coefficients)
+  end subroutine sequence_drop_coefficients
+
+  !> Errors of the finest mesh's stiffness and damping; not allocated where none is known.
+  pure subroutine sequence_coefficient_errors(self, errors)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    real(wp), allocatable, intent(out) :: errors(:) !! [SI] in the order of the coefficients
+
+    if (.not. allocated(self%coefficients)) return
+    if (size(self%coefficients, 2) < 2) return
+    errors = entry_errors(self%coefficients, self%formal_order)
+  end subroutine sequence_coefficient_errors
+
+  !> Whether the error is that of all stiffness and damping, relative, and belongs to no value.
+  pure function sequence_is_of_many(self) result(is)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    logical :: is
+    is = self%name == all_coefficients
+  end function sequence_is_of_many
 
   !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
   subroutine sequence_add_failure(self, mesh, unknowns, seconds)
@@ -150,7 +194,7 @@ contains
       associate (answer => self%answer(i))
         if (answer%found) then
           write (line, row_format) answer%mesh, text(answer%unknowns), &
-            text(answer%estimate%value, 8), error_words(answer%estimate), &
+            shown_value(self, answer%estimate), error_words(answer%estimate), &
             order_words(answer%estimate), text(answer%seconds, 3)
         else
           write (line, row_format) answer%mesh, text(answer%unknowns), 'no answer', '', '', &
@@ -160,6 +204,16 @@ contains
       call log%line(trim(line))
     end do
   end subroutine sequence_show
+
+  !> A value; none of many.
+  pure function shown_value(self, estimate) result(words)
+    class(mesh_sequence_type), intent(in) :: self
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (.not. self%is_of_many()) words = text(estimate%value, 8)
+  end function shown_value
 
   !> An estimate; none on one mesh.
   pure function error_words(estimate) result(words)
@@ -186,10 +240,19 @@ contains
     type(convergence_type) :: last
 
     last = self%last()
-    words = self%name//' = '//text(last%value, 6)//' '//self%unit
-    if (.not. self%has_error()) return
-    words = self%name//' = '//text(last%value, 6)//' +- '//text(last%error, 2)//' '//self%unit
-    if (abs(last%value) > 0.0_wp) then
+    if (self%is_of_many()) then
+      words = 'stiffness and damping: no error yet'
+      if (.not. self%has_error()) return
+      words = 'stiffness and damping: errors up to '//text(100.0_wp*last%error, 2)// &
+              ' % of the largest entry of a block ('//text(last%error, 2)
+    else
+      words = self%name//' = '//text(last%value, 6)//' '//self%unit
+      if (.not. self%has_error()) return
+      words = self%name//' = '//text(last%value, 6)//' +- '//text(last%error, 2)//' '//self%unit
+    end if
+    if (self%is_of_many()) then
+      words = words//' relative'
+    else if (abs(last%value) > 0.0_wp) then
       words = words//' ('//text(100.0_wp*last%error/abs(last%value), 2)//' %'
     else
       words = words//' (a value of zero has no relative error'

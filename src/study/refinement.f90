@@ -2,12 +2,13 @@
 module gfb_refinement
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: asked_name
+  use gfb_accuracy_case, only: all_coefficients, asked_name
   use gfb_mesh_sequence, only: mesh_sequence_type, start_sequence
   use gfb_model_case, only: foil_shell, foil_beam
   use gfb_nested_meshes, only: nested_mesh, mesh_words, formal_order, keep_scheme
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
   use gfb_reasons, only: reason_inaccurate, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
@@ -161,6 +162,12 @@ contains
     call study%solve(scene, context, error)
     if (allocated(error)) return
     seconds = cpu_seconds() - begun
+    if (study%converged .and. allocated(study%coefficients)) then
+      call sequence%add_coefficients(study%coefficients)
+      if (sequence%is_of_many()) call add_result(study%found, all_coefficients, 1.0_wp)
+    else
+      call sequence%drop_coefficients()
+    end if
     number = number_of(sequence%name, study%found)
     if (study%converged .and. number > 0) then
       call sequence%add(mesh_words(scene), study%found(number), study%unknowns, seconds)
@@ -187,6 +194,7 @@ contains
     integer :: number
 
     words = ''
+    if (sequence%is_of_many()) return
     if (.not. is_bearing(scene%general%analysis) .or. scene%model%foil /= foil_shell .or. &
         .not. is_symmetric(scene%operation, scene%sweep)) return
     beams = scene
@@ -229,6 +237,7 @@ contains
 
     self%finest%converged = self%converged
     self%finest%more = self%sequence%quantities()
+    call self%sequence%coefficient_errors(self%finest%coefficient_errors)
     call self%finest%write(self%mesh, context, summary, error)
     if (allocated(error)) return
     call self%sequence%show(context%log)

@@ -19,6 +19,8 @@ module gfb_study
     logical :: converged = .false.               !! there is an answer, after `solve`
     type(reason_type) :: reason                  !! why there is none
     type(quantity_type), allocatable :: found(:) !! numbers of the answer, for a refinement
+    real(wp), allocatable :: coefficients(:)     !! stiffness and damping, for a refinement [SI]
+    real(wp), allocatable :: coefficient_errors(:) !! of these, to be written [SI]
     integer :: unknowns = 0
     integer :: iterations = 0                    !! of Newton, in all
     integer :: factorizations = 0                !! in all

@@ -135,11 +135,7 @@ contains
 
     if (.not. dynamics%present) return
     call check_frequencies(keys, operation)
-    if (refines) then
-      call keys%complain('accuracy', 'quantity', &
-                         "has no use with analysis = 'linear_dynamics': "// &
-                         'give the mesh')
-    end if
+    if (refines) call check_refinement(keys, dynamics, model)
     if (sweep%parameter == sweep_speed .and. keys%meant('dynamics', 'frequency_ratios') .and. &
         any(.not. sweep%values > 0.0_wp)) then
       call keys%complain('dynamics', 'frequency_ratios', 'needs a shaft that turns '// &
@@ -150,6 +146,23 @@ contains
       call check_amplitudes(keys, dynamics, model, may_rub, friction_law, sweep)
     end if
   end subroutine check_dynamics
+
+  !> What meshes of different fineness can be compared in.
+  subroutine check_refinement(keys, dynamics, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(dynamics_case_type), intent(in) :: dynamics
+    type(model_case_type), intent(in) :: model
+
+    if (keys%meant('dynamics', 'vibration_amplitudes')) then
+      call keys%complain('dynamics', 'vibration_amplitudes', 'has no error estimate: leave '// &
+                         '&accuracy out and give the mesh')
+    end if
+    if (model%foil == 0) return
+    if (meshes_foils(model%foil) .and. dynamics%foil_mass == mass_auto) then
+      call keys%complain('dynamics', 'foil_mass', "must be 'on' or 'off' with &accuracy: "// &
+                         "'auto' may choose differently on each mesh")
+    end if
+  end subroutine check_refinement
 
   !> Where amplitudes of the shaft count.
   subroutine check_amplitudes(keys, dynamics, model, may_rub, friction_law, sweep)

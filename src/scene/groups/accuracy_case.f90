@@ -12,6 +12,10 @@ module gfb_accuracy_case
   private
   public :: accuracy_case_type, read_accuracy_case, check_accuracy, asked_name
 
+  character(len=*), parameter, public :: all_coefficients = 'coefficients' !! not one number
+  character(len=*), parameter :: of_vibrations(*) = &
+    [character(len=13) :: 'critical_mass', 'whirl_ratio', all_coefficients]
+
   !> The number and its error.
   type :: accuracy_case_type
     logical :: present = .false.    !! the case asks for it
@@ -44,17 +48,20 @@ contains
   end subroutine read_accuracy_case
 
   !> The number must be one of the analysis, and of one answer.
-  subroutine check_accuracy(keys, accuracy, sweep, output, analysis)
+  subroutine check_accuracy(keys, accuracy, sweep, output, analysis, vibrates)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(accuracy_case_type), intent(in) :: accuracy !! what `&accuracy` asks for
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     type(output_case_type), intent(in) :: output !! what `&output` asks for
     integer, intent(in) :: analysis !! 0 where it is not known
+    logical, intent(in) :: vibrates !! the case asks for 'linear_dynamics'
 
     if (.not. accuracy%present .or. analysis == 0) return
     if (accuracy%quantity > 0) then
       if (.not. is_of(asked_name(accuracy), merge(bearing, strip, is_bearing(analysis)))) then
         call keys%complain('accuracy', 'quantity', 'is no number of this analysis')
+      else if (.not. vibrates .and. any(asked_name(accuracy) == of_vibrations)) then
+        call keys%complain('accuracy', 'quantity', "needs analysis = 'linear_dynamics'")
       end if
     end if
     if (sweep%present) then

@@ -15,6 +15,7 @@ module gfb_bearing_study
   use gfb_newton, only: destroy_newton
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_record, only: analysis_name
+  use gfb_dynamics_record, only: coefficients_of
   use gfb_bearing_summary, only: cost_type, answer_quantities
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
@@ -74,6 +75,12 @@ contains
                                      bearing%pad(1)%film%clearance, bearing%force_scale())
       if (self%converged .and. allocated(self%sweep%record%limit)) call add_quantity(self%found, self%sweep%record%limit)
     end associate
+    associate (record => self%sweep%record)
+      if (.not. self%converged .or. .not. allocated(record%dynamics%point)) return
+      if (size(record%dynamics%point) /= 1) return
+      self%coefficients = coefficients_of(record%dynamics%point(1))
+      if (allocated(record%judged)) call add_quantity(self%found, record%judged)
+    end associate
   end subroutine solve_study
 
   !> Writes the result files.
@@ -96,6 +103,7 @@ contains
     result%ranks = rank_count()
     result%origin = context%origin()
     associate (record => self%sweep%record)
+      if (allocated(self%coefficient_errors)) record%dynamics%point(1)%error = self%coefficient_errors
       result%contacts = record_arrays(scene, self%sweep%bearing, record, size(record%history))
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
       call write_bearing(scene, context, self%sweep, result, summary, error)
