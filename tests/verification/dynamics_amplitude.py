@@ -9,7 +9,7 @@ import numpy
 
 from dynamics import FOIL_BEARING, beams, vibrate
 from dynamics_foils import shells
-from gfb_run import Checks
+from gfb_run import Checks, case_groups, solve
 
 RATIO = 0.5
 SMALL, LARGE = 1.0e-13, 1.0e-2
@@ -76,11 +76,50 @@ def check_same(checks, folder):
     checks.that("shells: they lose energy", bool((lost[1] > 0.0).all()))
 
 
+STEPS, CYCLES = 32, 3  # of the shaft's motion to and fro, load steps a cycle
+SLOW = 1.0e-4          # of the speed: the film follows
+
+
+def check_loops(checks, folder):
+    """All contacts of a bearing: the shaft's work in a slow cycle against the loop of the static code's load steps.
+
+    Beams that slide at all contacts, motions that are small against the film. Loops shake down first: the last cycle.
+    """
+    case = beams(0.003) | {"tilt": (0.0, 0.0)}
+    case["groups"]["model"]["half_width"] = "yes"
+    case["groups"]["contact"] |= {"friction_law": "coulomb", "stick_length": 1.0e-8}
+    content = case_groups(FOIL_BEARING, **case)
+    content["scene"]["analysis"] = "linear_dynamics"
+    amplitudes = (1.0e-6, 2.0e-6)
+    content["dynamics"] = {"frequency_ratios": SLOW, "vibration_amplitudes": amplitudes}
+    answer = solve(folder, "balance", content)
+    omega = SLOW*case["speed_rpm"]*math.pi/30.0
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        direct = [file[f"dynamics/{name}_at_amplitude"][0, :, 0, 0] for name in ("stiffness", "damping")]
+        lost = file["dynamics/friction_loss_at_amplitude"][...].reshape(-1, 2)[:, 0]
+    angle = numpy.arange(CYCLES*STEPS + 1)*2.0*math.pi/STEPS
+    for i, amplitude in enumerate(amplitudes):
+        content = case_groups(FOIL_BEARING, **case)
+        content["sweep"] = {"parameter": "eccentricity_x", "friction_memory": True, "values": [
+            case["eccentricity"][0] + amplitude*s for s in (0.0, 0.5, *numpy.cos(angle))]}
+        history = solve(folder, "loop", content).history()
+        force = history["force_x"][-STEPS:]
+        # The first harmonic, whose area is the loop's.
+        first = 2.0/STEPS*numpy.sum(force*numpy.exp(-1j*angle[-STEPS:]))/amplitude
+        work, slope = -math.pi*amplitude**2*first.imag, -first.real
+        checks.below(f"beams, {amplitude} m: stiffness against the loop's", abs(direct[0][i]/slope - 1.0), 0.01)
+        checks.within(f"beams, {amplitude} m: work against the loop's",
+                      math.pi*amplitude**2*omega*direct[1][i]/work, 1.0/1.25, 1.25)
+        # Without the film's own share of the work.
+        checks.within(f"beams, {amplitude} m: contacts' loss against the loop's", lost[i]/work, 1.0/1.25, 1.25)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_limits(checks, folder)
         check_same(checks, folder)
+        check_loops(checks, folder)
     checks.close()
 
 
