@@ -82,8 +82,8 @@ contains
 
   !> Judges the components of a tensor on meshes from coarse to fine; they share one order.
   !>
-  !> Each has \( E = F_s \max(|f_3 - f_2|, |f_2 - f_1| / 2^q) / (2^q - 1) \), so that a difference that
-  !> happens to vanish does not count.
+  !> Each has \( E = F_s \max(|f_3 - f_2|, |f_2 - f_1| / 2^q) / (2^q - 1) \), so that a difference
+  !> that happens to vanish does not count.
   pure function estimate_errors(value, formal_order) result(found)
     real(wp), intent(in) :: value(:, :) !! [in one unit] (component, mesh), each mesh twice as fine
     real(wp), intent(in) :: formal_order !! of the elements [1]
