@@ -43,10 +43,12 @@ contains
   subroutine check_heights(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    real(wp) :: lowest
     integer :: number
 
     associate (foil => scene%bump_foil)
       if (foil%bumps < 1 .or. .not. foil%height > 0.0_wp) return
+      lowest = minval(bump_heights(foil))
       if (.not. foil%random%deviation > 0.0_wp) return
       if (foil%random%seed > huge(0) - scene%sample%count) then
         call keys%complain('sample', 'count', 'leads to a seed that is too large')
@@ -54,9 +56,9 @@ contains
       end if
       do number = 2, scene%sample%count
         associate (seed => foil%random%seed + number - 1)
-          if (maxval(drawn_gaps(foil%random, seed, foil%bumps)) < minval(bump_heights(foil))) cycle
+          if (maxval(drawn_gaps(foil%random, seed, foil%bumps)) < lowest) cycle
           call keys%complain('sample', 'count', 'seed '//text(seed)//' leaves a gap that is '// &
-                             'not less than the height of the bumps, '//text(minval(bump_heights(foil)))//' m')
+                             'not less than the height of the bumps, '//text(lowest)//' m')
           return
         end associate
       end do
