@@ -139,7 +139,7 @@ contains
     case ('linear_dynamics')
       groups = ' pads bore shaft_contact sweep rotor '
     case ('lift_off') ! which needs asperities
-      groups = ' pads bore sweep accuracy '
+      groups = ' pads bore sweep accuracy sample '
     case default
       groups = ' pads bore shaft_contact sweep accuracy sample '
     end select
@@ -203,8 +203,9 @@ contains
       words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
               "&accuracy quantity='misalignment_allowance' /"//next
     case default
-      words = words//"&accuracy quantity='minimum_gap' /"//next//'&sample count=100 /'//next
+      words = words//"&accuracy quantity='minimum_gap' /"//next
     end select
+    if (analysis /= 'linear_dynamics') words = words//'&sample count=100 /'//next
   end function bearing_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
