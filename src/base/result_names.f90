@@ -1,13 +1,15 @@
 !> What the table of result names says of a name, and lists made from it.
 module gfb_result_names
-  use gfb_result_table, only: result_type, result_rows, study_words, own_unit, name_length
+  use gfb_result_table, only: result_type, result_rows, study_words, own_unit, own_square, &
+                              name_length
   use gfb_text, only: join, plain_text
   implicit none (type, external)
   private
   public :: find_result, result_unit, result_meaning, is_of, is_nodal, asked_names, &
-            compared_names, results_text, result_words, row_names
+            compared_names, results_text, result_words, row_names, quotient_unit
 
-  character(len=*), parameter :: any_number = '<n>', any_quantity = '<quantity>'
+  character(len=*), parameter :: any_number = '<n>', any_key = '<key>', &
+                                 any_quantity = '<quantity>'
   !> What stands for one of several words; the last one changes first.
   character(len=*), parameter :: markers(*) = [character(len=10) :: '<b>', '<a>', '<state>', &
                                                any_quantity]
@@ -27,8 +29,9 @@ contains
       do i = 1, fillings(result_rows(row))
         found = filled(result_rows(row), i)
         if (.not. fits(trim(found%name), name)) cycle
-        if (found%unit == own_unit .and. index(result_rows(row)%name, any_quantity) > 0) then
-          found%unit = unit_of_asked(i)
+        if (index(result_rows(row)%name, any_quantity) > 0) then
+          if (found%unit == own_unit) found%unit = unit_of_asked(i)
+          if (found%unit == own_square) found%unit = bracketed(unit_of_asked(i))//'2'
         end if
         return
       end do
@@ -47,6 +50,30 @@ contains
     call find_result(trim(names(number)), found)
     unit = trim(found%unit)
   end function unit_of_asked
+
+  !> A unit as a factor: in brackets where it is a product.
+  pure function bracketed(unit) result(factor)
+    character(len=*), intent(in) :: unit
+    character(len=:), allocatable :: factor
+
+    factor = unit
+    if (scan(unit, ' /') > 0) factor = '('//unit//')'
+  end function bracketed
+
+  !> The unit of a derivative; '1' where the units are the same.
+  pure function quotient_unit(unit, by) result(quotient)
+    character(len=*), intent(in) :: unit !! of what is derived
+    character(len=*), intent(in) :: by   !! unit of what it is derived by
+    character(len=:), allocatable :: quotient
+
+    quotient = '1'
+    if (unit == by) return
+    if (by == '1') then
+      quotient = unit
+    else
+      quotient = bracketed(unit)//'/'//bracketed(by)
+    end if
+  end function quotient_unit
 
   !> Unit of a name in the table; stops where there is none.
   pure function result_unit(name) result(unit)
@@ -218,25 +245,36 @@ contains
       name(len(name) - behind + 1:) == pattern(len(pattern) - behind + 1:)
   end function may_fit
 
-  !> Whether a name is a row's, which may have a number in the place of a mark.
+  !> Whether a name is a row's, which may have a number or a key in the place of a mark.
   pure function fits(pattern, name) result(fit)
     character(len=*), intent(in) :: pattern !! a row's name
     character(len=*), intent(in) :: name
     logical :: fit
+
+    if (index(pattern, any_number) > 0) then
+      fit = fits_mark(pattern, any_number, '0123456789', name)
+    else if (index(pattern, any_key) > 0) then
+      fit = fits_mark(pattern, any_key, '0123456789_abcdefghijklmnopqrstuvwxyz', name)
+    else
+      fit = pattern == name
+    end if
+  end function fits
+
+  !> Whether a name is a row's with some characters in the place of a mark.
+  pure function fits_mark(pattern, mark, characters, name) result(fit)
+    character(len=*), intent(in) :: pattern !! a row's name
+    character(len=*), intent(in) :: mark, characters, name
+    logical :: fit
     integer :: at, behind
 
-    at = index(pattern, any_number)
-    if (at == 0) then
-      fit = pattern == name
-      return
-    end if
-    behind = len(pattern) - at - len(any_number) + 1
+    at = index(pattern, mark)
+    behind = len(pattern) - at - len(mark) + 1
     fit = len(name) - behind >= at
     if (.not. fit) return
     fit = name(:at - 1) == pattern(:at - 1) .and. &
       name(len(name) - behind + 1:) == pattern(len(pattern) - behind + 1:) .and. &
-      verify(name(at:len(name) - behind), '0123456789') == 0
-  end function fits
+      verify(name(at:len(name) - behind), characters) == 0
+  end function fits_mark
 
   !> A text with a word in every place of a mark.
   pure function replaced(words, marker, word) result(new)

@@ -2,7 +2,8 @@
 !>
 !> A new name is a row here and a call of `add_result` (module gfb_results) where its value is
 !> known. `<a>`, `<b>` and `<state>` in a name stand for one name each of what `marker_words` has,
-!> `<n>` for a number, `<quantity>` for a name that `&accuracy` may ask for. What stands in braces
+!> `<n>` for a number, `<key>` for a key of the case file, `<quantity>` for a name that `&accuracy`
+!> may ask for. What stands in braces
 !> in a meaning is replaced where the assignment says so, by one of the phrases below.
 !>
 !> The table lies in the lowest layer because the scene, which knows no bearing, needs the names
@@ -13,7 +14,7 @@ module gfb_result_table
   implicit none (type, external)
   private
 
-  integer, parameter, public :: name_length = 32
+  integer, parameter, public :: name_length = 64
 
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
@@ -38,7 +39,9 @@ module gfb_result_table
     logical :: nodal = .false.    !! the largest or smallest of values at nodes, or bound to it
   end type result_type
 
-  character(len=*), parameter, public :: own_unit = 'its own' !! that of `<quantity>`, or of a key
+  character(len=*), parameter, public :: own_unit = 'its own' !! of `<quantity>`, or of a key
+  character(len=*), parameter, public :: own_square = 'squared' !! the square of that
+  character(len=*), parameter, public :: own_quotient = 'ratio' !! that over the key's
 
   ! Phrases that take the place of the braces of a meaning.
   character(len=*), parameter, public :: &
@@ -248,6 +251,16 @@ module gfb_result_table
       'whether the limit asked for is reached; 0: the branch of answers ends before', &
       'of the last three analyses: 1 where film or asperities are at the limit asked for, 0 '// &
       'where the branch of answers ends before, and its end is what is told'), &
+    result_type('d_<quantity>_d_<key>', own_quotient, number, bearing, &
+      'derivative of {<quantity> by a key of the case file}', &
+      'of `&sensitivity`: derivative of a quantity by a key, `_` in the place of its `%`; unit '// &
+      'of the quantity over unit of the key ([sensitivity.md](sensitivity.md))'), &
+    result_type('standard_deviation_<quantity>', own_unit, number, bearing, &
+      'of <quantity>, that the tolerances of the keys cause', &
+      'of `&sensitivity` with `tolerances`: standard deviation and variance of a quantity that '// &
+      'they cause, to first order; the variance in the square of the unit'), &
+    result_type('variance_<quantity>', own_square, number, bearing, &
+      'of <quantity>, that the tolerances of the keys cause', joins=.true.), &
     result_type('<quantity>_error', own_unit, number, accuracy, &
       'estimated from nested meshes, absolute', &
       'estimated error of that quantity, absolute; order of convergence that the meshes show, '// &

@@ -141,7 +141,7 @@ contains
     case ('lift_off') ! which needs asperities
       groups = ' pads bore sweep accuracy sample '
     case default
-      groups = ' pads bore shaft_contact sweep accuracy sample '
+      groups = ' pads bore shaft_contact sweep sensitivity accuracy sample '
     end select
   end function offered
 
@@ -203,7 +203,10 @@ contains
       words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
               "&accuracy quantity='misalignment_allowance' /"//next
     case default
-      words = words//"&accuracy quantity='minimum_gap' /"//next
+      words = words//"&sensitivity quantity='minimum_gap' "// &
+              "parameters='bearing%clearance', 'gas%viscosity' "// &
+              'tolerances=1.0e-6, 2.0e-7 /'//next// &
+              "&accuracy quantity='minimum_gap' /"//next
     end select
     if (analysis /= 'linear_dynamics') words = words//'&sample count=100 /'//next
   end function bearing_example

@@ -16,6 +16,7 @@ module gfb_scene
   use gfb_rotor_case, only: rotor_case_type
   use gfb_sample_case, only: sample_case_type
   use gfb_scene_case, only: scene_case_type
+  use gfb_sensitivity_case, only: sensitivity_case_type
   use gfb_shaft_contact_case, only: shaft_contact_case_type
   use gfb_solver_case, only: solver_case_type
   use gfb_strip_load_case, only: strip_load_case_type
@@ -40,6 +41,7 @@ module gfb_scene
     type(dynamics_case_type) :: dynamics
     type(rotor_case_type) :: rotor
     type(capacity_case_type) :: capacity
+    type(sensitivity_case_type) :: sensitivity
     type(accuracy_case_type) :: accuracy
     type(sample_case_type) :: sample
     type(top_foil_case_type) :: top_foil

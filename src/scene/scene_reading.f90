@@ -8,12 +8,13 @@ module gfb_scene_reading
   use gfb_key_notes, only: noted_key_type
   use gfb_scene, only: scene_type
   use gfb_scene_checks, only: check_groups
-  use gfb_sweep_case, only: swept_key_type, swept_keys
+  use gfb_sensitivity_rules, only: check_sensitivity
+  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
   use gfb_swept_key_rules, only: check_swept_keys
   use gfb_scene_groups, only: read_groups
   implicit none (type, external)
   private
-  public :: read_scene, read_scene_text, scene_at_value, key_table, all_keys
+  public :: read_scene, read_scene_text, scene_at_value, scene_with_key, key_table, all_keys
 
   character(len=*), parameter :: ending = '.nml'
 
@@ -45,6 +46,7 @@ contains
     logical :: sweeps_keys
 
     call read_and_check(words, file, keys, scene, strict)
+    call check_sensitivity(keys, scene)
     call check_swept_keys(keys, scene, sweeps_keys)
     if (sweeps_keys) call check_swept_values(keys, scene, strict)
     scene%echo = keys%notes%echo
@@ -94,10 +96,37 @@ contains
     real(wp), intent(in) :: value !! [the sweep's unit]
     type(scene_type), intent(out) :: there !! the scene with the value in it
     type(error_type), allocatable, intent(out) :: error !! which rule is broken
+
+    call read_bearing(text_at_value(scene, value), scene, there, error)
+  end subroutine scene_at_value
+
+  !> The bearing of a scene with another value of a key, on its mesh.
+  !>
+  !> Fails where the value breaks a rule.
+  subroutine scene_with_key(scene, group, key, value, there, error, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    character(len=*), intent(in) :: group, key !! names in the case file
+    real(wp), intent(in) :: value !! [its unit] of the key
+    type(scene_type), intent(out) :: there !! the scene with the value in it
+    type(error_type), allocatable, intent(out) :: error !! which rule is broken
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    character(len=:), allocatable :: words
+
+    words = scene%verbatim
+    if (present(at) .and. scene%sweep%parameter == sweep_keys) words = text_at_value(scene, at)
+    call read_bearing(changed_text(words, group, key, value), scene, there, error)
+  end subroutine scene_with_key
+
+  !> The bearing of a scene as another text describes it.
+  subroutine read_bearing(words, scene, there, error)
+    character(len=*), intent(in) :: words !! of a case file
+    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(out) :: there
+    type(error_type), allocatable, intent(out) :: error
     type(case_keys_type) :: keys
     type(scene_type) :: changed
 
-    call read_and_check(text_at_value(scene, value), scene%file, keys, changed)
+    call read_and_check(words, scene%file, keys, changed)
     call keys%report(error)
     there = scene
     there%bearing = changed%bearing
@@ -112,7 +141,7 @@ contains
     there%contact = changed%contact
     there%shaft_contact = changed%shaft_contact
     there%model = changed%model
-  end subroutine scene_at_value
+  end subroutine read_bearing
 
   !> The text of a case file with a value of the keys that its sweep changes, as its only value.
   pure function text_at_value(scene, value) result(changed)

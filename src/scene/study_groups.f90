@@ -6,6 +6,7 @@ module gfb_study_groups
   use gfb_sample_case, only: read_sample_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: misplaced_group, analysis_modes
+  use gfb_sensitivity_case, only: read_sensitivity_case
   implicit none (type, external)
   private
   public :: read_study_groups
@@ -19,6 +20,7 @@ contains
 
     call read_output_case(keys, scene%output)
     associate (analysis => scene%general%analysis)
+      call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)
       call read_sample_case(keys, scene%sample, &
                             misplaced_group(analysis, analysis /= analysis_modes))

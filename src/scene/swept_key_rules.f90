@@ -7,7 +7,7 @@ module gfb_swept_key_rules
   use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
   implicit none (type, external)
   private
-  public :: check_swept_keys
+  public :: check_swept_keys, use_problem
 
   character(len=*), parameter :: word_needed = &
     'needs a parameter that is a word, such as ''load'': '
@@ -71,9 +71,9 @@ contains
 
   !> Why a key has no effect on the answers of this scene; empty where it has one.
   function use_problem(keys, scene, group, key) result(problem)
-    type(case_keys_type), intent(in) :: keys
-    type(scene_type), intent(in) :: scene
-    character(len=*), intent(in) :: group, key
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), intent(in) :: group, key !! names in the case file
     character(len=:), allocatable :: problem
     logical :: foils, springs, computed
 

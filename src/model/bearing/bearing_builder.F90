@@ -25,7 +25,7 @@ module gfb_bearing_builder
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, build_opposite, divide_bearing, film_mesh_of
+  public :: build_bearing, build_opposite, build_like, divide_bearing, film_mesh_of
 
 contains
 
@@ -60,6 +60,28 @@ contains
     film%opposite = .true.
     call build_on_mesh(scene, film, bearing%pad(1)%film%flow%upwind, bearing%floats, opposite, error)
   end subroutine build_opposite
+
+  !> The equations of a bearing that differs in numbers, on a mesh with as many elements, at the same point.
+  !>
+  !> Fails when the mesh cannot be cut into parts.
+  subroutine build_like(scene, bearing, other, error)
+    type(scene_type), intent(in) :: scene !! of the other bearing
+    type(bearing_system_type), intent(in) :: bearing !! of a scene like it
+    type(bearing_system_type), intent(inout) :: other !! its state is that at rest
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(bearing_plan_type) :: plan
+
+    associate (whole => bearing%pad(1)%whole)
+      plan%half = whole%half
+      plan%order = whole%order
+      plan%circumferential = whole%circumferential()/plan%order
+      plan%axial = whole%axial()/plan%order*merge(2, 1, plan%half)
+    end associate
+    call build_on_mesh(scene, film_mesh_of(scene, plan), bearing%pad(1)%film%flow%upwind, bearing%floats, other, error)
+    if (allocated(error)) return
+    other%point = bearing%point
+    other%shaft_fixed = bearing%shaft_fixed
+  end subroutine build_like
 
   !> The equations on a mesh of the film.
   !>

@@ -8,8 +8,8 @@ module gfb_film_measures
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
   private
-  public :: force_without_suction, film_drag, film_integral, square_integrals, film_peclet, &
-            film_midplane_gap
+  public :: force_without_suction, film_drag, film_drag_rates, film_integral, square_integrals, &
+            film_peclet, film_midplane_gap
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -40,7 +40,6 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp) :: drag
-    real(wp) :: excess(most_film_nodes)
     type(film_flow_type) :: flow
     integer :: element
 
@@ -48,19 +47,66 @@ contains
     flow = film%flow_at(point)
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element))
-        excess = film%excess(element, point)
-        if (film%law%plain) then
-          drag = drag + film%copies* &
-                 film_friction(film%geometry(element), flow, pressure(nodes), gap(nodes), &
-                               excess(:size(nodes)))
-        else
-          drag = drag + film%copies* &
-                 general_friction(film%geometry(element), flow, film%law, pressure(nodes), &
-                                  gap(nodes), excess(:size(nodes)))
-        end if
+        drag = drag + film%copies*element_drag(film, flow, element, pressure(nodes), gap(nodes), &
+                                               film%excess(element, point))
       end associate
     end do
   end function film_drag
+
+  !> An element's drag on the shaft [N].
+  pure function element_drag(film, flow, element, pressure, gap, excess) result(drag)
+    type(gas_film_type), intent(in) :: film
+    type(film_flow_type), intent(in) :: flow
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
+    real(wp), intent(in) :: excess(:)           !! of the gap at its points, the first ones [m]
+    real(wp) :: drag
+
+    if (film%law%plain) then
+      drag = film_friction(film%geometry(element), flow, pressure, gap, excess(:size(gap)))
+    else
+      drag = general_friction(film%geometry(element), flow, film%law, pressure, gap, &
+                              excess(:size(gap)))
+    end if
+  end function element_drag
+
+  !> This rank's shares of the derivatives of the drag by the nodes' pressures and gaps: differences
+  !> of each element's drag, which is linear in a pressure where the gas is plain.
+  pure subroutine film_drag_rates(film, pressure, gap, point, by_pressure, by_gap)
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point !! operating point
+    real(wp), intent(out) :: by_pressure(:) !! [N/Pa]
+    real(wp), intent(out) :: by_gap(:)      !! [N/m]
+    real(wp), parameter :: part = 1.0e-5_wp !! of pressure and gap, that they are changed by
+    real(wp), dimension(size(film%element_nodes, 1)) :: p, h, less
+    real(wp) :: excess(most_film_nodes)
+    type(film_flow_type) :: flow
+    integer :: element, i
+
+    by_pressure = 0.0_wp
+    by_gap = 0.0_wp
+    flow = film%flow_at(point)
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element))
+        excess = film%excess(element, point)
+        p = pressure(nodes)
+        h = gap(nodes)
+        do i = 1, size(nodes)
+          less = 0.0_wp
+          less(i) = part*p(i)
+          by_pressure(nodes(i)) = by_pressure(nodes(i)) + film%copies* &
+            (element_drag(film, flow, element, p + less, h, excess) &
+             - element_drag(film, flow, element, p - less, h, excess))/(2.0_wp*less(i))
+          less(i) = part*h(i)
+          by_gap(nodes(i)) = by_gap(nodes(i)) + film%copies* &
+            (element_drag(film, flow, element, p, h + less, excess) &
+             - element_drag(film, flow, element, p, h - less, excess))/(2.0_wp*less(i))
+        end do
+      end associate
+    end do
+  end subroutine film_drag_rates
 
   !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
   pure function film_integral(film, value) result(integral)

@@ -59,6 +59,7 @@ module gfb_contact_set
     procedure :: next_change
     procedure :: add_penetration_rate
     procedure :: settle
+    procedure :: settle_like
     procedure :: drop_anchor
     procedure :: add_forces
     procedure :: point_block
@@ -156,7 +157,7 @@ contains
     class(contact_set_type), intent(inout) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     type(contact_law_type) :: law
-    real(wp) :: now(spatial), slope(2)
+    real(wp) :: now(spatial)
     integer :: i
 
     self%settled = .true.
@@ -169,18 +170,46 @@ contains
         end if
         now = self%approach(i, displacement)
         point%place = next_place(law, point%anchor, now)
-        if (point%pressed) then
-          point%force = 0.0_wp
-          point%derivative = 0.0_wp
-          call friction_force(law, point%place(:2), point%pressing, point%force(:2), &
-                              point%derivative(:2, :2), slope)
-        else
-          call contact_force(law, point%length, point%place, point%force, point%derivative)
-        end if
+        call linearise(law, point)
         if (any(abs(point%place - now) > 0.0_wp) .and. any(abs(point%derivative) > 0.0_wp)) self%settled = .false.
       end associate
     end do
   end subroutine settle
+
+  !> Linearises every contact where that of a set like this one is, which also tells what it remembers. So the
+  !> contacts stay open, stick or slide as those do, whatever gaps and laws are here.
+  pure subroutine settle_like(self, other)
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
+    type(contact_set_type), intent(in) :: other    !! of another foil on the same mesh
+    integer :: i
+
+    do i = 1, size(self%point)
+      associate (point => self%point(i), like => other%point(i))
+        point%shift = like%shift
+        point%old_slip = like%old_slip
+        point%old_force = like%old_force
+        point%place = like%place
+        point%anchor = like%anchor
+        call linearise(self%law_of(point), point)
+      end associate
+    end do
+    self%settled = .true.
+  end subroutine settle_like
+
+  !> Force of a contact and its derivative where it is linearised.
+  pure subroutine linearise(law, point)
+    type(contact_law_type), intent(in) :: law
+    type(contact_point_type), intent(inout) :: point
+    real(wp) :: slope(2)
+
+    if (point%pressed) then
+      point%force = 0.0_wp
+      point%derivative = 0.0_wp
+      call friction_force(law, point%place(:2), point%pressing, point%force(:2), point%derivative(:2, :2), slope)
+    else
+      call contact_force(law, point%length, point%place, point%force, point%derivative)
+    end if
+  end subroutine linearise
 
   !> A new Newton step begins where the contacts are.
   pure subroutine drop_anchor(self)

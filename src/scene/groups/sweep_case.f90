@@ -8,7 +8,7 @@ module gfb_sweep_case
   use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
   private
-  public :: sweep_case_type, read_sweep_case, operation_at, swept_keys
+  public :: sweep_case_type, read_sweep_case, operation_at, swept_keys, named_keys
 
   integer, parameter, public :: sweep_load = 1
   integer, parameter, public :: sweep_speed = 2
@@ -81,12 +81,19 @@ contains
   pure function swept_keys(sweep) result(list)
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for, with `sweep_keys`
     type(swept_key_type), allocatable :: list(:)
+    list = named_keys(sweep%keys)
+  end function swept_keys
+
+  !> The keys that a list names; names are empty where it has them wrong.
+  pure function named_keys(names) result(list)
+    character(len=*), intent(in) :: names !! `group%key, ...`
+    type(swept_key_type), allocatable :: list(:)
     type(swept_key_type) :: one
     character(len=:), allocatable :: left
     integer :: comma, sign
 
     allocate (list(0))
-    left = sweep%keys//','
+    left = names//','
     do while (left /= '')
       comma = index(left, ',')
       sign = index(left(:comma - 1), '%')
@@ -95,7 +102,7 @@ contains
       list = [list, one]
       left = left(comma + 1:)
     end do
-  end function swept_keys
+  end function named_keys
 
   !> The operating point with one of the sweep's values in it.
   pure function operation_at(operation, sweep, point) result(there)

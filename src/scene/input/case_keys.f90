@@ -31,6 +31,7 @@ module gfb_case_keys
     procedure :: choice_key
     procedure :: choice_or_keys_key
     procedure :: words_key
+    procedure :: names_key
     procedure :: useless_key
   end type case_keys_type
 
@@ -255,6 +256,31 @@ contains
     end do
     call self%end_key(chosen_words(words, chosen), any(chosen))
   end subroutine words_key
+
+  !> Names of real keys of the case file, which may stand in one string or in several.
+  subroutine names_key(self, name, names, strings, meaning)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the key
+    character(len=:), allocatable, intent(out) :: names !! in lower case, with commas between them
+    integer, intent(out) :: strings !! in which they stand
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    character(len=:), allocatable :: problem
+    integer, allocatable :: elements(:)
+    integer :: i
+
+    call self%describe(name, 'list of real keys `''group%key''`', '', meaning)
+    call self%begin_key('', most_words, elements, .true.)
+    names = ''
+    strings = size(elements)
+    do i = 1, strings
+      problem = ''
+      if (self%file%values(elements(i))%kind /= value_string) problem = 'must be in quotes'
+      call self%complain_value(elements(i), i, problem)
+      if (i > 1) names = names//', '
+      names = names//lower_case(trim(self%file%value_text(elements(i))))
+    end do
+    call self%end_key(quoted(names), names /= '')
+  end subroutine names_key
 
   !> A key that the rest of the scene has no use for: its echo must not show a value.
   subroutine useless_key(self, name, meaning, why)

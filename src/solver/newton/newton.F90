@@ -29,7 +29,7 @@ module gfb_newton
   use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
   implicit none (type)
   private
-  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, forget_factors, &
+  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, solve_transposed, forget_factors, &
             destroy_newton, newton_report_type
 
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
@@ -185,6 +185,18 @@ contains
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSolve(linear, right, solution, ierr))
   end subroutine solve_with_factors
+
+  !> The same of the transposed system.
+  subroutine solve_transposed(newton, right, solution)
+    type(newton_type), intent(in) :: newton !! the solver
+    Vec, intent(in) :: right    !! scaled
+    Vec, intent(in) :: solution !! scaled; is overwritten
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+    PetscCallA(KSPSolveTranspose(linear, right, solution, ierr))
+  end subroutine solve_transposed
 
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
   !> on the system's state alone, and so does a run that is resumed from that state.

@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> An answer of a scene goes into the record, with all that is asked of it.
 module gfb_answer_record
+  use petscmat
   use gfb_kinds, only: wp
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_text, only: text
@@ -15,9 +16,17 @@ module gfb_answer_record
   use gfb_dynamics_record, only: dynamics_record_type
   use gfb_dynamics, only: find_dynamics, opposite_builder
   use gfb_rotor_report, only: report_rotor
-  implicit none (type, external)
+  use gfb_sensitivity, only: keep_tangent, changed_evaluation
+  use gfb_sensitivity_report, only: add_sensitivities
+  implicit none (type)
   private
-  public :: record_single, record_swept, fix_shaft, opposite_builder
+  public :: record_single, record_swept, fix_shaft, builders_type
+
+  !> What makes further bearings of an answer's scene.
+  type :: builders_type
+    procedure(opposite_builder), pointer, nopass :: opposite => null() !! that of tilts, for vibrations
+    procedure(changed_evaluation), pointer, nopass :: changed => null() !! its equations with another value of a key
+  end type builders_type
 
 contains
 
@@ -27,18 +36,21 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at the state
     type(newton_type), intent(inout) :: newton !! its solver
-    procedure(opposite_builder) :: build !! of the bearing of tilts
+    type(builders_type), intent(in) :: build !! of bearings like it
     logical, intent(in) :: converged !! the state is an answer
     type(bearing_record_type), intent(inout) :: record !! gets the row
     type(quantity_type), allocatable :: vibrations(:)
 
-    if (converged) call judge_answer(scene, log, bearing, newton, record%judged)
+    if (converged) call judge_and_derive(scene, log, bearing, newton, build, record%judged)
     if (record%at_fold) call forget_sign(record%judged)
     if (converged .and. allocated(record%limit)) call add_quantity(record%judged, record%limit)
+    if (scene%sensitivity%present .and. .not. converged) then
+      call log%line('no sensitivities: they are those of an answer, and there is none')
+    end if
     call add_row(scene, bearing, newton, converged, record)
     if (.not. scene%dynamics%present) return
     if (converged) then
-      call vibrate(scene, log, bearing, newton, build, record%dynamics, vibrations)
+      call vibrate(scene, log, bearing, newton, build%opposite, record%dynamics, vibrations)
       call add_quantity(record%judged, vibrations)
     else
       call log%line('no stiffness and damping: they are those of an answer, and there is none')
@@ -52,7 +64,7 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at the answer
     type(newton_type), intent(inout) :: newton !! its solver
-    procedure(opposite_builder) :: build !! of the bearing of tilts
+    type(builders_type), intent(in) :: build !! of bearings like it
     type(bearing_record_type), intent(inout) :: record !! gets the row
     real(wp), intent(in) :: value !! of the sweep, in its unit
     logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
@@ -60,9 +72,9 @@ contains
     logical :: turns
 
     call measure_tilt(scene, value, bearing, newton, record%tilted)
-    if (scene%dynamics%present) call vibrate(here, log, bearing, newton, build, record%dynamics, vibrations)
+    if (scene%dynamics%present) call vibrate(here, log, bearing, newton, build%opposite, record%dynamics, vibrations)
     ! The last of the factors, for the next answer.
-    call judge_answer(scene, log, bearing, newton, record%judged)
+    call judge_and_derive(here, log, bearing, newton, build, record%judged, value)
     turns = record%at_fold
     if (present(fold)) turns = turns .or. fold
     if (turns) call forget_sign(record%judged)
@@ -70,6 +82,23 @@ contains
     if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
     call add_row(scene, bearing, newton, .true., record, value, fold)
   end subroutine record_swept
+
+  !> Judges an answer and, where that is asked for, derives its numbers by keys, with the factors of the judgement.
+  subroutine judge_and_derive(scene, log, bearing, newton, build, judged, value)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(builders_type), intent(in) :: build
+    type(quantity_type), allocatable, intent(out) :: judged(:) !! what is known of the answer
+    real(wp), intent(in), optional :: value !! of the sweep, in its unit
+    Mat :: tangent
+
+    if (scene%sensitivity%present) call keep_tangent(bearing, tangent)
+    call judge_answer(scene, log, bearing, newton, judged)
+    if (.not. scene%sensitivity%present) return
+    call add_sensitivities(scene, log, bearing, newton, tangent, build%changed, judged, value)
+  end subroutine judge_and_derive
 
   !> At a fold the determinant of the equations has no sign: it changes there.
   pure subroutine forget_sign(judged)

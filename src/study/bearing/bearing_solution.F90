@@ -12,6 +12,7 @@ module gfb_bearing_solution
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, build_opposite
+  use gfb_changed_bearing, only: evaluate_changed
   use gfb_newton, only: newton_settings_type, create_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, start_partitioned
@@ -63,7 +64,8 @@ contains
 
     sweep%scene = scene
     sweep%context = context
-    sweep%build => build_opposite
+    sweep%build%opposite => build_opposite
+    sweep%build%changed => evaluate_changed
     associate (solver => scene%solver)
       sweep%path = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
       sweep%tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &

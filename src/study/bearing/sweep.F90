@@ -20,7 +20,7 @@ module gfb_sweep
   use gfb_missing_answer, only: explain_missing
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
-  use gfb_answer_record, only: record_single, record_swept, fix_shaft, opposite_builder
+  use gfb_answer_record, only: record_single, record_swept, fix_shaft, builders_type
   use gfb_onset, only: look_for_onset
   use gfb_last_answer, only: last_answer_type
   use gfb_limit_search, only: find_limit, leave_limit
@@ -42,7 +42,7 @@ module gfb_sweep
     logical :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type) :: sides  !! of the bearing, then
     type(last_answer_type) :: last
-    procedure(opposite_builder), pointer, nopass :: build => null() !! of the bearing of tilts, for vibrations
+    type(builders_type) :: build     !! of further bearings of the scene
   contains
     procedure :: begin => begin_sweep
     procedure :: reach => reach_value
@@ -129,7 +129,7 @@ contains
       else
         call record_swept(scene, self%here, self%context%log, bearing, newton, self%build, record, scene%sweep%values(point))
       end if
-      call look_for_onset(scene, self%context%log, self%path, record%history, bearing, newton, self%build, &
+      call look_for_onset(scene, self%context%log, self%path, record%history, bearing, newton, self%build%opposite, &
                           record%dynamics%onset)
       if (scene%sweep%parameter == sweep_keys) then
         call note_start(record%history, self%anew)

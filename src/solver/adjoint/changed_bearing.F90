@@ -1,0 +1,126 @@
+#include "gfb_petsc.h"
+!> A bearing's equations at an answer's state with another value of a key of the case file.
+module gfb_changed_bearing
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_session, only: any_rank
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: scene_with_key
+  use gfb_sensitivity_case, only: parameter_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: build_like
+  use gfb_answer_gradient, only: extreme_nodes_type, measure
+  implicit none (type)
+  private
+  public :: evaluate_changed
+
+contains
+
+  !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
+  subroutine evaluate_changed(scene, parameter, value, bearing, unknown, nodes, residual, number, problem, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(parameter_type), intent(in) :: parameter !! the key
+    real(wp), intent(in) :: value !! of it [its unit]
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
+    type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
+    character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    type(scene_type) :: there
+    type(error_type), allocatable :: error
+    logical :: valid
+
+    number = 0.0_wp
+    problem = ''
+    valid = .true.
+    if (parameter%group == 'operation') then
+      call evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
+    else
+      call scene_with_key(scene, parameter%group, parameter%name, value, there, error, at)
+      if (.not. allocated(error)) then
+        call evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
+      end if
+      if (allocated(error)) problem = error%message
+    end if
+    if (any_rank(.not. valid)) problem = 'the film is closed at a value close by'
+  end subroutine evaluate_changed
+
+  !> The same bearing at another load, the direction kept, or at another speed.
+  subroutine evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
+    type(parameter_type), intent(in) :: parameter
+    real(wp), intent(in) :: value !! [its unit]
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp), intent(in) :: unknown(:) !! in SI
+    type(extreme_nodes_type), intent(in) :: nodes
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    logical, intent(out) :: valid !! gap and pressure are positive
+    type(operating_point_type) :: point
+
+    point = bearing%point
+    if (parameter%name == 'load') then
+      point%load = point%load*(value/norm2(point%load))
+    else
+      point%speed = angular_speed(value)
+    end if
+    call bearing%evaluate_at(point, bearing%state, residual, valid)
+    number = measure(bearing, unknown, point, nodes)
+  end subroutine evaluate_operation
+
+  !> Another bearing on a mesh like this one's.
+  subroutine evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
+    type(scene_type), intent(in) :: there
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! in SI
+    type(extreme_nodes_type), intent(in) :: nodes
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    logical, intent(out) :: valid !! gap and pressure are positive
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(error_type), allocatable, intent(out) :: error
+    type(bearing_system_type) :: other
+
+    number = 0.0_wp
+    valid = .true.
+    problem = ''
+    call build_like(there, bearing, other, error)
+    if (allocated(error)) return
+    if (is_alike(bearing, other)) then
+      call take_contacts(bearing, other)
+      call other%set_unknowns(unknown)
+      call other%evaluate(other%state, residual, valid)
+      number = measure(other, unknown, other%point, nodes)
+    else
+      problem = 'the mesh changes with it'
+    end if
+    call other%destroy()
+  end subroutine evaluate_rebuilt
+
+  !> Whether two bearings have the same unknowns and contacts.
+  function is_alike(bearing, other) result(alike)
+    type(bearing_system_type), intent(in) :: bearing, other
+    logical :: alike
+
+    alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
+      size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)
+    if (alike) alike = all(bearing%pad(1)%mesh%mesh_node == other%pad(1)%mesh%mesh_node)
+    alike = .not. any_rank(.not. alike)
+  end function is_alike
+
+  !> Contacts of a bearing are linearised where those of another are.
+  subroutine take_contacts(bearing, other)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(inout) :: other
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      if (.not. bearing%pad(i)%foil%has_contacts()) cycle
+      call other%pad(i)%foil%contacts%settle_like(bearing%pad(i)%foil%contacts)
+    end do
+  end subroutine take_contacts
+end module gfb_changed_bearing

@@ -1,0 +1,275 @@
+#include "gfb_petsc.h"
+!> How numbers of an answer follow keys of the case file, by the adjoint.
+!>
+!> At an answer \( J(u, a) = 0 \) a number \( g(u, a) \) follows a key a by
+!>
+!> $$ \frac{dg}{da} = \frac{\partial g}{\partial a} - \lambda^T \frac{\partial J}{\partial a}, \qquad
+!>    J_u^T \lambda = g_u: $$
+!>
+!> one transposed solve a number, with the factors that the answer has. The derivatives by a at a fixed state are
+!> differences of residual and number, of bearings built with a little more and a little less of the key.
+!> Contacts stay open, stick or slide as they do at the answer.
+module gfb_sensitivity
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_scene, only: scene_type
+  use gfb_sensitivity_case, only: parameter_type, quantity_words
+  use gfb_operation_case, only: angular_speed
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_pad_contacts, only: set_lending
+  use gfb_newton, only: newton_type, solve_transposed
+  use gfb_answer_gradient, only: extreme_nodes_type, find_extremes, measure, measure_gradient, numbers, &
+                                 place_e, place_force, place_torque, place_speed, place_extremes
+  implicit none (type)
+  private
+  public :: keep_tangent, find_sensitivities, changed_evaluation
+
+  real(wp), parameter :: part = 2.0e-4_wp       !! of a key, that it is changed by [1]
+  !> Weights of the values at one and two such steps in a derivative; even in the step its error is of fourth order.
+  real(wp), parameter :: weights(-2:2) = [1.0_wp, -8.0_wp, 0.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
+  real(wp), parameter :: enough = 1.0e-12_wp    !! residual of an adjoint, over its right side [1]
+  real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
+  integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
+
+  !> What is found of an answer.
+  type, public :: sensitivity_type
+    real(wp), allocatable :: value(:)         !! of each of `quantity_words` [its unit]
+    real(wp), allocatable :: derivative(:, :) !! (quantities, parameters) not a number where there is none
+    character(len=:), allocatable :: problem  !! why there are none by some parameter
+  end type sensitivity_type
+
+  abstract interface
+    !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
+    subroutine changed_evaluation(scene, parameter, value, bearing, unknown, nodes, residual, number, problem, at)
+      import :: scene_type, parameter_type, bearing_system_type, extreme_nodes_type, tVec, wp
+      implicit none (type, external)
+      type(scene_type), intent(in) :: scene !! what is asked for
+      type(parameter_type), intent(in) :: parameter !! the key
+      real(wp), intent(in) :: value !! of it [its unit]
+      type(bearing_system_type), intent(inout) :: bearing !! at its answer
+      real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
+      type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
+      type(tVec), intent(in) :: residual !! scaled
+      real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
+      character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
+      real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    end subroutine changed_evaluation
+  end interface
+
+contains
+
+  !> The matrix of the bearing's equations at its answer, without what is lent to open contacts.
+  subroutine keep_tangent(bearing, tangent)
+    type(bearing_system_type), intent(inout) :: bearing !! at an answer
+    Mat, intent(out) :: tangent !! its copy
+    PetscErrorCode :: ierr
+    logical :: moved
+
+    call bearing%settle(bearing%state, moved)
+    call set_lending(bearing, .false.)
+    call bearing%linearise(bearing%state)
+    call set_lending(bearing, .true.)
+    PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, tangent, ierr))
+  end subroutine keep_tangent
+
+  !> Derivatives of all quantities that the scene asks for by all its parameters.
+  subroutine find_sensitivities(scene, bearing, newton, tangent, evaluate, found, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(newton_type), intent(in) :: newton !! with the factors of `find_determinant_sign`
+    Mat, intent(in) :: tangent !! of `keep_tangent`
+    procedure(changed_evaluation) :: evaluate !! of the residual with other values of the keys
+    type(sensitivity_type), intent(out) :: found !! values and derivatives
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+
+    Vec :: adjoint(size(quantity_words)), change
+    type(extreme_nodes_type) :: nodes
+    real(wp) :: unknown(bearing%local_size()), number(numbers), slope(numbers), combined(size(quantity_words), numbers), along
+    character(len=:), allocatable :: problem
+    logical :: solved(size(quantity_words))
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    call bearing%get_unknowns(unknown)
+    call find_extremes(bearing, nodes)
+    number = measure(bearing, unknown, bearing%point, nodes)
+    call combine(number, found%value, combined)
+    call find_adjoints(scene, bearing, newton, tangent, nodes, combined, adjoint, solved)
+    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    associate (parameter => scene%sensitivity%parameter)
+      allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      found%problem = ''
+      do i = 1, size(parameter)
+        call find_change(scene, parameter(i), bearing, unknown, nodes, evaluate, change, slope, problem, at)
+        if (problem /= '') then
+          found%problem = parameter(i)%group//'%'//parameter(i)%name//': '//problem
+          cycle
+        end if
+        do k = 1, size(quantity_words)
+          if (.not. solved(k)) cycle
+          PetscCallA(VecDot(adjoint(k), change, along, ierr))
+          found%derivative(k, i) = dot_product(combined(k, :), slope) - along
+        end do
+      end do
+    end associate
+    if (any(scene%sensitivity%quantity .and. .not. solved)) found%problem = 'the transposed equations were not solved'
+    do k = 1, size(quantity_words)
+      if (scene%sensitivity%quantity(k)) then
+        PetscCallA(VecDestroy(adjoint(k), ierr))
+      end if
+    end do
+    PetscCallA(VecDestroy(change, ierr))
+  end subroutine find_sensitivities
+
+  !> The quantities in the order of `quantity_words` from the numbers that are measured, and their derivatives.
+  pure subroutine combine(number, value, rate)
+    real(wp), intent(in) :: number(:)              !! measured
+    real(wp), allocatable, intent(out) :: value(:) !! of the quantities
+    real(wp), intent(out) :: rate(:, :)            !! (quantities, numbers)
+    real(wp) :: square
+    integer, parameter :: attitude = 3, power = 9, extremes = 10 !! among the quantities
+    integer :: k
+
+    allocate (value(size(rate, 1)))
+    rate = 0.0_wp
+    value(:2) = number(place_e:place_e + 1)
+    value(attitude + 1:power - 1) = number(place_force:place_torque)
+    value(extremes:) = number(place_extremes:)
+    do k = 1, 2
+      rate(k, place_e + k - 1) = 1.0_wp
+    end do
+    do k = place_force, place_torque
+      rate(attitude + 1 + k - place_force, k) = 1.0_wp
+    end do
+    do k = place_extremes, size(number)
+      rate(extremes + k - place_extremes, k) = 1.0_wp
+    end do
+    value(power) = number(place_torque)*number(place_speed)
+    rate(power, place_torque) = number(place_speed)
+    rate(power, place_speed) = number(place_torque)
+    ! from the load's direction to that of the thinnest film
+    associate (e => number(place_e:place_e + 1), f => number(place_force:place_force + 1))
+      value(attitude) = degrees*atan2(f(2)*e(1) - f(1)*e(2), -f(1)*e(1) - f(2)*e(2))
+      square = dot_product(e, e)
+      if (square > 0.0_wp) rate(attitude, place_e:place_e + 1) = degrees*[-e(2), e(1)]/square
+      square = dot_product(f, f)
+      if (square > 0.0_wp) rate(attitude, place_force:place_force + 1) = -degrees*[-f(2), f(1)]/square
+    end associate
+  end subroutine combine
+
+  !> An adjoint for every quantity that is asked for; vectors of the others are not created.
+  subroutine find_adjoints(scene, bearing, newton, tangent, nodes, combined, adjoint, solved)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(newton_type), intent(in) :: newton
+    Mat, intent(in) :: tangent
+    type(extreme_nodes_type), intent(in) :: nodes
+    real(wp), intent(in) :: combined(:, :) !! (quantities, numbers)
+    Vec, intent(inout) :: adjoint(:)
+    logical, intent(out) :: solved(:)
+    real(wp) :: gradient(bearing%local_size(), numbers)
+    Vec :: right
+    PetscErrorCode :: ierr
+    integer :: k
+
+    solved = .false.
+    call measure_gradient(bearing, nodes, gradient)
+    PetscCallA(VecDuplicate(bearing%state, right, ierr))
+    do k = 1, size(adjoint)
+      if (.not. scene%sensitivity%quantity(k)) cycle
+      PetscCallA(VecDuplicate(bearing%state, adjoint(k), ierr))
+      PetscCallA(VecSet(right, 0.0_wp, ierr))
+      call bearing%exchange%add(matmul(gradient, combined(k, :))*bearing%unknown_scale, right)
+      call solve_adjoint(newton, tangent, right, adjoint(k), solved(k))
+    end do
+    PetscCallA(VecDestroy(right, ierr))
+  end subroutine find_adjoints
+
+  !> Solves a transposed system with factors of a matrix that is close, and corrects the solution.
+  subroutine solve_adjoint(newton, tangent, right, adjoint, solved)
+    type(newton_type), intent(in) :: newton
+    Mat, intent(in) :: tangent
+    Vec, intent(in) :: right   !! scaled
+    Vec, intent(in) :: adjoint !! scaled
+    logical, intent(out) :: solved
+    real(wp), parameter :: useful = 0.1_wp   ! share of the residual that a correction leaves
+    real(wp), parameter :: accepted = 1.0e-8_wp ! residual over the right side
+    Vec :: left, correction
+    PetscReal :: whole, norm, before
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(VecDuplicate(right, left, ierr))
+    PetscCallA(VecDuplicate(right, correction, ierr))
+    PetscCallA(VecSet(adjoint, 0.0_wp, ierr))
+    PetscCallA(VecCopy(right, left, ierr))
+    PetscCallA(VecNorm(right, NORM_2, whole, ierr))
+    norm = whole
+    do i = 1, most_corrections
+      before = norm
+      if (before <= enough*whole) exit
+      call solve_transposed(newton, left, correction)
+      PetscCallA(VecAXPY(adjoint, 1.0_wp, correction, ierr))
+      PetscCallA(MatMultTranspose(tangent, adjoint, left, ierr))
+      PetscCallA(VecAYPX(left, -1.0_wp, right, ierr))
+      PetscCallA(VecNorm(left, NORM_2, norm, ierr))
+      if (.not. norm <= useful*before) exit
+    end do
+    solved = norm <= accepted*whole
+    PetscCallA(VecDestroy(correction, ierr))
+    PetscCallA(VecDestroy(left, ierr))
+  end subroutine solve_adjoint
+
+  !> How residual and numbers change with a key while the state stays.
+  subroutine find_change(scene, parameter, bearing, unknown, nodes, evaluate, change, slope, problem, at)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
+    type(extreme_nodes_type), intent(in) :: nodes
+    procedure(changed_evaluation) :: evaluate
+    Vec, intent(in) :: change            !! of the residual, scaled, by the key's unit
+    real(wp), intent(out) :: slope(:)    !! of the numbers, by the key's unit
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    Vec :: residual
+    real(wp) :: number(numbers), value, step
+    PetscErrorCode :: ierr
+    integer :: steps
+
+    PetscCallA(VecDuplicate(change, residual, ierr))
+    PetscCallA(VecSet(change, 0.0_wp, ierr))
+    slope = 0.0_wp
+    value = present_value(scene, parameter, bearing%point, at)
+    step = part*abs(value)
+    problem = ''
+    if (.not. step > 0.0_wp) problem = 'it is 0 here'
+    do steps = -2, 2
+      if (problem /= '') exit
+      if (steps == 0) cycle
+      call evaluate(scene, parameter, value + steps*step, bearing, unknown, nodes, residual, number, problem, at)
+      PetscCallA(VecAXPY(change, weights(steps)/step, residual, ierr))
+      slope = slope + weights(steps)/step*number
+    end do
+    PetscCallA(VecDestroy(residual, ierr))
+  end subroutine find_change
+
+  !> Value of a parameter at the answer: the sweep's where it changes that very key.
+  pure function present_value(scene, parameter, point, at) result(value)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    real(wp) :: value !! [its unit]
+
+    value = parameter%value
+    if (parameter%group == 'operation') then
+      value = point%speed/angular_speed(1.0_wp)
+      if (parameter%name == 'load') value = norm2(point%load)
+    else if (present(at) .and. allocated(scene%sweep%keys)) then
+      if (index(', '//scene%sweep%keys//',', ' '//parameter%group//'%'//parameter%name//',') > 0) value = at
+    end if
+  end function present_value
+end module gfb_sensitivity

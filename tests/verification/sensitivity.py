@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Sensitivities by the adjoint: against differences of whole answers, the sums that dimensions demand, sweeps, ranks."""
+
+import math
+import tempfile
+
+from gfb_run import Checks, solve
+
+LIMIT = 1.0e-6      # relative, of a derivative against differences
+SUM_LIMIT = 1.0e-7  # of a sum over keys, over the sum of its terms' sizes
+NAMES = ("eccentricity_x", "eccentricity_y", "attitude_angle", "friction_torque", "power_loss", "minimum_gap",
+         "maximum_pressure", "minimum_pressure")
+FIXED_NAMES = ("attitude_angle", "force_x", "force_y", "torque_x", "torque_y", "friction_torque", "power_loss", "minimum_gap",
+               "maximum_pressure", "minimum_pressure")
+SPRINGS = {
+    "scene": {"analysis": "equilibrium"},
+    "bearing": {"radius": 0.01905, "length": 0.0381, "clearance": 3.18e-5},
+    "gas": {"viscosity": 1.95e-5, "ambient_pressure": 1.0135e5},
+    "operation": {"speed_rpm": 30000.0, "load": (-60.0, 10.0)},
+    "model": {"foil": "elastic_foundation", "foundation_stiffness": 4.7e9},
+    "mesh": {"circumferential_elements": 48, "axial_elements": 8},
+    "solver": {"residual_tolerance": 1.0e-12, "step_tolerance": 1.0e-13},
+    "output": {"fields": "none"},
+}
+FILM_KEYS = ("gas%viscosity", "gas%ambient_pressure", "bearing%clearance", "bearing%radius", "bearing%length",
+             "operation%speed_rpm")
+SHEET = {"thickness": 1.02e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "fixed_edge": "trailing"}
+SMALL = {"radius": 0.0095, "length": 0.019, "clearance": 2.0e-5}  # 13 bumps
+
+
+def with_keys(content, **changes):
+    """A case with other values of some keys."""
+    return {group: {**content.get(group, {}), **changes.get(group, {})} for group in {**content, **changes}}
+
+
+def foils(model, friction):
+    """A small bearing of shells or beams."""
+    return with_keys(
+        SPRINGS, bearing=SMALL, operation={"speed_rpm": 40000.0, "load": (-14.0, 2.0)}, top_foil=SHEET,
+        bump_foil={**SHEET, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 13},
+        contact={"friction_top": friction, "friction_sleeve": friction},
+        mesh={"circumferential_elements": 52, "axial_elements": 4, "arc_elements": 4, "flat_elements": 2}
+    ) | {"model": {"foil": model}}
+
+
+def value_of(content, key):
+    """Value of a key; of the load its magnitude."""
+    group, name = key.split("%")
+    value = content[group][name]
+    return math.hypot(*value) if key == "operation%load" else value
+
+
+def changed(content, key, value):
+    """The case with another value of a key."""
+    group, name = key.split("%")
+    if key == "operation%load":
+        value = tuple(part*value/value_of(content, key) for part in content[group][name])
+    return with_keys(content, **{group: {name: value}})
+
+
+def slope_name(name, key):
+    """Name of a derivative among the results."""
+    return f"d_{name}_d_{key.replace('%', '_')}"
+
+
+def derived(folder, content, keys, names=NAMES, ranks=1, **more):
+    """Summary of a case with derivatives."""
+    return solve(folder, "derived", with_keys(content, sensitivity={"quantity": names, "parameters": keys, **more}), ranks).summary
+
+
+def check_differences(checks, folder, words, content, steps, names=NAMES):
+    """Every derivative against a central difference of whole answers, each with its relative step."""
+    answer = derived(folder, content, tuple(steps), names)
+    for key, part in steps.items():
+        value = value_of(content, key)
+        more, less = (solve(folder, "differ", changed(content, key, value*(1.0 + side*part))).summary for side in (1, -1))
+        worst = (0.0, "all")
+        for name in names:
+            difference = (more[name] - less[name])/(2.0*part*value)
+            size = max(abs(difference), 1.0e-2*abs(answer[name]/value), 1.0e-30)  # tiny ones are round-off of the answers
+            worst = max(worst, (abs(answer[slope_name(name, key)] - difference)/size, name))
+        checks.below(f"{words}: by {key}, {worst[1]}", worst[0], LIMIT)
+    return answer
+
+
+def check_sum(checks, words, answer, content, name, powers, degree):
+    """Euler's theorem: a result of that degree in some units is the sum of its derivatives times the keys' degrees."""
+    terms = [power*value_of(content, key)*answer[slope_name(name, key)] for key, power in powers.items()]
+    terms.append(-degree*answer[name])
+    checks.below(f"{words}: {name}", sum(terms)/sum(abs(term) for term in terms), SUM_LIMIT)
+
+
+def check_film(checks, folder):
+    """Springs under a load, and a tilted shaft at a given position over the whole width."""
+    steps = dict.fromkeys((*FILM_KEYS, "operation%load", "model%foundation_stiffness"), 3.0e-5)
+    answer = check_differences(checks, folder, "springs", SPRINGS, steps)
+    pressures = {"gas%viscosity": 1, "gas%ambient_pressure": 1, "operation%load": 1, "model%foundation_stiffness": 1}
+    lengths = {"bearing%radius": 1, "bearing%length": 1, "bearing%clearance": 1, "operation%load": 2,
+               "model%foundation_stiffness": -1}
+    times = {"gas%viscosity": 1, "operation%speed_rpm": -1}
+    for name, degrees in (("minimum_gap", (0, 1, 0)), ("friction_torque", (1, 3, 0)), ("maximum_pressure", (1, 0, 0)),
+                          ("attitude_angle", (0, 0, 0)), ("power_loss", (1, 3, -1))):
+        for words, powers, degree in zip(("pressures", "lengths", "times"), (pressures, lengths, times), degrees):
+            check_sum(checks, f"springs, sum over {words}", answer, SPRINGS, name, powers, degree)
+    fixed = with_keys(SPRINGS, scene={"analysis": "fixed_position"})
+    fixed["operation"] = {"speed_rpm": 30000.0, "eccentricity": (2.0e-5, 8.0e-6), "tilt": (2.0e-4, 1.0e-4)}
+    check_differences(checks, folder, "fixed and tilted", fixed, dict.fromkeys(FILM_KEYS[:4], 3.0e-5), FIXED_NAMES)
+
+
+def check_foils(checks, folder):
+    """Shells and beams, with friction and without; pressures scale foils as well."""
+    shells = foils("shell", 0.1)
+    check_differences(checks, folder, "shells with friction", shells,
+                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "top_foil%thickness": 1.0e-4,
+                       "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 8.0e-6})
+    keys = {"gas%viscosity": 1, "gas%ambient_pressure": 1, "operation%load": 1, "top_foil%youngs_modulus": 1,
+            "bump_foil%youngs_modulus": 1}
+    one, two = (derived(folder, shells, tuple(keys), ranks=ranks) for ranks in (1, 2))
+    for name, degree in (("minimum_gap", 0), ("friction_torque", 1), ("maximum_pressure", 1)):
+        check_sum(checks, "shells with friction, sum over pressures", one, shells, name, keys, degree)
+        for key in keys:
+            slope = slope_name(name, key)
+            checks.below(f"shells with friction, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
+    check_differences(checks, folder, "shells without friction", foils("shell", 0.0),
+                      {"bump_foil%half_length": 2.0e-5, "operation%load": 5.0e-5})
+    check_differences(checks, folder, "beams with friction", foils("beam", 0.1),
+                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "contact%friction_sleeve": 5.0e-4})
+
+
+def check_tolerances_and_sweep(checks, folder):
+    """The variance is the sum of squares; a sweep, also one over the very key, has the derivatives of its points."""
+    keys, tolerances = ("bearing%clearance", "gas%viscosity"), (1.0e-6, 2.0e-7)
+    answer = derived(folder, SPRINGS, keys, ("minimum_gap",), tolerances=tolerances)
+    variance = sum((answer[slope_name("minimum_gap", key)]*tolerance)**2 for key, tolerance in zip(keys, tolerances))
+    checks.below("variance: the sum of squares", answer["variance_minimum_gap"]/variance - 1.0, 1.0e-14)
+    checks.below("standard deviation: its root", answer["standard_deviation_minimum_gap"]/math.sqrt(variance) - 1.0, 1.0e-14)
+    asked = {"quantity": "minimum_gap", "parameters": keys}
+    for words, parameter, values in (("load", "load", (math.hypot(60.0, 10.0), 50.0)),
+                                     ("clearance", "bearing%clearance", (3.18e-5, 3.0e-5))):
+        swept = solve(folder, "swept", with_keys(SPRINGS, sensitivity=asked, sweep={"parameter": parameter, "values": values})).history()
+        for point, value in enumerate(values):
+            alone = changed(SPRINGS, "operation%load" if words == "load" else parameter, value)
+            single = derived(folder, alone, keys, ("minimum_gap",))
+            for key in keys:
+                slope = slope_name("minimum_gap", key)
+                checks.below(f"sweep of {words}, point {point + 1}: {slope}", swept[slope][point]/single[slope] - 1.0, 1.0e-7)
+
+
+def main():
+    """Runs all checks."""
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_film(checks, folder)
+        check_tolerances_and_sweep(checks, folder)
+        check_foils(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
