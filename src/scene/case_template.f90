@@ -140,6 +140,8 @@ contains
       groups = ' pads bore shaft_contact sweep rotor '
     case ('lift_off') ! which needs asperities
       groups = ' pads bore sweep accuracy sample '
+    case ('load_capacity', 'misalignment_allowance')
+      groups = ' pads bore shaft_contact sweep accuracy sample '
     case default
       groups = ' pads bore shaft_contact sweep sensitivity accuracy sample '
     end select

@@ -2,6 +2,7 @@
 module gfb_sensitivity_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: coupling_partitioned
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sensitivity_case, only: parameter_type
@@ -64,6 +65,21 @@ contains
     if (scene%sweep%hold_position) then
       call keys%complain('sweep', 'hold_position', 'cannot stand beside &sensitivity: the '// &
                          'position that is held depends on the parameters, too')
+    end if
+    if (scene%sweep%turn_folds) then
+      call keys%complain('sweep', 'turn_folds', 'cannot stand beside &sensitivity: at a fold '// &
+                         'there is no derivative')
+    end if
+    if (scene%model%coupling == coupling_partitioned) then
+      call keys%complain('model', 'coupling', "must be 'simultaneous' beside &sensitivity")
+    end if
+    if (scene%accuracy%present) then
+      call keys%complain(group, parameters, 'cannot stand beside &accuracy: its meshes change, '// &
+                         'and with them the nodes of the smallest and largest values')
+    end if
+    if (scene%sample%present) then
+      call keys%complain(group, parameters, 'cannot stand beside &sample: derive one member, by '// &
+                         'its seed')
     end if
   end subroutine check_beside
 

@@ -34,10 +34,11 @@ def with_keys(content, **changes):
 
 
 def foils(model, friction):
-    """A small bearing of shells or beams."""
+    """A small bearing of shells or beams; with friction its crests stand where they are whatever the bumps' length is."""
     return with_keys(
         SPRINGS, bearing=SMALL, operation={"speed_rpm": 40000.0, "load": (-14.0, 2.0)}, top_foil=SHEET,
-        bump_foil={**SHEET, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 13},
+        bump_foil={**SHEET, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 13,
+                   "fixed_line": "half_flat" if friction > 0.0 else "corner"},
         contact={"friction_top": friction, "friction_sleeve": friction},
         mesh={"circumferential_elements": 52, "axial_elements": 4, "arc_elements": 4, "flat_elements": 2}
     ) | {"model": {"foil": model}}
@@ -104,6 +105,9 @@ def check_film(checks, folder):
             check_sum(checks, f"springs, sum over {words}", answer, SPRINGS, name, powers, degree)
     fixed = with_keys(SPRINGS, scene={"analysis": "fixed_position"})
     fixed["operation"] = {"speed_rpm": 30000.0, "eccentricity": (2.0e-5, 8.0e-6), "tilt": (2.0e-4, 1.0e-4)}
+    touching = with_keys(SPRINGS, shaft_contact={"roughness": 1.0e-6, "pressure": 5.0e6, "friction": 0.1},
+                         operation={"speed_rpm": 10000.0, "load": (-80.0, 3.0)})
+    check_differences(checks, folder, "asperities", touching, {"bearing%clearance": 1.0e-5, "shaft_contact%roughness": 3.0e-5})
     check_differences(checks, folder, "fixed and tilted", fixed, dict.fromkeys(FILM_KEYS[:4], 3.0e-5), FIXED_NAMES)
 
 
@@ -111,8 +115,8 @@ def check_foils(checks, folder):
     """Shells and beams, with friction and without; pressures scale foils as well."""
     shells = foils("shell", 0.1)
     check_differences(checks, folder, "shells with friction", shells,
-                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "top_foil%thickness": 1.0e-4,
-                       "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 8.0e-6})
+                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "bump_foil%half_length": 2.0e-5,
+                       "top_foil%thickness": 1.0e-4, "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 8.0e-6})
     keys = {"gas%viscosity": 1, "gas%ambient_pressure": 1, "operation%load": 1, "top_foil%youngs_modulus": 1,
             "bump_foil%youngs_modulus": 1}
     one, two = (derived(folder, shells, tuple(keys), ranks=ranks) for ranks in (1, 2))
@@ -124,7 +128,7 @@ def check_foils(checks, folder):
     check_differences(checks, folder, "shells without friction", foils("shell", 0.0),
                       {"bump_foil%half_length": 2.0e-5, "operation%load": 5.0e-5})
     check_differences(checks, folder, "beams with friction", foils("beam", 0.1),
-                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "contact%friction_sleeve": 5.0e-4})
+                      {"bump_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
 
 
 def check_tolerances_and_sweep(checks, folder):

@@ -17,6 +17,7 @@ module gfb_bearing_builder
   use gfb_gas_film, only: put_bore
   use gfb_solid_contact, only: solid_contact_type
   use gfb_foil_models, only: build_foil
+  use gfb_changed_foil, only: take_foil_numbers
   use gfb_foil_model, only: foil_model_type
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -25,7 +26,7 @@ module gfb_bearing_builder
   use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
   implicit none (type)
   private
-  public :: build_bearing, build_opposite, build_like, divide_bearing, film_mesh_of
+  public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of
 
 contains
 
@@ -95,24 +96,64 @@ contains
     type(error_type), allocatable, intent(out) :: error
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
-    integer :: i
 
     call divide_bearing(scene, film, rank_count(), division, error)
     if (allocated(error)) return
     call create_film_part(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
                           bearing, error, division%film)
     if (allocated(error)) return
-    associate (contact => scene%shaft_contact)
-      bearing%pad(1)%contact = solid_contact_type(contact%present, contact%roughness, contact%pressure, contact%friction)
-    end associate
+    bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, floats, pad_places(scene%bearing))
-    do i = 1, size(bearing%pad)
-      call put_bore(bearing%pad(i)%film, scene%bore%profile)
-      bearing%pad(i)%film%law = scene%gas%law
-    end do
+    call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
+
+  !> The asperities of shaft and foil.
+  pure function asperities_of(scene) result(contact)
+    type(scene_type), intent(in) :: scene
+    type(solid_contact_type) :: contact
+
+    associate (given => scene%shaft_contact)
+      contact = solid_contact_type(given%present, given%roughness, given%pressure, given%friction)
+    end associate
+  end function asperities_of
+
+  !> What of bore, gas and asperities is not known where the pads are created.
+  subroutine take_film_numbers(scene, bearing)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call put_bore(pad%film, scene%bore%profile)
+        pad%film%law = scene%gas%law
+        pad%contact = asperities_of(scene)
+      end associate
+    end do
+  end subroutine take_film_numbers
+
+  !> Gives a bearing, whose foils can take them, the numbers of a scene that do not move its meshes: of film, gas, bore,
+  !> asperities and contacts. What is assembled of the foils stays.
+  subroutine take_numbers(scene, bearing)
+    type(scene_type), intent(in) :: scene !! with the same meshes
+    type(bearing_system_type), intent(inout) :: bearing !! its state and scales stay
+    type(pad_place_type) :: place(scene%bearing%pads)
+    integer :: i
+
+    place = pad_places(scene%bearing)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        pad%film%clearance = scene%bearing%clearance
+        pad%film%ambient_pressure = scene%gas%ambient_pressure
+        pad%film%flow%viscosity = scene%gas%viscosity
+        pad%film%shift = place(i)%shift
+        call take_foil_numbers(scene, pad%foil)
+      end associate
+    end do
+    call take_film_numbers(scene, bearing)
+  end subroutine take_numbers
 
   !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
   !> \( m C \cos(\theta - \theta_p) \).

@@ -60,6 +60,7 @@ module gfb_contact_set
     procedure :: add_penetration_rate
     procedure :: settle
     procedure :: settle_like
+    procedure :: linearise_again
     procedure :: drop_anchor
     procedure :: add_forces
     procedure :: point_block
@@ -190,11 +191,21 @@ contains
         point%old_force = like%old_force
         point%place = like%place
         point%anchor = like%anchor
-        call linearise(self%law_of(point), point)
       end associate
     end do
+    call self%linearise_again()
     self%settled = .true.
   end subroutine settle_like
+
+  !> Linearises every contact where it is, with what its law is now.
+  pure subroutine linearise_again(self)
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
+    integer :: i
+
+    do i = 1, size(self%point)
+      call linearise(self%law_of(self%point(i)), self%point(i))
+    end do
+  end subroutine linearise_again
 
   !> Force of a contact and its derivative where it is linearised.
   pure subroutine linearise(law, point)

@@ -68,8 +68,10 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         number(place_torque) = number(place_torque) + pad%film%radius* &
-          (film_drag(pad%film, pressure(first:last), gap(first:last), here) &
-           + pad%contact%friction*film_integral(pad%film, solid(first:last)))
+          film_drag(pad%film, pressure(first:last), gap(first:last), here)
+        if (.not. pad%contact%present) cycle
+        number(place_torque) = number(place_torque) + pad%film%radius*pad%contact%friction* &
+          film_integral(pad%film, solid(first:last))
       end associate
     end do
     if (nodes%node(1) > 0) number(place_extremes) = gap(nodes%node(1))

@@ -5,13 +5,15 @@ module gfb_changed_bearing
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: any_rank
+  use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
   use gfb_sensitivity_case, only: parameter_type
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_builder, only: build_like
+  use gfb_bearing_builder, only: build_like, take_numbers
+  use gfb_changed_foil, only: takes_numbers, add_changed_force
   use gfb_answer_gradient, only: extreme_nodes_type, measure
   implicit none (type)
   private
@@ -42,7 +44,13 @@ contains
       call evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
     else
       call scene_with_key(scene, parameter%group, parameter%name, value, there, error, at)
-      if (.not. allocated(error)) then
+      if (allocated(error)) then
+        problem = error%message
+        return
+      end if
+      if (keeps_meshes(scene, parameter) .and. takes_numbers(bearing%pad(1)%foil)) then
+        call evaluate_in_place(scene, there, parameter%group, bearing, unknown, nodes, residual, number, valid, error)
+      else
         call evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
       end if
       if (allocated(error)) problem = error%message
@@ -71,6 +79,61 @@ contains
     call bearing%evaluate_at(point, bearing%state, residual, valid)
     number = measure(bearing, unknown, point, nodes)
   end subroutine evaluate_operation
+
+  !> Whether a key moves neither the film's mesh nor the crests.
+  pure function keeps_meshes(scene, parameter) result(keeps)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    logical :: keeps
+
+    associate (name => parameter%name)
+      select case (parameter%group)
+      case ('gas', 'bore', 'contact', 'shaft_contact')
+        keeps = .true.
+      case ('bearing')
+        keeps = name == 'clearance'
+      case ('pads')
+        keeps = name == 'preload' .or. name == 'preload_offset'
+      case ('top_foil', 'bump_foil')
+        keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height'
+        ! else the first crest stands as far from the weld as half a bump is long
+        if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
+      case default
+        keeps = .false.
+      end select
+    end associate
+  end function keeps_meshes
+
+  !> The same bearing with other numbers. Elastic forces as they were are part of the residual, beside those of a foil that
+  !> has changed: differences do not see them.
+  subroutine evaluate_in_place(scene, there, group, bearing, unknown, nodes, residual, number, valid, error)
+    type(scene_type), intent(in) :: scene, there !! as it is; with the key changed
+    character(len=*), intent(in) :: group !! of the key
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp), intent(in) :: unknown(:) !! in SI
+    type(extreme_nodes_type), intent(in) :: nodes
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    logical, intent(out) :: valid !! gap and pressure are positive
+    type(error_type), allocatable, intent(out) :: error
+    real(wp) :: value(size(unknown))
+    integer :: i
+
+    call take_numbers(there, bearing)
+    call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
+    number = measure(bearing, unknown, bearing%point, nodes)
+    call take_numbers(scene, bearing)
+    if (group /= 'top_foil' .and. group /= 'bump_foil') return
+    value = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call add_changed_force(pad%foil, there, pad%whole, group == 'bump_foil', unknown(pad%first + 1:pad%last), &
+                               value(pad%first + 1:pad%last), error)
+      end associate
+      if (allocated(error)) return
+    end do
+    call bearing%exchange%add(value/bearing%equation_scale(bearing%point), residual)
+  end subroutine evaluate_in_place
 
   !> Another bearing on a mesh like this one's.
   subroutine evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)

@@ -26,9 +26,14 @@ module gfb_sensitivity
   private
   public :: keep_tangent, find_sensitivities, changed_evaluation
 
-  real(wp), parameter :: part = 2.0e-4_wp       !! of a key, that it is changed by [1]
-  !> Weights of the values at one and two such steps in a derivative; even in the step its error is of fourth order.
-  real(wp), parameter :: weights(-2:2) = [1.0_wp, -8.0_wp, 0.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
+  !> How a derivative by a key is made of differences.
+  type :: difference_type
+    real(wp) :: part = 2.0e-4_wp !! of the key, that it is changed by [1]
+    !> of the values at one and two such steps on both sides; with these the error is of fourth order
+    real(wp) :: weight(-2:2) = [1.0_wp, -8.0_wp, 0.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
+  end type difference_type
+
+  real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
   real(wp), parameter :: enough = 1.0e-12_wp    !! residual of an adjoint, over its right side [1]
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
@@ -237,24 +242,49 @@ contains
     Vec :: residual
     real(wp) :: number(numbers), value, step
     PetscErrorCode :: ierr
+    type(difference_type) :: difference
     integer :: steps
 
     PetscCallA(VecDuplicate(change, residual, ierr))
     PetscCallA(VecSet(change, 0.0_wp, ierr))
     slope = 0.0_wp
     value = present_value(scene, parameter, bearing%point, at)
-    step = part*abs(value)
+    difference = difference_of(parameter)
+    step = difference%part*abs(value)
     problem = ''
     if (.not. step > 0.0_wp) problem = 'it is 0 here'
     do steps = -2, 2
       if (problem /= '') exit
-      if (steps == 0) cycle
+      if (.not. abs(difference%weight(steps)) > 0.0_wp) cycle
       call evaluate(scene, parameter, value + steps*step, bearing, unknown, nodes, residual, number, problem, at)
-      PetscCallA(VecAXPY(change, weights(steps)/step, residual, ierr))
-      slope = slope + weights(steps)/step*number
+      PetscCallA(VecAXPY(change, difference%weight(steps)/step, residual, ierr))
+      slope = slope + difference%weight(steps)/step*number
     end do
     PetscCallA(VecDestroy(residual, ierr))
   end subroutine find_change
+
+  !> The differences that suit a key. Where it leaves the foils' stiffness alone little is lost to rounding. In thickness
+  !> and material stiffness is a polynomial, or nearly one, of low degree. The shape of bumps is neither, and a pitch adds
+  !> up along the strip.
+  pure function difference_of(parameter) result(difference)
+    type(parameter_type), intent(in) :: parameter
+    type(difference_type) :: difference
+    real(wp), parameter :: small = 4.0e-6_wp, large = 5.0e-4_wp
+
+    select case (parameter%group)
+    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact')
+      difference = difference_type(small, central)
+    case default
+      select case (parameter%name)
+      case ('clearance', 'preload')
+        difference = difference_type(small, central)
+      case ('thickness', 'youngs_modulus', 'poissons_ratio')
+        difference = difference_type(large, central)
+      case default
+        return
+      end select
+    end select
+  end function difference_of
 
   !> Value of a parameter at the answer: the sweep's where it changes that very key.
   pure function present_value(scene, parameter, point, at) result(value)

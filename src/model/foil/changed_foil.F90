@@ -1,0 +1,229 @@
+#include "gfb_petsc.h"
+!> Foils of shells with other numbers on the same mesh of the film, without being built anew.
+!>
+!> What is linear in the unknowns is not assembled: elastic forces with another thickness, material or shape of the bumps
+!> are those of the elements, or of the super-elements, one by one.
+module gfb_changed_foil
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_session, only: this_rank, share_failure
+  use gfb_scene, only: scene_type
+  use gfb_bump_foil_case, only: gap_of_crest
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_mesh_dm, only: columns_window
+  use gfb_local_exchange, only: local_exchange_type, create_exchange
+  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_unknowns
+  use gfb_shell_element, only: shell_stiffness
+  use gfb_foil_mesh, only: bump_strip_mesh
+  use gfb_foil_builder, only: shape_on_pad, section_of, plate_section
+  use gfb_foil_structure, only: foil_structure_type
+  use gfb_foil_pieces, only: condense_piece, element_geometry
+  use gfb_foil_assembly, only: element_unknowns, retained_unknowns
+  use gfb_super_element, only: super_element_type, destroy_super_element
+  use gfb_bump_contacts, only: contact_top
+  use gfb_foil_model, only: foil_model_type
+  use gfb_foil_ranges, only: foil_ranges_type, ranges_of
+  use gfb_foil_places, only: set_laws
+  use gfb_shell_foil, only: shell_foil_type
+  implicit none (type)
+  private
+  public :: takes_numbers, take_foil_numbers, add_changed_force
+
+  real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
+
+contains
+
+  !> Whether a foil can take other numbers.
+  pure function takes_numbers(foil) result(takes)
+    class(foil_model_type), intent(in) :: foil !! any
+    logical :: takes
+
+    takes = .false.
+    select type (foil)
+    type is (shell_foil_type)
+      takes = .true.
+    end select
+  end function takes_numbers
+
+  !> Gives a foil the laws and gaps of its contacts, and the pressure around, of a scene; the contacts stay linearised
+  !> where they are.
+  subroutine take_foil_numbers(scene, foil)
+    type(scene_type), intent(in) :: scene !! with a foil on the same meshes
+    class(foil_model_type), intent(inout) :: foil !! that can take them
+    integer :: i
+
+    select type (foil)
+    type is (shell_foil_type)
+      foil%ambient_pressure = scene%gas%ambient_pressure
+      call set_laws(scene, foil)
+      do i = 1, size(foil%contacts%point)
+        associate (point => foil%contacts%point(i))
+          if (point%law == contact_top) point%gap = gap_of_crest(scene%bump_foil, point%line)
+        end associate
+      end do
+      call foil%contacts%linearise_again()
+    end select
+  end subroutine take_foil_numbers
+
+  !> Adds the elastic forces of one of the foils as a scene has it. All ranks ask.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine add_changed_force(foil, scene, film, of_bumps, unknown, residual, error)
+    class(foil_model_type), intent(in) :: foil !! that can take other numbers
+    type(scene_type), intent(in) :: scene !! with a foil on the same mesh of the film
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    logical, intent(in) :: of_bumps !! of the bump foil, else of the top foil
+    real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
+    real(wp), intent(inout) :: residual(:) !! of the pad, one a local unknown [SI]
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    PetscScalar, pointer :: values(:)
+    type(quad_mesh_type) :: mesh
+    PetscErrorCode :: ierr
+
+    select type (foil)
+    type is (shell_foil_type)
+      PetscCallA(GFB_VecGetArray(foil%state, values, ierr))
+      values = unknown(foil%first + foil%own_place)
+      PetscCallA(GFB_VecRestoreArray(foil%state, values, ierr))
+      PetscCallA(VecSet(foil%force, 0.0_wp, ierr))
+      if (of_bumps) then
+        mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, &
+                               columns_window(foil%bumps%column_part, this_rank() + 1))
+        if (foil%bumps%reduced) then
+          call add_pieces(foil, mesh, section_of(scene%bump_foil), error)
+        else
+          call add_elements(foil, foil%bumps, mesh, section_of(scene%bump_foil), of_bumps, error)
+        end if
+      else
+        call add_elements(foil, foil%top, foil%top%mesh, plate_section(scene), of_bumps, error)
+      end if
+      if (allocated(error)) return
+      PetscCallA(GFB_VecGetArrayRead(foil%force, values, ierr))
+      residual(foil%first + foil%own_place) = residual(foil%first + foil%own_place) + values
+      PetscCallA(GFB_VecRestoreArrayRead(foil%force, values, ierr))
+    end select
+  end subroutine add_changed_force
+
+  !> Forces of this rank's super-elements.
+  subroutine add_pieces(foil, mesh, section, error)
+    type(shell_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
+    type(quad_mesh_type), intent(in) :: mesh
+    type(shell_section_type), intent(in) :: section
+    type(error_type), allocatable, intent(out) :: error
+    type(super_element_type) :: super(size(foil%bumps%super))
+    integer, allocatable :: number(:)
+    real(wp), allocatable :: moved(:), force(:)
+    type(foil_ranges_type) :: ranges
+    integer :: i, first
+
+    ranges = ranges_of(foil%top, foil%bumps)
+    associate (bumps => foil%bumps)
+      allocate (number(0))
+      do i = 1, size(bumps%mine)
+        number = [number, ranges%of_bumps(retained_unknowns(bumps, bumps%substructure(bumps%mine(i))))]
+      end do
+      allocate (force(size(number)))
+      call fetch(foil, number, moved)
+      first = 0
+      do i = 1, size(bumps%mine)
+        associate (one => bumps%substructure(bumps%mine(i)))
+          associate (here => super(one%kind), n => size(bumps%super(one%kind)%retained))
+            if (.not. allocated(here%stiffness)) then
+              call condense_piece(mesh, section, bumps%free(:, one%nodes), one, .true., here, error)
+              if (allocated(error)) exit
+            end if
+            force(first + 1:first + n) = matmul(here%stiffness, moved(first + 1:first + n))
+            first = first + n
+          end associate
+        end associate
+      end do
+      call share_failure(error)
+      if (.not. allocated(error)) call add_up(foil, number, force)
+      do i = 1, size(super)
+        call destroy_super_element(super(i))
+      end do
+    end associate
+  end subroutine add_pieces
+
+  !> Forces of a structure's elements on this rank. Neighbours of the same shape share a stiffness.
+  subroutine add_elements(foil, structure, mesh, section, of_bumps, error)
+    type(shell_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
+    type(foil_structure_type), intent(in) :: structure !! one of the foil's
+    type(quad_mesh_type), intent(in) :: mesh
+    type(shell_section_type), intent(in) :: section
+    logical, intent(in) :: of_bumps !! the structure is that
+    type(error_type), allocatable, intent(out) :: error
+    integer :: number(shell_unknowns, size(structure%my_elements))
+    real(wp) :: force(shell_unknowns, size(structure%my_elements)), stiffness(shell_unknowns, shell_unknowns)
+    real(wp), allocatable :: moved(:)
+    type(foil_ranges_type) :: ranges
+    type(shell_geometry_type) :: here, before
+    integer :: i
+    logical :: known
+
+    ranges = ranges_of(foil%top, foil%bumps)
+    do i = 1, size(structure%my_elements)
+      number(:, i) = element_unknowns(structure, structure%my_elements(i))
+      if (of_bumps) then
+        number(:, i) = ranges%of_bumps(number(:, i))
+      else
+        number(:, i) = ranges%of_top(number(:, i))
+      end if
+    end do
+    call fetch(foil, [number], moved)
+    known = .false.
+    do i = 1, size(structure%my_elements)
+      here = element_geometry(mesh, structure%my_elements(i))
+      if (known) known = is_same(here, before)
+      if (.not. known) then
+        call shell_stiffness(here, section, stiffness, error)
+        if (allocated(error)) exit
+        before = here
+        known = .true.
+      end if
+      force(:, i) = matmul(stiffness, moved((i - 1)*shell_unknowns + 1:i*shell_unknowns))
+    end do
+    call share_failure(error)
+    if (.not. allocated(error)) call add_up(foil, [number], [force])
+  end subroutine add_elements
+
+  !> Whether an element is another one, moved.
+  pure function is_same(here, other) result(same)
+    type(shell_geometry_type), intent(in) :: here, other
+    logical :: same
+
+    associate (p => here%position - spread(here%position(:, 1), 2, size(here%position, 2)), &
+               q => other%position - spread(other%position(:, 1), 2, size(other%position, 2)))
+      same = all(abs(p - q) <= round_off*maxval(abs(q)))
+    end associate
+    same = same .and. all(abs(here%director - other%director) <= round_off) .and. all(abs(here%axis - other%axis) <= round_off)
+  end function is_same
+
+  !> The foil's unknowns of some numbers, from 1; zero where the number is 0.
+  subroutine fetch(foil, number, moved)
+    type(shell_foil_type), intent(in) :: foil
+    integer, intent(in) :: number(:)
+    real(wp), allocatable, intent(out) :: moved(:) !! [m], [rad]
+    type(local_exchange_type) :: exchange
+    real(wp) :: there(count(number > 0))
+
+    call create_exchange(pack(number, number > 0) - 1, foil%state, exchange)
+    call exchange%get(foil%state, there)
+    call exchange%destroy()
+    moved = unpack(there, number > 0, 0.0_wp)
+  end subroutine fetch
+
+  !> Adds forces on unknowns of some numbers, from 1; none where the number is 0.
+  subroutine add_up(foil, number, force)
+    type(shell_foil_type), intent(in) :: foil
+    integer, intent(in) :: number(:)
+    real(wp), intent(in) :: force(:) !! [N], [N m]
+    type(local_exchange_type) :: exchange
+
+    call create_exchange(pack(number, number > 0) - 1, foil%force, exchange)
+    call exchange%add(pack(force, number > 0), foil%force)
+    call exchange%destroy()
+  end subroutine add_up
+end module gfb_changed_foil
