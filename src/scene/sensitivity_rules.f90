@@ -71,15 +71,15 @@ contains
                          'there is no derivative')
     end if
     if (scene%model%coupling == coupling_partitioned) then
-      call keys%complain('model', 'coupling', "must be 'simultaneous' beside &sensitivity")
+      call keys%complain('model', 'coupling', "must be 'monolithic' beside &sensitivity")
     end if
     if (scene%accuracy%present) then
-      call keys%complain(group, parameters, 'cannot stand beside &accuracy: its meshes change, '// &
-                         'and with them the nodes of the smallest and largest values')
+      call keys%complain(group, parameters, 'cannot stand beside &accuracy: its meshes '// &
+                         'change, and with them the nodes of smallest and largest values')
     end if
     if (scene%sample%present) then
-      call keys%complain(group, parameters, 'cannot stand beside &sample: derive one member, by '// &
-                         'its seed')
+      call keys%complain(group, parameters, 'cannot stand beside &sample: derive one member '// &
+                         'by its seed')
     end if
   end subroutine check_beside
 
