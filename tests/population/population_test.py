@@ -79,9 +79,9 @@ def check_words(checks):
                                                          ("touch-down", 6.0, trial.BY_GAP),
                                                          ("touch-down", 4.0, trial.BY_SWEEP["load"]), (trial.BOUND, 9.0, "")))]
     with tempfile.TemporaryDirectory() as folder:
-        table = page.write(some, rows, argparse.Namespace(set="random", seconds=9.0), pathlib.Path(folder))
+        table = page.write(some, rows, argparse.Namespace(set="random", seconds=9.0, count=20), pathlib.Path(folder))
         text = (pathlib.Path(folder)/"population.md").read_text(encoding="utf-8")
-    for words in ("5 members: 2 answers, 2 refused by name, 1 without a reason", "| beam | by name | 3.0 | 3.0 |",
+    for words in ("--count 20 --seconds 9 --docs`; of these members the 5 that were run.", "5 members: 2 answers, 2 refused by name, 1 without a reason", "| beam | by name | 3.0 | 3.0 |",
                   "| elastic_foundation | by name | 4.0 | 4.0 |", "| shell 4 | CPU bound | 9.0 |", "| shell | CPU bound | 1 | 100 % | 9.0 | 9.0 | 900 |"):
         checks.that(f"the page has '{words}'", words in text)
     checks.that("the terminal has the same", "2 refused by name" in table)

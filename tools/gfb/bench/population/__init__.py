@@ -33,6 +33,7 @@ def add_options(parser):
     parser.add_argument("--seconds", metavar="S", type=float, default=300.0,
                         help="CPU time of a run at most; default: %(default)s")
     parser.add_argument("--reuse", action="store_true", help="go on with the runs of an earlier call")
+    parser.add_argument("--kept", action="store_true", help="run nothing: the page of the runs that are kept")
     parser.add_argument("--only-write", metavar="DIR", type=pathlib.Path, help="write the case files there, run nothing")
     parser.add_argument("--docs", action="store_true", help="write the page to docs/measured")
 
@@ -50,7 +51,14 @@ def run(options):
         for member in members:
             write_case(options.only_write, file_name(member), member.groups)
         return f"{len(members)} case files are in {options.only_write}\n"
-    rows = measure(members, options)
+    if options.kept:
+        rows = kept_rows(STORE, program_of(options))
+        members = [member for member in members if key_of(member) in rows]
+        rows = [rows[key_of(member)] for member in members]
+        if not rows:
+            stop(f"{STORE} has no runs of this program")
+    else:
+        rows = measure(members, options)
     return page.write(members, rows, options, MEASURED if options.docs else options.output)
 
 
@@ -65,9 +73,14 @@ def key_of(member):
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
+def program_of(options):
+    """What the runs of a program are kept under."""
+    return hashlib.sha256(pathlib.Path(options.gfb).read_bytes()).hexdigest()[:16]
+
+
 def measure(members, options):
     """A row a member; those that are kept are not run again."""
-    program = hashlib.sha256(pathlib.Path(options.gfb).read_bytes()).hexdigest()[:16]
+    program = program_of(options)
     rows = kept_rows(STORE, program) if options.reuse else {}
     lock = threading.Lock()
 

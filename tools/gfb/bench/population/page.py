@@ -20,7 +20,7 @@ SAID = {
 }
 HEAD = """# Population: {name}
 
-Written by `tools/bench population --set {name} --count {count} --seconds {seconds:g} --docs`.
+Written by `tools/bench population --set {name} --count {count} --seconds {seconds:g} --docs`{kept}.
 
 {said}
 
@@ -38,7 +38,8 @@ def write(members, rows, options, folder):
     """Leaves the page; returns its tables for the terminal."""
     tables = [outcome_table(members, rows), ratio_table(members, rows), shown_table(members, rows),
               worst_table(members, rows)]
-    text = HEAD.format(name=options.set, count=len(members), said=SAID[options.set], seconds=options.seconds)
+    kept = f"; of these members the {len(members)} that were run" if options.count != len(members) else ""
+    text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds)
     text += facts(members, rows) + "\n"
     for table in [*tables, nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
