@@ -54,13 +54,15 @@ contains
     call self%read_command_line()
   end subroutine open_run
 
-  !> Ends MPI and the program.
+  !> Ends MPI and the program. The count is told before: mpiexec kills all ranks once one has ended
+  !> with a status.
   subroutine finish(self)
     class(mpi_test_run_type), intent(in) :: self
     integer :: ierr
 
+    call self%tell_count()
     call mpi_finalize(ierr)
-    call self%close()
+    call self%leave()
   end subroutine finish
 
   !> Runs a test without arguments on the first rank.

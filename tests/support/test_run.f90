@@ -31,6 +31,8 @@ module gfb_test_run
     procedure :: skip
     procedure :: count_result
     procedure :: close => close_run
+    procedure :: tell_count
+    procedure :: leave
   end type test_run_type
 
 contains
@@ -108,15 +110,26 @@ contains
   !> Prints the count and ends the program; a run without any test is a failure too.
   subroutine close_run(self)
     class(test_run_type), intent(in) :: self
-
-    if (self%speaks) then
-      write (output_unit, '(3(i0, a))') self%tests, ' tests, ', self%failed, ' failed, ', &
-        self%disabled, ' disabled'
-      if (self%tests == 0) write (output_unit, '(a)') 'FAILED: no test was run'
-      flush (output_unit)
-    end if
-    if (self%failed > 0 .or. self%tests == 0) stop status_failed, quiet=.true.
+    call self%tell_count()
+    call self%leave()
   end subroutine close_run
+
+  !> Prints the count.
+  subroutine tell_count(self)
+    class(test_run_type), intent(in) :: self
+
+    if (.not. self%speaks) return
+    write (output_unit, '(3(i0, a))') self%tests, ' tests, ', self%failed, ' failed, ', &
+      self%disabled, ' disabled'
+    if (self%tests == 0) write (output_unit, '(a)') 'FAILED: no test was run'
+    flush (output_unit)
+  end subroutine tell_count
+
+  !> Ends the program where a test failed, or none was run.
+  subroutine leave(self)
+    class(test_run_type), intent(in) :: self
+    if (self%failed > 0 .or. self%tests == 0) stop status_failed, quiet=.true.
+  end subroutine leave
 
   !> Runs one test without arguments; `after` runs even if the test failed.
   subroutine run_plain_test(run, name, test, before, after)
