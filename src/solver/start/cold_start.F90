@@ -30,6 +30,7 @@ module gfb_cold_start
   public :: start_bearing, start_partitioned
 
   real(wp), parameter :: light = 0.1_wp !! load of a lighter start, over the one asked for [1]
+  real(wp), parameter :: shortest = 0.02_wp !! step on the way [1]
   real(wp), parameter :: heavier(4) = [0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp] !! loads on the way up from there [1]
 
 contains
@@ -37,7 +38,7 @@ contains
   !> Builds a scene's equations and finds their answer at the scene's operating point.
   !>
   !> Where a search ends, it may be the end of the branch on which it came under the load, not of all: it has to show on the
-  !> way up from a lighter load, too, where that has an answer.
+  !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -52,6 +53,7 @@ contains
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
     type(operating_point_type) :: lighter
+    type(path_settings_type) :: settings
     type(path_report_type) :: refusal
     type(kept_state_type) :: refused
     integer :: iterations, factorizations, i
@@ -61,6 +63,7 @@ contains
     if (allocated(error)) return
     again = report%touched .or. .not. (report%converged .or. report%drawn .or. report%has_cause())
     again = again .and. bearing%floats .and. .not. any(scene%operation%lift_given)
+    if (report%touched) again = again .and. norm2(report%reached%load) > light*norm2(target%load)
     if (again) again = bearing%pad(1)%foil%has_contacts()
     if (again) again = .not. stop_agreed()
     if (.not. again) return
@@ -73,12 +76,14 @@ contains
     call bearing%destroy()
     lighter = target
     lighter%load = light*target%load
+    settings = path_settings
+    settings%smallest_step = max(settings%smallest_step, shortest)
     call start_on_meshes(scene, plan, lighter, newton_settings, path_settings, log, bearing, newton, report, error, on_the_way=.true.)
     if (allocated(error)) return
     do i = 1, size(heavier)
       if (.not. report%converged) exit
       lighter%load = heavier(i)*target%load
-      call follow_path(bearing, newton, lighter, 1.0_wp, path_settings, report)
+      call follow_path(bearing, newton, lighter, 1.0_wp, settings, report)
     end do
     if (.not. report%converged .and. (refusal%has_cause() .or. .not. report%has_cause())) then
       report = refusal
