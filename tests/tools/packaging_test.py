@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""The recipes of packaging/, as far as they can be looked at without Podman, Spack and conda; one version everywhere."""
+
+import ast
+import importlib.util
+import os
+import pathlib
+import re
+import unittest
+
+PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
+PACKAGING = PROJECT/"packaging"
+VERSION = re.search(r"project\(gfb VERSION ([\d.]+)", (PROJECT/"CMakeLists.txt").read_text(encoding="utf-8"))[1]
+HAS_YAML = all(importlib.util.find_spec(name) for name in ("yaml", "jinja2"))
+
+
+def text_of(name):
+    return (PROJECT/name).read_text(encoding="utf-8")
+
+
+class Recipes(unittest.TestCase):
+    def test_one_version(self):
+        for name, pattern in (("CITATION.cff", r"^version: (.*)$"), ("tools/pyproject.toml", r'^version = "(.*)"$'),
+                              ("tools/gfb/__init__.py", r'^__version__ = "(.*)"$'), ("packaging/conda/meta.yaml", r'set version = "(.*)"'),
+                              ("share/man/man1/gfb.1", r'"gfb ([\d.]+)"'), ("docs/manual/first_steps.md", r"gfb_([\d.]+)_amd64")):
+            self.assertEqual(re.findall(pattern, text_of(name), re.MULTILINE), [VERSION], name)
+
+    def test_python(self):
+        """What a user needs of tools/gfb is in the package; what needs a checkout is not."""
+        text = text_of("tools/pyproject.toml")
+        packages = set(re.findall(r'"(gfb[\w.]*)"', re.search(r"^packages = (.*)$", text, re.MULTILINE)[1]))
+        there = {f"gfb.{path.parent.name}" for path in (PROJECT/"tools/gfb").glob("*/__init__.py")}
+        self.assertEqual(there - packages, {"gfb.bench", "gfb.compare", "gfb.gallery", "gfb.html"})
+        for package in packages:  # none of them uses those that are left out
+            for path in (PROJECT/"tools"/package.replace(".", "/")).glob("*.py"):
+                used = set(re.findall(r"(?:from|import) (gfb\.(?:bench|compare|gallery|html))", path.read_text(encoding="utf-8")))
+                self.assertEqual(used if path.name != "manual.py" else set(), set(), path)
+        for module, name in re.findall(r'= "([\w.]+):(\w+)"$', text, re.MULTILINE):
+            self.assertIn(f"def {name}():", text_of(f"tools/{module.replace('.', '/')}.py"))
+
+    def test_containerfile(self):
+        text = text_of("packaging/Containerfile")
+        words = {line.split()[0] for line in text.replace("\\\n", " ").splitlines() if line.strip() and line[0] != "#"}
+        self.assertEqual(words - {"FROM", "ARG", "COPY", "WORKDIR", "RUN", "ENV", "ENTRYPOINT"}, set())
+        for tool in re.findall(r"tools/\w+", text):
+            self.assertTrue(os.access(PROJECT/tool, os.X_OK), tool)
+
+    def test_spack(self):
+        """Options and libraries are those of CMakeLists.txt."""
+        path = PACKAGING/"spack/packages/gfb/package.py"
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        recipe, = (part for part in tree.body if isinstance(part, ast.ClassDef))
+        self.assertEqual((recipe.name, recipe.bases[0].id), ("Gfb", "CMakePackage"))
+        cmake = text_of("CMakeLists.txt")
+        defined = re.findall(r'define\("(\w+)"', path.read_text(encoding="utf-8"))
+        self.assertEqual([name for name in defined if name not in cmake and name != "HDF5_ROOT"], [])
+        needed = {call.args[0].value for call in ast.walk(recipe) if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "depends_on"}
+        for name in ("mpi", "metis", "mumps", "petsc", "slepc", "hdf5", "lapack", "pkgconfig", "cmake"):
+            self.assertTrue(any(re.match(rf"{name}\b", spec) for spec in needed), name)
+        self.assertEqual(path.parents[4], PROJECT)
+
+    @unittest.skipUnless(HAS_YAML, "PyYAML or Jinja2 is not installed (python3-yaml, python3-jinja2)")
+    def test_conda(self):
+        import jinja2
+        import yaml
+        made = jinja2.Environment(undefined=jinja2.Undefined, autoescape=False).from_string(text_of("packaging/conda/meta.yaml")).render(
+            compiler="{}_compiler".format, stdlib="{}_stdlib".format, mpi=None)
+        recipe = yaml.safe_load(made)
+        self.assertEqual(recipe["package"], {"name": "gfb", "version": VERSION})
+        self.assertEqual((PACKAGING/"conda"/recipe["source"]["path"]).resolve(), PROJECT.resolve())
+        self.assertIn("fortran_compiler", recipe["requirements"]["build"])
+        self.assertIn("hdf5 * mpi_openmpi_*", recipe["requirements"]["host"])
+        for name in re.findall(r"share/gfb/(inputs/\S+\.nml)", made):
+            self.assertTrue((PROJECT/name).exists(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
