@@ -85,12 +85,15 @@ contains
     call c_exit(int(status, c_int))
   end subroutine exit_with_status
 
-  !> Whether what is written goes to a terminal.
+  !> Whether what is written goes to a terminal. Under a launcher: no, as Open MPI gives
+  !> ranks a pseudo-terminal wherever the output goes.
   function is_terminal(unit)
     integer, intent(in) :: unit !! of the system: 1 output, 2 errors
     logical :: is_terminal
+    integer :: launched
 
-    is_terminal = c_isatty(int(unit, c_int)) == 1
+    call get_environment_variable('PMIX_RANK', length=launched)
+    is_terminal = c_isatty(int(unit, c_int)) == 1 .and. launched == 0
   end function is_terminal
 
   !> Largest memory this process has used [B].

@@ -19,10 +19,11 @@ module gfb_result_table
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
                                 load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
-                                origin = 512, sample = 1024
+                                origin = 512, sample = 1024, transient = 2048
   character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
     'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
-    'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`', '`&sample`']
+    'history of a strip', 'modes', '`&accuracy`', 'table of cases', &
+    '`/provenance`', '`&sample`', '`&transient`']
 
   !> A row of the table.
   type, public :: result_type
@@ -50,17 +51,13 @@ module gfb_result_table
     all_modes_found = 'all modes asked for were found', &
     all_members = 'all members have an answer', &
     seed_and_reason = 'seed of the member, and why it has no answer', &
-    of_this_step = 'of this step', &
-    of_all_steps = 'of all load steps', &
-    of_shifted_stiffness = 'of the shifted stiffness', &
-    of_whole_table = 'of the whole table', &
+    of_this_step = 'of this step', of_all_steps = 'of all load steps', &
+    of_shifted_stiffness = 'of the shifted stiffness', of_whole_table = 'of the whole table', &
     with_stretches = 'of ranks, each with a stretch of the sweep', &
-    travel_of_plate = 'travel of the plate', &
-    at_this_point = 'at this point', &
+    travel_of_plate = 'travel of the plate', at_this_point = 'at this point', &
     at_first_point = 'at the sweep''s first point', &
     at_fixed_equilibrium = 'in the equilibrium at which the shaft is held', &
-    load_kept = '; the load is kept', &
-    shaft_fixed = '; the shaft is held', &
+    load_kept = '; the load is kept', shaft_fixed = '; the shaft is held', &
     linearised_there = ', contact and friction linearised there'
   !> By the axis of the sweep.
   character(len=*), parameter, public :: over_tilt(2) = ['tilt_x = 0, over tilt_x', &
@@ -91,8 +88,7 @@ module gfb_result_table
       'with `turn_folds`: 1 in the rows where the parameter turns back'), &
     result_type('branch', '1', total, branch, 'number of the equilibrium', &
       'history: number of the equilibrium, by rising lift of the top foil'), &
-    result_type('branches', '1', total, branch, &
-      'equilibria found; those above are the first''s', &
+    result_type('branches', '1', total, branch, 'equilibria found; those above are the first''s', &
       'equilibria found; the rest of the summary is of the first one')]
 
   type(result_type), parameter :: bearings(*) = [ &
@@ -117,8 +113,7 @@ module gfb_result_table
     result_type('friction_torque', 'N m', number, bearing, &
       'torque with which {the film brakes} the shaft', &
       'torque with which the film, and solid contact, brake the shaft', asked=.true.), &
-    result_type('power_loss', 'W', number, bearing, 'friction torque times speed', &
-      asked=.true.), &
+    result_type('power_loss', 'W', number, bearing, 'friction torque times speed', asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
       asked=.true., compared=.true., nodal=.true.), &
     result_type('minimum_gap_<n>', 'm', number, bearing, 'smallest film thickness over pad n', &
@@ -159,6 +154,14 @@ module gfb_result_table
       'the same: share of `friction_torque`; at rest what the shaft must overcome to turn'), &
     result_type('maximum_solid_contact_pressure', 'Pa', number, bearing, &
       'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
+
+  type(result_type), parameter :: transients(*) = [ &
+    result_type('time', 's', number, transient, 'computed; what stands above is of its end'), &
+    result_type('turns', '1', number, transient, 'of the shaft in that time'), &
+    result_type('time_steps', '1', total, transient, 'that were taken'), &
+    result_type('orbit_<a>', 'm', number, transient, 'extent of e_<a> in the last turn'), &
+    result_type('minimum_gap_over_time', 'm', number, transient, 'smallest film of all steps'), &
+    result_type('ending', '', word, transient, 'why it ended before its time, where it did')]
 
   type(result_type), parameter :: tilts(*) = [ &
     result_type('angular_stiffness_<a><b>', 'N m/rad', number, tilting, &
@@ -390,6 +393,6 @@ module gfb_result_table
       'sweeps on several groups: how the groups'' stretches fit together')]
 
   type(result_type), parameter, public :: result_rows(*) = [ &
-    every_study, bearings, tilts, judgements, strips, vibrations, costs, sweeps, ensembles, &
-    origins]
+    every_study, bearings, transients, tilts, judgements, strips, vibrations, costs, sweeps, &
+    ensembles, origins]
 end module gfb_result_table

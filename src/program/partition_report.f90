@@ -8,7 +8,8 @@ module gfb_partition_report
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_film_mesh, only: axial_rows
   use gfb_model_case, only: foil_shell, reduction_guyan
-  use gfb_foil_builder, only: foil_plan_type, foil_chain
+  use gfb_foil_builder, only: foil_plan_type
+  use gfb_part_builder, only: foil_chain
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: divide_bearing, film_mesh_of
   implicit none (type, external)

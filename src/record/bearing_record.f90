@@ -12,6 +12,8 @@ module gfb_bearing_record
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type
+  use gfb_grid_series, only: grid_series_type
+  use gfb_series_memory, only: remember_series
   use gfb_row_memory, only: remember_rows
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: answer_quantities, add_counts
@@ -32,6 +34,7 @@ module gfb_bearing_record
     logical :: at_fold = .false. !! that answer is the end of a branch in a fold, before a limit
     type(tilt_response_type) :: tilted
     type(dynamics_record_type) :: dynamics !! stiffness, damping, rotor
+    type(grid_series_type) :: series !! film and foils at the points of a sweep
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
   end type bearing_record_type
 
@@ -79,6 +82,7 @@ contains
     name = 'fixed_position'
     if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
     if (scene%dynamics%present) name = 'linear_dynamics'
+    if (scene%transient%present) name = 'transient'
     if (scene%capacity%question > 0) name = trim(analysis_words(scene%capacity%question))
   end function analysis_name
 
@@ -123,6 +127,8 @@ contains
     call remember_response(memory, record%tilted)
     call memory%part('dynamics')
     call remember_dynamics(memory, record%dynamics)
+    call memory%part('series')
+    call remember_series(memory, record%series)
     elapsed = wall_time() - record%begun
     call memory%visit('elapsed', elapsed)
     if (memory%packs .or. memory%failed) return

@@ -15,6 +15,8 @@ module gfb_bearing_restart
   use gfb_arc, only: create_arc
   use gfb_arc_memory, only: remember_arc, resume_arc
   use gfb_fold_way, only: fold_way_type, remember_way
+  use gfb_grid_series, only: forget_numbers
+  use gfb_petsc_session, only: this_rank
   use gfb_result_file, only: result_file_type
   use gfb_stored_file, only: stored_file_type, close_stored_file
   use gfb_bearing_record, only: bearing_record_type, remember_record, sweep_name, sweep_unit
@@ -259,6 +261,7 @@ contains
     call remember_record(memory, record)
     call end_memory(memory, file)
     if (file%failed) return
+    if (this_rank() > 0) call forget_numbers(record%series)
     if (size(record%history) == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
     call read_contact_record(pad_contacts(bearing), bearing%pad(1)%foil%contacts%rows, size(record%history), &
                              '/record/contacts', file, record%contacts)

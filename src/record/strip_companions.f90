@@ -6,7 +6,8 @@ module gfb_strip_companions
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
-                                has_sizes, one_bump, solid_width
+                                has_sizes, one_bump, one_strip, solid_width, &
+                                strips_differ
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
@@ -35,8 +36,9 @@ contains
     real(wp), intent(in) :: force !! on all crests at the full load [N]
     type(companions_type) :: companions
     type(bump_foil_case_type), allocatable :: one(:)
-    real(wp) :: crest_force(scene%bump_foil%bumps)
-    integer :: bump
+    real(wp) :: crest_force(scene%bump_foil%bumps), soft(scene%bump_foil%bumps), &
+                exact(scene%bump_foil%bumps) !! forces, stiffnesses by two formulas [N], [N/m]
+    integer :: bump, strip
 
     associate (foil => scene%bump_foil)
       if (scene%strip_load%kind == load_plates) then
@@ -44,13 +46,20 @@ contains
       else
         crest_force = crest_forces(scene%strip_load, foil)
       end if
-      one = one_bump(foil, [(bump, bump=1, foil%bumps)])
+      soft = 0.0_wp
+      exact = 0.0_wp
+      do strip = 1, merge(foil%strips, 1, strips_differ(foil)) ! side by side, under one plate
+        one = one_bump(foil, [(bump, bump=1, foil%bumps)])
+        if (strips_differ(foil)) one = one_bump(one_strip(foil, strip), &
+                                                [(bump, bump=1, foil%bumps)])
+        soft = soft + bump_stiffness(one)*one%pitch*solid_width(one)
+        exact = exact + curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, &
+                                              one%thickness, one%half_length, one%height, &
+                                              solid_width(one), scene%contact%friction_sleeve)
+      end do
     end associate
-    companions%walowit_anno = crest_force/(bump_stiffness(one)*one%pitch*solid_width(one))
-    companions%curved_bump = crest_force/ &
-      curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, one%thickness, &
-                            one%half_length, one%height, solid_width(one), &
-                            scene%contact%friction_sleeve)
+    companions%walowit_anno = crest_force/soft
+    companions%curved_bump = crest_force/exact
     call solve_chain(scene, crest_force, companions)
   end function strip_companions
 
@@ -67,7 +76,7 @@ contains
     allocate (companions%chain(0))
     associate (foil => scene%bump_foil, contact => scene%contact)
       if (foil%bumps > longest_chain .or. scene%strip_load%kind == load_plates) return
-      if (has_sizes(foil)) return ! its bumps are alike
+      if (has_sizes(foil) .or. strips_differ(foil)) return ! its bumps are alike
       if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
       mirrored = foil%fixed_edge == fixed_edge_trailing
       chain = bump_chain_type(foil%half_length, foil%height, foil%thickness, foil%youngs_modulus, &

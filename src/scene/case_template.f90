@@ -140,6 +140,8 @@ contains
       groups = ' pads bore shaft_contact sweep rotor '
     case ('lift_off') ! which needs asperities
       groups = ' pads bore sweep accuracy sample '
+    case ('transient')
+      groups = ' pads bore shaft_contact '
     case ('load_capacity', 'misalignment_allowance')
       groups = ' pads bore shaft_contact sweep accuracy sample '
     case default
@@ -185,6 +187,8 @@ contains
     if (analysis == 'fixed_position') then
       words = words//'&operation speed_rpm=30000.0 eccentricity=30.0e-6, 9.0e-6 /'//next// &
               "&sweep parameter='eccentricity_x' values=30.0e-6, 29.0e-6, 28.0e-6 /"//next
+    else if (analysis == 'transient') then
+      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next
     else if (analysis == 'load_capacity') then
       words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
               "&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 /"//next
@@ -195,6 +199,9 @@ contains
     select case (analysis)
     case ('linear_dynamics')
       words = words//'&dynamics frequency_ratios=0.5, 1.0 /'//next//'&rotor mass=1.0 /'//next
+    case ('transient')
+      words = words//'&rotor mass=1.0 /'//next// &
+              '&transient turns=0.2 unbalance=2.0e-6 /'//next
     case ('load_capacity')
       words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
               "&accuracy quantity='load_capacity' /"//next
@@ -210,7 +217,9 @@ contains
               'tolerances=1.0e-6, 2.0e-7 /'//next// &
               "&accuracy quantity='minimum_gap' /"//next
     end select
-    if (analysis /= 'linear_dynamics') words = words//'&sample count=100 /'//next
+    if (all(analysis /= ['linear_dynamics', 'transient      '])) then
+      words = words//'&sample count=100 /'//next
+    end if
   end function bearing_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.

@@ -25,6 +25,7 @@ module gfb_plausible_values
     range_type('bearing', 'radius', 1.0e-3_wp, 0.5_wp, 'm', 'mm,um'), &
     range_type('bearing', 'length', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
     range_type('bearing', 'clearance', 1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('bearing', 'assembly_interference', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('bearing', 'leading_edge_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
     range_type('bore', 'wave_amplitude', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('bore', 'wave_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
@@ -45,6 +46,7 @@ module gfb_plausible_values
     range_type('operation', 'leading_edge_lift', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
     range_type('operation', 'leading_edge_lift_edge', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
     range_type('top_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('top_foil', 'free_radius', 1.0e-3_wp, 1.0e3_wp, 'm', 'mm,um'), &
     range_type('top_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
     range_type('top_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
     range_type('bump_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
@@ -53,12 +55,18 @@ module gfb_plausible_values
     range_type('bump_foil', 'half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'crest_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
+    range_type('bump_foil', 'corner_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('bump_foil', 'height_deviation', 1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('bump_foil', 'pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'bump_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'strip_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'strip_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'strip_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'strip_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
+    range_type('bump_foil', 'strip_offset', 0.0_wp, 5.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'cut_width', 1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um'), &
     range_type('bump_foil', 'width', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
     range_type('contact', 'friction_top', 0.0_wp, 2.0_wp, '1', '%'), &

@@ -49,6 +49,7 @@ contains
     associate (foil => scene%bump_foil)
       if (foil%bumps < 1 .or. .not. foil%height > 0.0_wp) return
       lowest = minval(bump_heights(foil))
+      if (allocated(foil%strip%height)) lowest = minval(foil%strip%height)
       if (.not. foil%random%deviation > 0.0_wp) return
       if (foil%random%seed > huge(0) - scene%sample%count) then
         call keys%complain('sample', 'count', 'leads to a seed that is too large')

@@ -2,12 +2,11 @@
 module gfb_scene
   use gfb_accuracy_case, only: accuracy_case_type
   use gfb_bearing_case, only: bearing_case_type
-  use gfb_bore_case, only: bore_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_capacity_case, only: capacity_case_type
   use gfb_contact_case, only: contact_case_type
   use gfb_dynamics_case, only: dynamics_case_type
-  use gfb_gas_case, only: gas_case_type
+  use gfb_film_cases, only: bore_case_type, gas_case_type
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type
   use gfb_modes_case, only: modes_case_type
@@ -22,6 +21,7 @@ module gfb_scene
   use gfb_strip_load_case, only: strip_load_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_top_foil_case, only: top_foil_case_type
+  use gfb_transient_case, only: transient_case_type
   implicit none (type, external)
   private
 
@@ -40,6 +40,7 @@ module gfb_scene
     type(sweep_case_type) :: sweep
     type(dynamics_case_type) :: dynamics
     type(rotor_case_type) :: rotor
+    type(transient_case_type) :: transient
     type(capacity_case_type) :: capacity
     type(sensitivity_case_type) :: sensitivity
     type(accuracy_case_type) :: accuracy

@@ -1,11 +1,12 @@
 !> All rules between the groups of a scene, called in one place.
 module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
+  use gfb_assembly_rules, only: check_assembly, check_crest_gaps, check_bump_sizes
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds
   use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
-  use gfb_crest_gap_rules, only: check_crest_gaps, check_bump_sizes
   use gfb_dynamics_case, only: check_dynamics
+  use gfb_own_strip_rules, only: check_own_strips
   use gfb_pads_rules, only: check_pads
   use gfb_foil_mass_case, only: check_foil_mass
   use gfb_plausible_values, only: check_plausible
@@ -18,6 +19,7 @@ module gfb_scene_checks
                              check_linear_solver
   use gfb_shaft_contact_case, only: check_shaft_contact
   use gfb_shape_rules, only: check_shape
+  use gfb_transient_rules, only: check_transient
   implicit none (type, external)
   private
   public :: check_groups
@@ -42,14 +44,16 @@ contains
                         scene%accuracy%present)
     call check_pads(keys, scene%bearing, scene%operation, scene%model)
     call check_foil_mass(keys, scene%dynamics, scene%model, scene%top_foil, scene%bump_foil)
-    call check_rotor(keys, scene%rotor, scene%operation, scene%sweep)
+    call check_rotor(keys, scene%rotor, scene%operation, scene%sweep, scene%dynamics%present)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
                      scene%model)
     call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
                              scene%general%analysis)
     call check_crest_gaps(keys, scene)
     call check_bump_sizes(keys, scene)
+    call check_own_strips(keys, scene)
     call check_plates(keys, scene%strip_load, scene%general%analysis)
+    call check_assembly(keys, scene)
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
@@ -60,6 +64,8 @@ contains
     call check_capacity(keys, scene%capacity, scene%operation, scene%model, scene%solver, &
                         scene%sweep, scene%accuracy, scene%shaft_contact%present)
     call check_sample(keys, scene)
+    call check_transient(keys, scene%transient, scene%operation, scene%rotor, scene%model, &
+                         scene%general%analysis)
     call check_shape(keys, scene)
     call check_plausible(keys, scene)
   end subroutine check_groups

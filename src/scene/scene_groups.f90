@@ -21,6 +21,7 @@ module gfb_scene_groups
   use gfb_solver_case, only: read_solver_case
   use gfb_study_groups, only: read_study_groups
   use gfb_sweep_case, only: read_sweep_case
+  use gfb_transient_case, only: read_transient_case
   implicit none (type, external)
   private
   public :: read_groups
@@ -58,6 +59,7 @@ contains
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, analysis)
+      call read_transient_case(keys, scene%transient, scene%operation, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis == analysis_misalignment
       call read_sweep_case(keys, scene%sweep, analysis)

@@ -133,6 +133,7 @@ contains
     there%bore = changed%bore
     there%dynamics = changed%dynamics
     there%rotor = changed%rotor
+    there%transient = changed%transient
     there%capacity = changed%capacity
     there%gas = changed%gas
     there%operation = changed%operation

@@ -2,7 +2,7 @@
 module gfb_shape_rules
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type, has_sizes, bump_half_lengths, &
-                                bump_thicknesses
+                                bump_thicknesses, strips_differ
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
   use gfb_scene, only: scene_type
@@ -12,9 +12,9 @@ module gfb_shape_rules
   private
   public :: check_shape
 
-  real(wp), parameter :: thin = 0.05_wp         !! film or foil, over the radius [1]
-  real(wp), parameter :: thin_in_bump = 0.5_wp  !! foil, over half a bump's chord [1]
-  real(wp), parameter :: low_in_pad = 0.25_wp   !! bump, over the radius of what it lies on [1]
+  real(wp), parameter, public :: thin = 0.05_wp         !! film or foil, over the radius [1]
+  real(wp), parameter, public :: thin_in_bump = 0.5_wp  !! foil, over half a bump's chord [1]
+  real(wp), parameter, public :: low_in_pad = 0.25_wp   !! bump, over the radius of the pad [1]
 
   character(len=*), parameter :: thin_film = ' of the radius: the film is thin and the pad unrolled'
 
@@ -47,6 +47,7 @@ contains
     character(len=*), parameter :: group = 'bump_foil'
     character(len=:), allocatable :: key
 
+    if (strips_differ(foil)) return ! see the rules of strips with sizes of their own
     if (has_sizes(foil) .and. foil%half_length > 0.0_wp) then
       call check_thicknesses(keys, foil, thin*radius)
     else if (foil%half_length > 0.0_wp .and. foil%thickness >= thin_in_bump*foil%half_length) then

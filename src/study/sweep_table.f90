@@ -19,6 +19,7 @@ module gfb_sweep_table
     character(len=26) :: name !! of the result
     character(len=16) :: head !! with the unit of the table
     real(wp) :: scale         !! table's number over SI number [1]
+    character(len=16) :: beside = '' !! the vector's other component: its size tells rounding
   end type column_type
 
   type(column_type), parameter :: columns(*) = [ &
@@ -27,14 +28,14 @@ module gfb_sweep_table
     column_type('lift_off_speed_rpm', 'lift-off [rpm]', 1.0_wp), &
     column_type('misalignment_allowance', 'tilt [mrad]', 1.0e3_wp), &
     column_type('limit_reached', 'at the limit', 1.0_wp), &
-    column_type('eccentricity_x', 'e_x [um]', 1.0e6_wp), &
-    column_type('eccentricity_y', 'e_y [um]', 1.0e6_wp), &
+    column_type('eccentricity_x', 'e_x [um]', 1.0e6_wp, 'eccentricity_y'), &
+    column_type('eccentricity_y', 'e_y [um]', 1.0e6_wp, 'eccentricity_x'), &
     column_type('attitude_angle', 'attitude [deg]', 1.0_wp), &
     column_type('minimum_gap', 'film [um]', 1.0e6_wp), &
-    column_type('force_x', 'force_x [N]', 1.0_wp), &
-    column_type('force_y', 'force_y [N]', 1.0_wp), &
-    column_type('torque_x', 'torque_x [N m]', 1.0_wp), &
-    column_type('torque_y', 'torque_y [N m]', 1.0_wp), &
+    column_type('force_x', 'force_x [N]', 1.0_wp, 'force_y'), &
+    column_type('force_y', 'force_y [N]', 1.0_wp, 'force_x'), &
+    column_type('torque_x', 'torque_x [N m]', 1.0_wp, 'torque_y'), &
+    column_type('torque_y', 'torque_y [N m]', 1.0_wp, 'torque_x'), &
     column_type('friction_torque', 'friction [N m]', 1.0_wp), &
     column_type('critical_mass', 'crit. mass [kg]', 1.0_wp), &
     column_type('growth_rate', 'growth [1/s]', 1.0_wp), &
@@ -58,7 +59,7 @@ contains
     do i = 1, size(columns)
       if (columns(i)%name == column_name(scene) .or. many == widest) cycle
       numbers(:, many + 1) = columns(i)%scale*history_values(history, trim(columns(i)%name))
-      if (.not. changes(numbers(:, many + 1))) cycle
+      if (.not. changes(numbers(:, many + 1), size_beside(columns(i), history))) cycle
       many = many + 1
       line = line//'  '//adjustr(columns(i)%head)
     end do
@@ -114,13 +115,25 @@ contains
     if (scene%sweep%parameter /= sweep_keys) name = sweep_name(scene%sweep)
   end function column_name
 
+  !> Largest of the vector's other component, in the table's unit; zero where there is none.
+  function size_beside(column, history) result(largest)
+    type(column_type), intent(in) :: column !! of the table
+    type(history_row_type), intent(in) :: history(:) !! points of the sweep
+    real(wp) :: largest
+
+    largest = 0.0_wp
+    if (column%beside == '') return
+    largest = column%scale*maxval(abs(history_values(history, trim(column%beside))))
+  end function size_beside
+
   !> Whether numbers are there and not all the same but for rounding.
-  pure function changes(numbers)
+  pure function changes(numbers, beside)
     real(wp), intent(in) :: numbers(:)
+    real(wp), intent(in) :: beside !! size of what they are rounded beside
     logical :: changes
     real(wp), parameter :: rounding = 1.0e-9_wp
 
-    changes = maxval(numbers) - minval(numbers) > rounding*maxval(abs(numbers))
+    changes = maxval(numbers) - minval(numbers) > rounding*max(maxval(abs(numbers)), beside)
   end function changes
 
   !> A number at the right end of a field; blank where there is none.

@@ -15,7 +15,7 @@ from gfb.run import ENVIRONMENT, case_text  # noqa: E402
 
 SECONDS = 120
 TEXT = case_text(CASE)
-LONGEST = 255 - len(".unconverged.bump_foil.vtkhdf")
+LONGEST = 255 - len(".unconverged.bump_foil.steps.vtkhdf")
 
 
 def call(folder, *words, ranks=1, text=None):

@@ -155,6 +155,9 @@ def check_colours(checks, folder):
         checks.that(f"on a terminal, {environment}: colours {coloured}", (b"\x1b[1manswer\x1b[0m" in words) == coloured
                     and b"answer" in words)
     checks.that("no terminal: no colours", "\x1b" not in call("good.nml", folder=folder)[1])
+    launched = subprocess.run([os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", "1", GFB, "good.nml"], cwd=folder, capture_output=True,
+                              stdin=subprocess.DEVNULL, text=True, check=True, timeout=SECONDS).stdout
+    checks.that("under mpiexec into a file: no colours", "\x1b" not in launched and "answer" in launched)
 
 
 def check_warnings(checks, folder):

@@ -53,6 +53,8 @@ def main():
         check_table(checks, loads, 3)
         checks.that("the log has a line a point", re.search(r"^points of the sweep\n-+\n +load \[N\] .*film \[um\].*\n +20 .*\n +30 .*\n +40 ",
                                                             loads.log, re.M))
+        head = re.search(r"^ +load \[N\] .*$", loads.log, re.M)[0]  # the load is along x or y: its other component is rounding
+        checks.that("no force that is rounding alone", ("force_x" in head) != ("force_y" in head))
         checks.that("the answer names its point", "point            3 of 3: load = 40 N\n" in loads.log)
         keys = sweep(folder, "keys", KEYS)
         check_table(checks, keys, 2)

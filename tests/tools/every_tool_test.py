@@ -55,6 +55,7 @@ CALLS = (  # tool, file, further words
     (plot_main.main, "rotor.h5", ("minimum_gap", "--together")), (plot_main.main, "rotor.h5", ("--show", "dynamics")),
     (plot_main.main, "rotor.h5", ("--show", "campbell")), (plot_main.main, "rotor.h5", ("--show", "contact", "--step", "2")),
     (plot_main.main, "rotor.film.vtkhdf", ()), (plot_main.main, "rotor.top_foil.vtkhdf", ()),
+    (plot_main.main, "rotor.film.steps.vtkhdf", ("--step", "1")),
     (plot_main.main, "rotor.bump_foil.vtkhdf", ()), (plot_main.main, "strip.h5", ("--show", "loop")),
     (plot_main.main, "strip.h5", ("--show", "bumps")), (plot_main.main, "strip.h5", ("--show", "contact")),
     (plot_main.main, "modes.bump_foil.vtkhdf", ("mode_1",)),

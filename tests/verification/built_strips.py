@@ -6,7 +6,7 @@ import tempfile
 import numpy
 
 from gfb_run import Checks, largest_difference
-from strips import FOIL, HELD, MICROMETRE, crests, solve
+from strips import FOIL, HELD, MICROMETRE, crests, fields, solve
 
 SMALL = {"arc_elements": 8, "flat_elements": 2, "axial_elements": 4}
 GAP = numpy.array([5.0, 2.0, 8.5])*MICROMETRE
@@ -64,6 +64,36 @@ def check_kinks(checks, folder):
             checks.below(f"{words}crest {bump + 1} is not passed", min(0.0, room.min())/MICROMETRE, 1.0e-2)
 
 
+def check_corners(checks, folder):
+    """Corners off the sleeve: under the plate bump after bump comes down by its gap, and rests there."""
+    gaps = numpy.array([4.0, 2.0, 3.0])*MICROMETRE
+    load = {"kind": "plates", "maximum_displacement": 20*MICROMETRE, "steps_up": 40, "steps_down": 0}
+
+    def press(name, **more):
+        return solve(folder, name, bump_foil={"bumps": 3, **more}, mesh=SMALL, strip_load=load)
+
+    touching = press("rest")
+    zero = press("zero", corner_gap=[0.0])
+    checks.that("corner gaps of nothing: the answer to the last digit",
+                (zero.history()["force"] == touching.history()["force"]).all())
+    answer = press("corners", corner_gap=list(gaps))
+    slopes = []
+    for one in (answer, touching):
+        rows = one.history()
+        slopes.append(numpy.diff(rows["force"], prepend=0.0)/numpy.diff(rows["plate_travel"], prepend=0.0))
+    checks.that("corner gaps: slopes never fall", (numpy.diff(slopes[0]) > -1.0e-6*slopes[1][0]).all())
+    checks.that("hardly a force before the smallest gap", slopes[0][0] < 0.1*slopes[1][-1])
+    checks.below("all bumps down: the slope of the strip that rests on all", slopes[0][-1]/slopes[1][-1] - 1.0, 1.0e-6)
+    found = fields(answer)
+    start = 0.0
+    for bump, gap in enumerate(gaps):
+        corners = (start, start + 2.0*FOIL["half_length"])[0 if bump else 1:]  # the first line of all is clamped
+        at = numpy.array([abs(found["points"][:, 0] - x) < 1.0e-9 for x in corners]).any(axis=0)
+        moved = found["displacement"][at, 1]
+        checks.below(f"bump {bump + 1}: its corners have come down by their gap", numpy.abs(moved + gap).max()/gap, 1.0e-2)
+        start += FOIL["pitch"]
+
+
 def check_random(checks, folder):
     """The same seed gives the same strip; far beyond the deviations, stiffness is that without."""
     height = {"height_deviation": 0.5*MICROMETRE, "seed": 3}
@@ -83,6 +113,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_shift(checks, folder)
         check_kinks(checks, folder)
+        check_corners(checks, folder)
         check_random(checks, folder)
     checks.close()
 

@@ -22,7 +22,7 @@ from shell_bearing import BEARING, BUMPS, SHEET, SIZES, SPEED
 
 SEED = 20201
 KILLS = 3
-PARTS = ("film", "top_foil", "bump_foil")
+PARTS = tuple(f"{part}{kind}" for part in ("film", "top_foil", "bump_foil") for kind in ("", ".steps"))
 FRICTION = {"friction_top": 0.1, "friction_sleeve": 0.1, "normal_stiffness": 5.0e10, "stick_length": 1.0e-7}
 MESH = {"circumferential_elements": 104, "axial_elements": 4}
 FOIL_MESH = {"arc_elements": 4, "flat_elements": 2}

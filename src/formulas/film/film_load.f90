@@ -2,7 +2,7 @@
 module gfb_film_load
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
-  use gfb_reynolds_element, only: film_flow_type
+  use gfb_film_flow, only: film_flow_type
   use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private

@@ -5,12 +5,11 @@ module gfb_general_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
-  use gfb_reynolds_element, only: film_flow_type, cell_peclet, upwind_weight, &
-                                  upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, cell_peclet, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
   public :: film_flow_type, general_residual, general_jacobian, general_friction, general_peclet, &
-            reynolds_number
+            peclet_slopes, reynolds_number
 
   !> A function of pressure and gap with its first and second derivatives.
   type :: jet_type
@@ -221,6 +220,29 @@ contains
     jet = peclet_jet(here, flow, stream_length)
     peclet = jet%f
   end function general_peclet
+
+  !> That number and its derivatives by pressure and gap.
+  pure function peclet_slopes(law, flow, stream_length, pressure, gap) result(slopes)
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(film_flow_type), intent(in) :: flow !! viscosity and speed of the film
+    real(wp), intent(in) :: stream_length !! l, the element's length along x [m]
+    real(wp), intent(in) :: pressure      !! p [Pa]
+    real(wp), intent(in) :: gap           !! h [m]
+    real(wp) :: slopes(3)                 !! [1], [1/Pa], [1/m]
+    type(point_type) :: here
+    type(jet_type) :: jet
+
+    if (law%plain) then
+      slopes(1) = cell_peclet(flow, stream_length, pressure, gap)
+      slopes(2:) = -slopes(1)*[1.0_wp/pressure, 2.0_wp/gap]
+      return
+    end if
+    here%p = pressure
+    here%h = gap
+    call put_gas(law, flow, here)
+    jet = peclet_jet(here, flow, stream_length)
+    slopes = [jet%f, jet%p, jet%h]
+  end function peclet_slopes
 
   !> Reynolds number of the film, \( Re = 2 \rho U h/\mu \).
   pure function reynolds_number(flow, law, gas, gap) result(number)

@@ -18,6 +18,7 @@ module gfb_shaft_motion
 
   integer, parameter, public :: shaft_coordinates = 4 !! e_x, e_y [m], phi_x, phi_y [rad]
   integer, parameter, public :: shaft_unknowns = 2    !! of them, those that a load moves: e_x, e_y
+  integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns: a number of none
 
 contains
 

@@ -10,15 +10,20 @@
 !> the second part of \( w_a \) with upwinding (SUPG) only: it weights the rate as it weights the
 !> rest of the strong residual, or both were not consistent. About a steady state the weights are
 !> that state's, because the rate that their own change would weight is zero there.
+!>
+!> Over a step of time the rate is a difference of products, \( \frac{d}{dt}(r h) \approx
+!> a_0 \, r h + \) what earlier products add (`gfb_backward_difference`): the gas is then kept to
+!> round-off, because the weights of an element add up to one.
 module gfb_squeeze_term
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_gas_law, only: gas_law_type, gas_density
-  use gfb_general_film, only: general_peclet
-  use gfb_reynolds_element, only: film_flow_type, upwind_weight
+  use gfb_general_film, only: general_peclet, peclet_slopes
+  use gfb_film_flow, only: film_flow_type, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
-  public :: squeeze_weights, squeeze_content, squeeze_jacobian
+  public :: squeeze_weights, squeeze_content, squeeze_jacobian, stored_gas, storage_residual, &
+            storage_jacobian
 
 contains
 
@@ -100,4 +105,88 @@ contains
       end associate
     end do
   end subroutine squeeze_jacobian
+
+  !> The product r h at the Gauss points.
+  pure function stored_gas(law, pressure, gap, excess) result(stored)
+    type(gas_law_type), intent(in) :: law !! of the gas
+    real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! film thickness at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp) :: stored(size(pressure))  !! (points) [Pa m]
+    real(wp) :: shapes(size(pressure), size(pressure)), r, r_p, r_pp
+    integer :: point
+
+    shapes = film_shapes(size(pressure))
+    do point = 1, size(stored)
+      associate (shape => shapes(:, point))
+        call gas_density(law, dot_product(shape, pressure), r, r_p, r_pp)
+        stored(point) = r*(dot_product(shape, gap) + excess(point))
+      end associate
+    end do
+  end function stored_gas
+
+  !> What a step of time adds to an element's residual.
+  !>
+  !> $$ r_a = \int_{\Omega^e} w_a \, (a_0 \, r h + s) \, d\Omega $$
+  pure function storage_residual(geometry, flow, law, pressure, gap, excess, factor, past) &
+    result(residual)
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
+    type(gas_law_type), intent(in) :: law !! of the gas
+    real(wp), intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)       !! film thickness at the nodes [m]
+    real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
+    real(wp), intent(in) :: factor       !! a_0 [1/s]
+    real(wp), intent(in) :: past(:)      !! s, what earlier products add (points) [Pa m/s]
+    real(wp) :: residual(size(pressure)) !! one a node [Pa m3/s]
+    real(wp) :: rate(size(pressure)), weight(size(pressure), size(pressure))
+
+    rate = factor*stored_gas(law, pressure, gap, excess) + past
+    weight = squeeze_weights(geometry, flow, law, pressure, gap, excess)
+    residual = matmul(weight, geometry%area(:size(rate))*rate)
+  end function storage_residual
+
+  !> Adds the exact derivatives of `storage_residual` by the nodal pressures and gaps, and by the
+  !> excess; the weights change with the state.
+  pure subroutine storage_jacobian(geometry, flow, law, pressure, gap, excess, factor, past, &
+                                   by_pressure, by_gap, by_excess)
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
+    type(gas_law_type), intent(in) :: law !! of the gas
+    real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! film thickness at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp), intent(in) :: factor      !! a_0 [1/s]
+    real(wp), intent(in) :: past(:)     !! s, what earlier products add (points) [Pa m/s]
+    real(wp), intent(inout) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
+    real(wp), intent(inout) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
+    real(wp), intent(inout) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
+    real(wp) :: weight(size(gap), size(gap)), shapes(size(gap), size(gap))
+    real(wp), dimension(size(gap), size(gap)) :: more_by_p, more_by_h, more_by_e
+    real(wp) :: rate(size(gap)), slope, peclet(3), turned(size(gap))
+    integer :: point, b
+
+    weight = squeeze_weights(geometry, flow, law, pressure, gap, excess)
+    call squeeze_jacobian(geometry, law, weight, pressure, gap, excess, more_by_p, more_by_h, &
+                          more_by_e)
+    by_pressure = by_pressure + factor*more_by_p
+    by_gap = by_gap + factor*more_by_h
+    by_excess = by_excess + factor*more_by_e
+    if (.not. flow%upwind) return
+    shapes = film_shapes(size(gap))
+    rate = factor*stored_gas(law, pressure, gap, excess) + past
+    do point = 1, size(gap)
+      associate (shape => shapes(:, point), length => geometry%stream_length(point))
+        peclet = peclet_slopes(law, flow, length, dot_product(shape, pressure), &
+                               dot_product(shape, gap) + excess(point))
+        slope = 0.5_wp*length*upwind_weight_derivative(peclet(1))*geometry%area(point)*rate(point)
+        turned = slope*geometry%gradient(1, :, point)
+        by_excess(:, point) = by_excess(:, point) + peclet(3)*turned
+        do b = 1, size(gap)
+          by_pressure(:, b) = by_pressure(:, b) + peclet(2)*shape(b)*turned
+          by_gap(:, b) = by_gap(:, b) + peclet(3)*shape(b)*turned
+        end do
+      end associate
+    end do
+  end subroutine storage_jacobian
 end module gfb_squeeze_term

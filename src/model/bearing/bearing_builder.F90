@@ -128,6 +128,7 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call put_bore(pad%film, scene%bore%profile)
+        pad%film%interference = scene%bearing%interference
         pad%film%law = scene%gas%law
         pad%contact = asperities_of(scene)
       end associate

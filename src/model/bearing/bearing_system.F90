@@ -8,12 +8,12 @@ module gfb_bearing_system
   use gfb_petsc_session, only: sum_over_ranks, any_rank
   use gfb_film_mesh, only: film_mesh_type
   use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: shaft_unknowns
+  use gfb_shaft_motion, only: shaft_unknowns, no_shaft
   use gfb_foil_model, only: foil_model_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_matrix, only: no_shaft, add_shaft_stiffness
+  use gfb_film_matrix, only: add_shaft_stiffness
   use gfb_pad, only: pad_place_type, create_pad_film, complete_pad, place_pads
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   use gfb_pad_matrix, only: fill_pad_constant, fill_pad
@@ -33,6 +33,7 @@ module gfb_bearing_system
     procedure :: linearise => linearise_bearing
     procedure :: evaluate_at
     procedure :: linearise_at
+    procedure :: is_open_at
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
@@ -150,13 +151,13 @@ contains
     number = merge(bearing%pad(i)%last - bearing%pad(i)%first, no_shaft, bearing%floats)
   end function shaft_number
 
-  !> Force over displacement that keeps a fixed shaft at its position, 0 where it floats [N/m].
+  !> Force over displacement that keeps a fixed shaft at its position; of one that floats that of its inertia [N/m].
   pure function hold_stiffness(bearing, point, fixed) result(stiffness)
     class(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point !! whose load counts
     logical, intent(in) :: fixed                     !! the shaft is fixed
     real(wp) :: stiffness
-    stiffness = merge(bearing%force_scale(point)/bearing%pad(1)%film%clearance, 0.0_wp, fixed)
+    stiffness = merge(bearing%force_scale(point)/bearing%pad(1)%film%clearance, -point%inertia, fixed)
   end function hold_stiffness
 
   !> Residual of all equations at the present operating point.
@@ -203,6 +204,13 @@ contains
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
 
+  !> Whether gap and pressure are positive on all ranks.
+  logical function is_open_at(self, unknown)
+    class(bearing_system_type), intent(in) :: self !! the bearing's equations
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    is_open_at = .not. any_rank(.not. is_open(self, self%position(unknown), unknown, self%gap(unknown)))
+  end function is_open_at
+
   !> Whether gap and pressure are positive on this rank.
   function is_open(bearing, point, unknown, gap) result(open)
     class(bearing_system_type), intent(in) :: bearing
@@ -240,7 +248,10 @@ contains
     end if
     force = bearing%local_force(unknown, gap)
     value = force(:shaft_unknowns)
-    if (bearing%last_rank) value = value - point%load
+    if (bearing%last_rank) then
+      value = value - point%load
+      if (point%inertia > 0.0_wp) value = value - point%inertia*(unknown(bearing%first_shaft + 1:) - point%eccentricity)
+    end if
   end subroutine add_shaft_residual
 
   !> Derivative of all equations at the present operating point.
@@ -278,9 +289,7 @@ contains
       end associate
     end do
     call number_by(self, 0, self%jacobian)
-    if (self%floats .and. self%last_rank) then
-      call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
-    end if
+    if (self%floats .and. self%last_rank) call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)

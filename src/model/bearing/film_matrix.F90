@@ -7,12 +7,10 @@ module gfb_film_matrix
   use gfb_gas_film, only: gas_film_type
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_shaft_motion, only: shaft_unknowns
+  use gfb_shaft_motion, only: shaft_unknowns, no_shaft
   implicit none (type)
   private
   public :: add_film_rows, add_shaft_weights, add_shaft_stiffness, make_film_room, element_columns, add_block
-
-  integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns
 
 contains
 

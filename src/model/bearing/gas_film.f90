@@ -10,7 +10,9 @@ module gfb_gas_film
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type
   use gfb_general_film, only: general_residual, general_jacobian
-  use gfb_reynolds_element, only: film_flow_type, reynolds_residual, reynolds_jacobian
+  use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
+  use gfb_film_flow, only: film_flow_type
+  use gfb_reynolds_element, only: reynolds_residual, reynolds_jacobian
   use gfb_film_mesh, only: film_mesh_type, gather_elements
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
@@ -25,6 +27,7 @@ module gfb_gas_film
     type(gas_law_type) :: law             !! of the gas
     real(wp) :: radius = 0.0_wp           !! of the bearing [m]
     real(wp) :: clearance = 0.0_wp        !! C [m]
+    real(wp) :: interference = 0.0_wp     !! of foil and shaft, less of the gap all around [m]
     real(wp) :: shift(2) = 0.0_wp         !! of the pad's centre, adds to the eccentricity [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
@@ -46,6 +49,9 @@ module gfb_gas_film
     real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
     real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
+    real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
+    !> (points, elements) what earlier r h add to its rate over a step of time [Pa m/s]
+    real(wp), allocatable :: past(:, :)
   contains
     procedure :: flow_at
     procedure :: cell_flow
@@ -54,9 +60,11 @@ module gfb_gas_film
     procedure :: excess => film_excess
     procedure :: is_open
     procedure :: add_residual => film_residual
+    procedure :: add_flows => film_flows
     procedure :: element_jacobian => film_element_jacobian
     procedure :: add_shaft_column => film_shaft_column
     procedure :: force => film_node_force
+    procedure :: stored => film_stored
   end type gas_film_type
 
 contains
@@ -198,8 +206,8 @@ contains
     real(wp) :: gap(size(deflection)), eccentricity(2)
 
     eccentricity = point%eccentricity + self%shift
-    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance, eccentricity(1), &
-                                 eccentricity(2), point%tilt(1), point%tilt(2))
+    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance - self%interference, &
+                                 eccentricity(1), eccentricity(2), point%tilt(1), point%tilt(2))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
@@ -257,6 +265,18 @@ contains
     real(wp), intent(in) :: gap(:)         !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(inout) :: residual(:) !! at the nodes [Pa m3/s]
+
+    call self%add_flows(pressure, gap, point, residual)
+    where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
+  end subroutine film_residual
+
+  !> Adds what this rank's elements take from the nodes: at those of given pressure, what flows in.
+  pure subroutine film_flows(self, pressure, gap, point, flows)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point !! operating point
+    real(wp), intent(inout) :: flows(:) !! at the nodes [Pa m3/s]
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess, share
     type(film_flow_type) :: flow
@@ -265,22 +285,23 @@ contains
     n = size(self%shape, 1)
     flow = self%flow_at(point)
     do element = 1, size(self%element_nodes, 2)
-      associate (nodes => self%element_nodes(:, element))
+      associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
         p(:n) = pressure(nodes)
         h(:n) = gap(nodes)
         excess = self%excess(element, point)
         if (self%law%plain) then
-          call reynolds_residual(self%geometry(element), flow, p(:n), h(:n), excess(:n), &
-                                 no_source(:n), share(:n))
+          call reynolds_residual(geometry, flow, p(:n), h(:n), excess(:n), no_source(:n), share(:n))
         else
-          call general_residual(self%geometry(element), flow, self%law, p(:n), h(:n), excess(:n), &
-                                share(:n))
+          call general_residual(geometry, flow, self%law, p(:n), h(:n), excess(:n), share(:n))
         end if
-        residual(nodes) = residual(nodes) + share(:n)
+        if (allocated(self%past)) then
+          share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
+                                                   excess(:n), self%storage, self%past(:, element))
+        end if
+        flows(nodes) = flows(nodes) + share(:n)
       end associate
     end do
-    where (self%fixed) residual(:size(self%fixed)) = 0.0_wp
-  end subroutine film_residual
+  end subroutine film_flows
 
   !> Derivatives of one element's equations by nodal pressures and deflections, and by the first of
   !> the shaft's coordinates, as many as there is room for.
@@ -310,6 +331,11 @@ contains
       else
         call general_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), &
                               h(:n), excess(:n), by_pressure, by_gap, by_excess)
+      end if
+      if (allocated(self%past)) then
+        call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &
+                              excess(:n), self%storage, self%past(:, element), by_pressure, &
+                              by_gap, by_excess)
       end if
       by_shaft = 0.0_wp
       do i = 1, n
@@ -342,6 +368,26 @@ contains
     where (self%fixed) column(:size(self%fixed)) = 0.0_wp
   end subroutine film_shaft_column
 
+  !> The gas over the Gauss points of this rank's elements, r h.
+  pure function film_stored(self, pressure, gap, point) result(stored)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    type(operating_point_type), intent(in) :: point !! operating point
+    !> (points, elements) [Pa m]
+    real(wp) :: stored(size(self%shape, 2), size(self%element_nodes, 2))
+    real(wp) :: excess(most_film_nodes)
+    integer :: element
+
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodes => self%element_nodes(:, element))
+        excess = self%excess(element, point)
+        stored(:, element) = stored_gas(self%law, pressure(nodes), gap(nodes), &
+                                        excess(:size(self%shape, 2)))
+      end associate
+    end do
+  end function film_stored
+
   !> This rank's share of force and torque of the whole bearing [N], [N m].
   pure function film_node_force(self, pressure) result(force)
     class(gas_film_type), intent(in) :: self !! this rank's film
@@ -350,5 +396,4 @@ contains
 
     force = matmul(self%force_weight, pressure - self%ambient_pressure)
   end function film_node_force
-
 end module gfb_gas_film

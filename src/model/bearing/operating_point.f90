@@ -11,8 +11,11 @@ module gfb_operating_point
   type, public :: operating_point_type
     real(wp) :: speed = 0.0_wp           !! of the shaft, in +theta [rad/s]
     real(wp) :: load(2) = 0.0_wp         !! external force on the shaft, where it floats [N]
-    real(wp) :: eccentricity(2) = 0.0_wp !! of the sleeve relative to the shaft, where fixed [m]
+    !> Of the sleeve relative to the shaft, where it is fixed; over a step of time, where a shaft
+    !> that floats would be without forces [m].
+    real(wp) :: eccentricity(2) = 0.0_wp
     real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
+    real(wp) :: inertia = 0.0_wp         !! of a shaft that floats, over a step of time [N/m]
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold = 0.0_wp       !! fictitious, keeps that edge at a height [N/m]
@@ -50,6 +53,7 @@ contains
     call memory%visit('load', point%load)
     call memory%visit('eccentricity', point%eccentricity)
     call memory%visit('tilt', point%tilt)
+    call memory%visit('inertia', point%inertia)
     call memory%visit('edge_pull', point%edge_pull)
     call memory%visit('edge_tension', point%edge_tension)
     call memory%visit('edge_hold', point%edge_hold)

@@ -10,8 +10,7 @@ module gfb_solid_rows
   use gfb_gas_film, only: gas_film_type
   use gfb_solid_contact, only: solid_contact_type, contact_pressure_rate
   use gfb_foil_model, only: foil_model_type
-  use gfb_film_matrix, only: no_shaft
-  use gfb_shaft_motion, only: shaft_unknowns
+  use gfb_shaft_motion, only: shaft_unknowns, no_shaft
   implicit none (type)
   private
   public :: add_solid_rows

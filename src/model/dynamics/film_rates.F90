@@ -12,7 +12,8 @@ module gfb_film_rates
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   use gfb_squeeze_term, only: squeeze_weights, squeeze_jacobian
-  use gfb_film_matrix, only: no_shaft, element_columns, add_block
+  use gfb_film_matrix, only: element_columns, add_block
+  use gfb_shaft_motion, only: no_shaft
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type, number_by

@@ -9,7 +9,7 @@ module gfb_beam_foil_builder
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: fixed_edge_trailing, gap_of_crest
+  use gfb_bump_foil_case, only: fixed_edge_trailing, gap_of_crest, gap_of_corner
   use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
@@ -24,6 +24,7 @@ module gfb_beam_foil_builder
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of, strip_on_pad
   use gfb_foil_surface, only: foil_surface_type
   use gfb_top_mesh, only: top_mesh
+  use gfb_initial_moment, only: add_initial_moment
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_beam_foil, only: beam_foil_type, component => of_beam
   implicit none (type)
@@ -69,6 +70,7 @@ contains
     call create_stiffness(foil)
     call place_unknowns(foil, merge(0, unknowns, mine), &
                         [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
+    call add_initial_moment(scene%top_foil, film, foil)
     call add_pressure(film, mesh, element_nodes, &
                       scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
     call size_unknowns(scene, film, turning(foil), foil)
@@ -197,7 +199,8 @@ contains
     associate (mesh => foil%bumps%mesh)
       line = node_set(mesh, 'corners')
       do i = 1, size(line)/mesh%rows
-        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp, 0.0_wp)
+        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp, &
+                      gap_of_corner(scene%bump_foil, i))
       end do
       do bump = 1, scene%bump_foil%bumps
         line = node_set(mesh, crest_name(bump))

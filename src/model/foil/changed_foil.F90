@@ -11,15 +11,14 @@ module gfb_changed_foil
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: gap_of_crest
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, strip_at
   use gfb_mesh_dm, only: columns_window
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
-  use gfb_foil_mesh, only: bump_strip_mesh
-  use gfb_foil_builder, only: shape_on_pad, section_of, plate_section
+  use gfb_foil_builder, only: strip_on_pad, section_of, plate_section
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: condense_piece, element_geometry
+  use gfb_foil_pieces, only: condense_piece, element_geometry, element_section
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
   use gfb_super_element, only: super_element_type, destroy_super_element
   use gfb_bump_contacts, only: contact_top
@@ -60,7 +59,9 @@ contains
       call set_laws(scene, foil)
       do i = 1, size(foil%contacts%point)
         associate (point => foil%contacts%point(i))
-          if (point%law == contact_top) point%gap = gap_of_crest(scene%bump_foil, point%line)
+          if (point%law == contact_top) then
+            point%gap = gap_of_crest(scene%bump_foil, point%line, strip_at(foil%bumps%mesh, point%node))
+          end if
         end associate
       end do
       call foil%contacts%linearise_again()
@@ -89,8 +90,7 @@ contains
       PetscCallA(GFB_VecRestoreArray(foil%state, values, ierr))
       PetscCallA(VecSet(foil%force, 0.0_wp, ierr))
       if (of_bumps) then
-        mesh = bump_strip_mesh(shape_on_pad(scene), film%row_axial, film%half, &
-                               columns_window(foil%bumps%column_part, this_rank() + 1))
+        mesh = strip_on_pad(scene, film, columns_window(foil%bumps%column_part, this_rank() + 1))
         if (foil%bumps%reduced) then
           call add_pieces(foil, mesh, section_of(scene%bump_foil), error)
         else
@@ -160,6 +160,8 @@ contains
     real(wp), allocatable :: moved(:)
     type(foil_ranges_type) :: ranges
     type(shell_geometry_type) :: here, before
+    type(shell_section_type) :: own
+    real(wp) :: thickness !! of the neighbour [m]
     integer :: i
     logical :: known
 
@@ -176,11 +178,13 @@ contains
     known = .false.
     do i = 1, size(structure%my_elements)
       here = element_geometry(mesh, structure%my_elements(i))
-      if (known) known = is_same(here, before)
+      own = element_section(mesh, section, structure%my_elements(i))
+      if (known) known = is_same(here, before) .and. abs(own%thickness - thickness) <= 0.0_wp
       if (.not. known) then
-        call shell_stiffness(here, section, stiffness, error)
+        call shell_stiffness(here, own, stiffness, error)
         if (allocated(error)) exit
         before = here
+        thickness = own%thickness
         known = .true.
       end if
       force(:, i) = matmul(stiffness, moved((i - 1)*shell_unknowns + 1:i*shell_unknowns))

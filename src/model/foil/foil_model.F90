@@ -65,6 +65,7 @@ module gfb_foil_model
     procedure :: set_adhesion
     procedure :: set_lending
     procedure :: add_springs
+    procedure :: put_damping
     procedure :: softest
     procedure :: crest_lengths
     procedure :: next_contact_change
@@ -293,6 +294,15 @@ contains
     class(foil_model_type), intent(in) :: self !! the foil
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
   end subroutine add_springs
+
+  !> Over a step of time springs are damped by \( c (a_0 h_f + s) \): here nothing is.
+  subroutine put_damping(self, damping, factor, past_unknown, past_deflection)
+    class(foil_model_type), intent(inout) :: self !! the foil
+    real(wp), intent(in) :: damping !! c [N s/m3]
+    real(wp), intent(in) :: factor !! a_0 [1/s]
+    real(wp), intent(in) :: past_unknown(:) !! what earlier values add to the rate of the bearing's local unknowns [SI]
+    real(wp), intent(in) :: past_deflection(:) !! s, the same of the deflection at the film nodes [m/s]
+  end subroutine put_damping
 
   !> The hardness to begin with: bumps that float between open and closed find their state at once; 1
   !> where there is nothing to soften.

@@ -13,6 +13,7 @@ module gfb_foil_places
   use gfb_contact_laws, only: set_contact_laws
   use gfb_shell_load, only: pressure_weights
   use gfb_meshed_foil, only: meshed_foil_type
+  use gfb_initial_moment, only: set_initial_moment
   implicit none (type)
   private
   public :: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
@@ -29,7 +30,7 @@ contains
     height = scene%bump_foil%height + 0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness)
   end function top_height
 
-  !> Laws of the contacts, and how soft they begin.
+  !> Laws of the contacts, how soft they begin, and the load of the initial moment where there is one.
   subroutine set_laws(scene, foil)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     class(meshed_foil_type), intent(inout) :: foil !! its contacts get their laws
@@ -39,6 +40,7 @@ contains
     call set_contact_laws(scene%contact, scene%bump_foil, scene%bearing%clearance, foil%contacts)
     foil%first_hardness = min(1.0_wp, soft_contact*stiffness/(scene%contact%normal_stiffness* &
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
+    call set_initial_moment(scene%top_foil, scene%bearing%radius, foil)
   end subroutine set_laws
 
   !> Numbers the unknowns that this rank needs, and tells contacts and film nodes the numbers.

@@ -29,6 +29,8 @@ module gfb_foundation_foil
   type, extends(foil_model_type), public :: foundation_foil_type
     real(wp) :: stiffness = 0.0_wp           !! K, pressure over deflection [N/m3]
     real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
+    real(wp) :: drag = 0.0_wp                !! of a step of time: damping times a_0 [N/m3]
+    real(wp), allocatable :: past_drag(:)    !! what earlier deflections of the owned stations add [Pa]
     integer, allocatable :: owned_station(:) !! foil unknowns whose equation this rank begins
     integer :: stations = 0                  !! of the whole film
     integer, allocatable :: averaged(:)      !! film nodes this rank averages
@@ -38,6 +40,7 @@ module gfb_foundation_foil
     procedure :: add_jacobian => foundation_jacobian
     procedure :: add_load_rates => foundation_load_rates
     procedure :: add_springs => foundation_springs
+    procedure :: put_damping => foundation_damping
     procedure :: estimate => foundation_estimate
     procedure :: add_constant => foundation_constant
     procedure :: is_meshed => foundation_is_meshed
@@ -158,7 +161,8 @@ contains
 
     do i = 1, size(self%owned_station)
       equation = self%first + self%owned_station(i)
-      residual(equation) = residual(equation) + self%stiffness*unknown(equation)
+      residual(equation) = residual(equation) + (self%stiffness + self%drag)*unknown(equation)
+      if (allocated(self%past_drag)) residual(equation) = residual(equation) + self%past_drag(i)
     end do
     do i = 1, size(self%averaged)
       node = self%averaged(i)
@@ -195,9 +199,26 @@ contains
 
     do i = 1, size(self%owned_station)
       row = int(self%first + self%owned_station(i) - 1, pint)
-      PetscCallA(MatSetValuesLocal(matrix, 1_pint, row, 1_pint, row, [self%stiffness], ADD_VALUES, ierr))
+      PetscCallA(MatSetValuesLocal(matrix, 1_pint, row, 1_pint, row, [self%stiffness + self%drag], ADD_VALUES, ierr))
     end do
   end subroutine foundation_springs
+
+  !> Springs with a viscous damper beside each: \( K h_f + c (a_0 h_f + s) = p - p_a \).
+  subroutine foundation_damping(self, damping, factor, past_unknown, past_deflection)
+    class(foundation_foil_type), intent(inout) :: self !! the elastic foundation
+    real(wp), intent(in) :: damping !! c [N s/m3]
+    real(wp), intent(in) :: factor !! a_0 [1/s]
+    real(wp), intent(in) :: past_unknown(:) !! what earlier values add to the rate of the bearing's local unknowns [SI]
+    real(wp), intent(in) :: past_deflection(:) !! s, the same of the deflection at the film nodes [m/s]
+
+    self%drag = damping*factor
+    if (size(self%global_unknown) > 0) then
+      self%past_drag = damping*past_unknown(self%first + self%owned_station)
+    else
+      self%rate = 1.0_wp/(self%stiffness + self%drag)
+      self%origin = self%ambient_pressure + damping*past_deflection
+    end if
+  end subroutine foundation_damping
 
   !> The mean of a pressure that depends on other unknowns.
   subroutine foundation_load_rates(self, column, slope, jacobian)

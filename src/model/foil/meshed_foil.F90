@@ -25,6 +25,10 @@ module gfb_meshed_foil
     logical :: has_room = .false.             !! in the matrix, between all unknowns that an element pushes
     integer, allocatable :: own_place(:)      !! local foil unknown of each owned one
     logical :: has_matrix = .false.           !! `elastic` and the vectors are there
+    real(wp) :: initial_curvature = 0.0_wp    !! of the top foil before it is put in, over the bore's [1/m]
+    !> forces of a moment 1 N around and along the bearing, one a local foil unknown; none: the foil was rolled as it lies
+    real(wp), allocatable :: initial_shape(:, :)
+    real(wp), allocatable :: initial_load(:)  !! of its initial moment, one a local foil unknown [N], [N m]
     Vec :: state, force                       !! of the owned unknowns, in SI
   contains
     procedure :: add_residual => meshed_residual
@@ -103,6 +107,12 @@ contains
         end associate
       end do
     end do
+
+    if (allocated(self%initial_load)) then
+      associate (mine => residual(self%first + 1:self%first + size(contact)))
+        mine = mine - self%initial_load
+      end associate
+    end if
 
     PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
     contact = 0.0_wp
@@ -214,9 +224,30 @@ contains
     call self%split_displacements(unknown, list(top_surface)%displacement, list(bump_surface)%displacement)
     surface = self%surfaces()
     do i = 1, size(list)
-      list(i)%stress = self%stresses(surface(i), list(i)%displacement)
+      associate (displacement => list(i)%displacement)
+        if (i == top_surface .and. allocated(self%initial_load)) then
+          list(i)%stress = self%stresses(surface(i), displacement - free_shape(surface(i), self%initial_curvature))
+        else
+          list(i)%stress = self%stresses(surface(i), displacement)
+        end if
+      end associate
     end do
   end function meshed_motions
+
+  !> Displacements that take the initial bending off a foil that was unrolled: of a cylinder.
+  !>
+  !> $$ v = \tfrac{1}{2} \kappa_0 x^2, \quad \alpha = \kappa_0 x $$
+  pure function free_shape(surface, curvature) result(moved)
+    type(foil_surface_type), intent(in) :: surface
+    real(wp), intent(in) :: curvature !! [1/m]
+    real(wp) :: moved(5, size(surface%part%mesh_node)) ! [m], [rad]
+
+    moved = 0.0_wp
+    associate (x => surface%mesh%position(1, surface%part%mesh_node))
+      moved(2, :) = 0.5_wp*curvature*x**2
+      moved(4, :) = curvature*x
+    end associate
+  end function free_shape
 
   !> Frees the matrix and its vectors; may be called twice.
   subroutine free_matrix(self)

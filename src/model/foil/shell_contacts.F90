@@ -2,10 +2,10 @@
 module gfb_shell_contacts
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_bump_foil_case, only: gap_of_crest
+  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, strip_at
   use gfb_contact_set, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, line_shares, line_length, crest_name, corner_name, &
                                contact_sleeve, contact_top
@@ -38,11 +38,17 @@ contains
       allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
       found = 0
       do i = 1, set_count(mesh, corner_name)
-        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, 0.0_wp, point, found)
+        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
       end do
       do i = 1, scene%bump_foil%bumps
-        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, &
-                      gap_of_crest(scene%bump_foil, i), point, found)
+        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
+      end do
+      do i = 1, found
+        if (point(i)%law == contact_top) then
+          point(i)%gap = gap_of_crest(scene%bump_foil, point(i)%line, strip_at(mesh, point(i)%node))
+        else
+          point(i)%gap = gap_of_corner(scene%bump_foil, point(i)%line)
+        end if
       end do
       foil%contacts%point = point(:found)
     end associate
@@ -50,13 +56,12 @@ contains
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not fixed everywhere.
-  subroutine add_line(foil, ranges, line, law, number, gap, point, found)
+  subroutine add_line(foil, ranges, line, law, number, point, found)
     type(shell_foil_type), intent(in) :: foil
     type(foil_ranges_type), intent(in) :: ranges
     integer, intent(in) :: line(:)
     integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number !! of the line
-    real(wp), intent(in) :: gap   !! at rest [m]
     type(contact_point_type), intent(inout) :: point(:)
     integer, intent(inout) :: found
 
@@ -72,7 +77,6 @@ contains
       found = found + 1
       point(found) = bump_contact(law, line(i), number, length(i))
       point(found)%slave = slave
-      point(found)%gap = gap
     end do
   end subroutine add_line
 

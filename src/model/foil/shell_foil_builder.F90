@@ -17,6 +17,7 @@ module gfb_shell_foil_builder
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
   use gfb_foil_builder, only: build_top, build_bumps
   use gfb_shell_contacts, only: add_shell_contacts
+  use gfb_initial_moment, only: add_initial_moment
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
@@ -54,6 +55,7 @@ contains
     call add_shell_contacts(scene, top_height(scene), film, ranges, foil)
     v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
     call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
+    call add_initial_moment(scene%top_foil, film, foil)
     call add_pressure(film, mesh, element_nodes, &
                       scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
     call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)

@@ -7,7 +7,7 @@ module gfb_quad_mesh
   implicit none (type, external)
   private
   public :: node_set, set_count, add_node_set, sub_mesh, own_thickness, solid_rows, &
-            loose_rows
+            loose_rows, strip_at
 
   !> Nodes that have a name, such as a line of crests.
   type, public :: node_set_type
@@ -29,6 +29,10 @@ module gfb_quad_mesh
     type(node_set_type), allocatable :: sets(:)
     !> of every column of elements of the whole mesh; not allocated: the section's [m]
     real(wp), allocatable :: column_thickness(:)
+    !> of every row of elements, where strips side by side differ; not allocated: the section's [m]
+    real(wp), allocatable :: row_thickness(:)
+    !> strip of every row of nodes, where strips side by side differ
+    integer, allocatable :: row_strip(:)
     !> z of a station's nodes, rising [m]
     real(wp), allocatable :: row_axial(:)
     !> rows of elements that are cut away; not allocated: none
@@ -65,9 +69,22 @@ contains
     real(wp) :: thickness
 
     thickness = 0.0_wp
+    if (allocated(mesh%row_thickness)) then
+      thickness = mesh%row_thickness(modulo(element - 1, mesh%rows - 1) + 1)
+    end if
     if (.not. allocated(mesh%column_thickness)) return
     thickness = mesh%column_thickness((element - 1)/(mesh%rows - 1) + 1)
   end function own_thickness
+
+  !> Which of the strips side by side a node belongs to; 1 where they do not differ.
+  pure function strip_at(mesh, node) result(strip)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    integer, intent(in) :: node !! of the whole mesh
+    integer :: strip
+
+    strip = 1
+    if (allocated(mesh%row_strip)) strip = mesh%row_strip(modulo(node - 1, mesh%rows) + 1)
+  end function strip_at
 
   !> Which rows of elements are there, not cut away.
   pure function solid_rows(mesh) result(solid)
@@ -145,6 +162,8 @@ contains
     part%half = mesh%half
     if (allocated(mesh%row_axial)) part%row_axial = mesh%row_axial
     if (allocated(mesh%cut)) part%cut = mesh%cut
+    if (allocated(mesh%row_thickness)) part%row_thickness = mesh%row_thickness
+    if (allocated(mesh%row_strip)) part%row_strip = mesh%row_strip
     if (allocated(mesh%column_thickness)) then
       part%column_thickness = mesh%column_thickness(stretch(1):stretch(2) - 1)
     end if

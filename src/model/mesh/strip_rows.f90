@@ -3,7 +3,7 @@ module gfb_strip_rows
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: strip_rows, cut_rows
+  public :: strip_rows, cut_rows, strips_of_rows
 
 contains
 
@@ -46,6 +46,18 @@ contains
     middle = 0.5_wp*(rows(2:) + rows(:size(rows) - 1))
     is_cut = modulo(middle + 0.5_wp*width, strip + cut) > strip
   end function cut_rows
+
+  !> Strip of each row of nodes, from the smallest z on; one in the middle of a cut has either.
+  pure function strips_of_rows(rows, width, strips, cut) result(strip)
+    real(wp), intent(in) :: rows(:) !! of `strip_rows` [m]
+    real(wp), intent(in) :: width   !! whole width, cuts included [m]
+    integer, intent(in) :: strips   !! more than one
+    real(wp), intent(in) :: cut     !! width of each cut [m]
+    integer :: strip(size(rows))
+
+    strip = 1 + floor((rows + 0.5_wp*(width + cut))/(strip_width(width, strips, cut) + cut))
+    strip = min(max(strip, 1), strips)
+  end function strips_of_rows
 
   !> Width of one of equal strips [m].
   pure function strip_width(width, strips, cut) result(strip)

@@ -8,23 +8,24 @@ module gfb_strip_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest, solid_width
+  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest, gap_of_corner, solid_width
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
   use gfb_contact_laws, only: set_contact_laws
   use gfb_bump_contacts, only: bump_contact, crest_name, corner_name, line_shares, &
                                line_length, contact_sleeve, contact_top
   use gfb_contact_set, only: contact_point_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, solid_rows
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, solid_rows, loose_rows, strip_at
   use gfb_partition, only: division_type, divide, no_chain
-  use gfb_part_chains, only: strip_chain, strip_columns, strip_kinds
+  use gfb_part_chains, only: strip_chain, strip_columns
   use gfb_mesh_dm, only: columns_window
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_film_mesh, only: axial_rows
   use gfb_substructures, only: substructure_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
-  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports, cut_strip_mesh
+  use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports, cut_strip_mesh, &
+                              kinds_of_pieces
   use gfb_strip_system, only: strip_system_type, create_strip_system, plate_none, plate_forced, &
                               plate_moved
   implicit none (type)
@@ -101,7 +102,7 @@ contains
         mesh = bump_strip_mesh(shape, rows, plan%half, columns_window(column_part, this_rank() + 1))
       end if
       pieces = strip_substructures(shape, mesh)
-      pieces%kind = strip_kinds(shape, mesh%row_axial, plan%half)
+      pieces%kind = kinds_of_pieces(scene, shape, mesh%row_axial, plan%half)
       call find_symmetry_supports(mesh, fixed)
       if (scene%strip_load%support == support_held) fixed(radial, node_set(mesh, 'corners')) = .true.
       line = node_set(mesh, 'fixed_edge')
@@ -140,8 +141,9 @@ contains
     type(scene_type), intent(in) :: scene
     type(strip_system_type), intent(inout) :: strip
 
-    real(wp), allocatable :: force(:), gap(:)
-    integer :: i
+    real(wp), allocatable :: force(:)
+    real(wp), allocatable :: gap(:, :) !! (rows, bumps) [m]
+    integer :: i, row
     logical :: pressed
 
     strip%contacts%rows = strip%foil%mesh%rows
@@ -149,18 +151,24 @@ contains
     associate (mesh => strip%foil%mesh)
       if (scene%strip_load%support /= support_held) then
         do i = 1, set_count(mesh, corner_name)
-          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp, 0.0_wp)
+          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp, &
+                        spread(gap_of_corner(scene%bump_foil, i), 1, mesh%rows))
         end do
       end if
       pressed = strip%plate == plate_none
       if (pressed .and. .not. scene%contact%friction_top > 0.0_wp) return
       force = crest_forces(scene%strip_load, scene%bump_foil)
-      gap = gap_of_crest(scene%bump_foil, [(i, i=1, size(force))])
-      if (pressed) gap = 0.0_wp ! the force acts wherever the crest is
-      if (strip%plate == plate_forced) strip%free_travel = minval(gap)
+      allocate (gap(mesh%rows, size(force)), source=0.0_wp)
+      do i = 1, size(force)
+        if (pressed) exit ! the force acts wherever the crest is
+        gap(:, i) = [(gap_of_crest(scene%bump_foil, i, strip_at(mesh, row)), row=1, mesh%rows)]
+      end do
+      if (strip%plate == plate_forced) then
+        strip%free_travel = minval(gap, spread(.not. loose_rows(mesh), 2, size(force)))
+      end if
       do i = 1, size(force)
         call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
-                      force(i)/solid_width(scene%bump_foil), gap(i) - strip%free_travel)
+                      force(i)/solid_width(scene%bump_foil), gap(:, i) - strip%free_travel)
       end do
     end associate
   end subroutine add_contacts
@@ -173,7 +181,7 @@ contains
     integer, intent(in) :: number      !! of the line
     logical, intent(in) :: pressed     !! the normal force is given
     real(wp), intent(in) :: pressing   !! it, per length, at the full load [N/m]
-    real(wp), intent(in) :: gap        !! at rest [m]
+    real(wp), intent(in) :: gap(:)     !! of the line's nodes at rest [m]
 
     type(contact_point_type), allocatable :: point(:)
     type(contact_point_type) :: one
@@ -192,7 +200,7 @@ contains
       if (.not. any(strip%foil%free(:axial, line(i)))) cycle
       one = bump_contact(law, line(i), number, length(i))
       one%pressed = pressed
-      one%gap = gap
+      one%gap = gap(i)
       do k = 1, axial
         if (strip%foil%unknown(k, line(i)) < 0) cycle
         global = [global, strip%foil%unknown(k, line(i))]

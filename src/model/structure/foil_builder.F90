@@ -4,32 +4,29 @@ module gfb_foil_builder
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_petsc_session, only: this_rank, rank_count
+  use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_modes
   use gfb_bearing_case, only: pad_length
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, fixed_edge_none, &
-                                bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
-  use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
-  use gfb_film_mesh, only: film_mesh_type, axial_rows
-  use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh, loose_rows
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, bump_pitches, bump_half_lengths, bump_heights, &
+                                bump_thicknesses, one_strip, strips_differ
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
   use gfb_top_mesh, only: top_mesh
-  use gfb_strip_rows, only: strip_rows, cut_rows
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, &
-                           aligned_stations, crest_positions, dividing_stations, &
-                           fixed_line_corner
+  use gfb_strip_rows, only: strip_rows, cut_rows, strips_of_rows
+  use gfb_own_strips, only: put_strip, join_kinds
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, aligned_stations, crest_positions
   use gfb_substructures, only: substructure_type
-  use gfb_partition, only: chain_type, division_type, divide, no_chain
-  use gfb_part_chains, only: strip_chain, column_chain, strip_kinds, strip_columns
+  use gfb_partition, only: division_type
+  use gfb_part_chains, only: strip_kinds, strip_columns
   use gfb_mesh_dm, only: columns_window
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_part, build_top, build_bumps, foil_chain, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
-            find_symmetry_supports, strip_on_pad, cut_strip_mesh
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
+            find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter, public :: axial = 3         !! component of a displacement
   integer, parameter, public :: about_tangent = 5 !! rotation about the second axis
@@ -43,155 +40,6 @@ module gfb_foil_builder
   end type foil_plan_type
 
 contains
-
-  !> The part of a scene's foils whose modes are asked for, as one full structure; each rank makes the mesh
-  !> of its own columns.
-  !>
-  !> Fails where an element is degenerate, or when METIS does.
-  subroutine build_part(scene, plan, part, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(foil_plan_type), intent(in) :: plan !! what the program decided about the foil
-    type(foil_structure_type), intent(out) :: part !! the structure that vibrates
-    type(error_type), allocatable, intent(out) :: error !! error, if the foil cannot be cut or an element is degenerate
-
-    type(division_type) :: division
-    type(quad_mesh_type) :: mesh
-    type(substructure_type), allocatable :: pieces(:)
-    type(shell_section_type) :: section
-    logical, allocatable :: fixed(:, :)
-    real(wp), allocatable :: rows(:)
-
-    rows = axial_rows(merge(scene%bearing%length, scene%bump_foil%width, scene%modes%part == part_top_foil), &
-                      scene%mesh%axial_elements, plan%half, scene%mesh%edge_refinement)
-    call divide(no_chain(), foil_chain(scene, size(rows), .false.), rank_count(), division, error)
-    if (allocated(error)) return
-    section = section_of(scene%bump_foil)
-    allocate (pieces(0))
-    select case (scene%modes%part)
-    case (part_top_foil)
-      section = plate_section(scene)
-      call plate(scene, plan, rows, division%bumps, mesh, fixed)
-    case (part_strip)
-      call vibrating_strip(scene, plan, rows, division%bumps, mesh, fixed, pieces)
-    case default
-      call piece_of_bump(scene, plan, rows, division%bumps, mesh, fixed)
-    end select
-    call create_foil_structure(mesh, section, fixed, pieces, .false., part, error, division%bumps)
-  end subroutine build_part
-
-  !> What a foil without a film is cut into: a strip's pieces, or the columns of a part of the
-  !> foils.
-  function foil_chain(scene, rows, reduced) result(pieces)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    integer, intent(in) :: rows    !! nodes of a station
-    logical, intent(in) :: reduced !! substructures are condensed
-    type(chain_type) :: pieces
-    integer :: stretch(2), i
-
-    if (scene%general%analysis /= analysis_modes .or. scene%modes%part == part_strip) then
-      pieces = strip_chain(strip_shape(scene), rows, reduced)
-      return
-    end if
-    if (scene%modes%part == part_top_foil) then
-      stretch = [1, size(plate_stations(scene))]
-    else
-      stretch = stretch_of_bump(scene)
-    end if
-    pieces = column_chain([(real(i, wp), i=stretch(1), stretch(2))], rows)
-  end function foil_chain
-
-  !> The strip, clamped at its fixed edge where it has one.
-  !>
-  !> A rank's mesh ends where the last super-element ends that begins in its columns: so every
-  !> super-element is whole on one rank.
-  subroutine vibrating_strip(scene, plan, rows, column_part, mesh, fixed, pieces)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    real(wp), intent(in) :: rows(:)       !! z [m]
-    integer, intent(in) :: column_part(:) !! rank, from 1, of every column of elements
-    type(quad_mesh_type), intent(out) :: mesh
-    logical, allocatable, intent(out) :: fixed(:, :)
-    type(substructure_type), allocatable, intent(out) :: pieces(:)
-
-    type(strip_shape_type) :: shape
-    integer, allocatable :: divide_at(:)
-    integer :: window(2), rank
-
-    shape = strip_shape(scene)
-    divide_at = dividing_stations(shape)
-    rank = this_rank() + 1
-    window = columns_window(column_part, rank)
-    window(2) = maxval([window(2), pack(divide_at(2:), column_part(divide_at(:size(divide_at) - 1)) == rank)])
-    mesh = bump_strip_mesh(shape, rows, plan%half, window)
-    pieces = strip_substructures(shape, mesh)
-    pieces%kind = strip_kinds(shape, rows, plan%half)
-    call find_symmetry_supports(mesh, fixed)
-    if (scene%bump_foil%fixed_edge /= fixed_edge_none) fixed(:, node_set(mesh, 'fixed_edge')) = .true.
-  end subroutine vibrating_strip
-
-  !> Half an arc, an arc or a flat with both end lines clamped.
-  subroutine piece_of_bump(scene, plan, rows, column_part, mesh, fixed)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    real(wp), intent(in) :: rows(:)       !! z [m]
-    integer, intent(in) :: column_part(:) !! rank, from 1, of every column of elements
-    type(quad_mesh_type), intent(out) :: mesh
-    logical, allocatable, intent(out) :: fixed(:, :)
-    integer :: stretch(2), window(2), node
-
-    stretch = stretch_of_bump(scene)
-    window = columns_window(column_part, this_rank() + 1)
-    if (window(2) >= window(1)) window = window + stretch(1) - 1
-    mesh = sub_mesh(bump_strip_mesh(single_bump(scene), rows, plan%half, window), stretch)
-    call find_symmetry_supports(mesh, fixed)
-    do node = lbound(fixed, 2), ubound(fixed, 2)
-      if (node <= mesh%rows .or. node > mesh%nodes() - mesh%rows) fixed(:, node) = .true.
-    end do
-  end subroutine piece_of_bump
-
-  !> First and last station of half an arc, an arc or a flat on the bump that it is part of.
-  function stretch_of_bump(scene) result(stretch)
-    type(scene_type), intent(in) :: scene
-    integer :: stretch(2)
-    integer, allocatable :: divide_at(:)
-
-    divide_at = dividing_stations(single_bump(scene))
-    select case (scene%modes%part)
-    case (part_half_arc)
-      stretch = divide_at(:2)
-    case (part_arc)
-      stretch = divide_at(1:3:2)
-    case (part_flat)
-      stretch = divide_at(size(divide_at) - 1:)
-    case default
-      error stop 'not a part of a bump'
-    end select
-  end function stretch_of_bump
-
-  !> The first bump of a strip, alone: an arc, and its flat where there are flats.
-  function single_bump(scene) result(shape)
-    type(scene_type), intent(in) :: scene
-    type(strip_shape_type) :: shape
-
-    shape = strip_shape(scene)
-    shape%bump = shape%bump(:1)
-    shape%begins = fixed_line_corner
-    shape%mirrored = .false.
-  end function single_bump
-
-  !> The top foil as a plate, clamped at its fixed edge.
-  subroutine plate(scene, plan, rows, column_part, mesh, fixed)
-    type(scene_type), intent(in) :: scene
-    type(foil_plan_type), intent(in) :: plan
-    real(wp), intent(in) :: rows(:)       !! z [m]
-    integer, intent(in) :: column_part(:) !! rank, from 1, of every column of elements
-    type(quad_mesh_type), intent(out) :: mesh
-    logical, allocatable, intent(out) :: fixed(:, :)
-
-    mesh = top_foil_mesh(plate_stations(scene), 0.0_wp, rows, plan%half, columns_window(column_part, this_rank() + 1))
-    call find_symmetry_supports(mesh, fixed)
-    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
-  end subroutine plate
 
   !> Name of the top foil's nodes that are clamped.
   pure function plate_fixed_edge(scene) result(name)
@@ -245,34 +93,56 @@ contains
     end do
   end subroutine find_symmetry_supports
 
-  !> Shape of a bearing's strip, laid from its fixed edge.
+  !> Shape of a bearing's strip, laid from its fixed edge; of strips that differ their mean.
   function shape_on_pad(scene) result(shape)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
 
     shape = strip_shape(scene)
-    if (shape%mirrored) shape%edge = pad_length(scene%bearing)
+    shape%edge = scene%bump_foil%offset
+    if (shape%mirrored) shape%edge = pad_length(scene%bearing) - scene%bump_foil%offset
   end function shape_on_pad
 
-  !> Shape of a scene's strip, its leading end at x = 0; a pitch that falls short of the arc does so in round-off.
+  !> Shape of a scene's strip, its leading end at x = 0; of strips that differ their mean.
   function strip_shape(scene) result(shape)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
 
-    associate (foil => scene%bump_foil)
-      allocate (shape%bump(foil%bumps))
-      shape%bump%half_length = bump_half_lengths(foil)
-      shape%bump%height = bump_heights(foil)
-      shape%bump%pitch = max(bump_pitches(foil), 2.0_wp*shape%bump%half_length)
-      shape%begins = foil%fixed_line
-      shape%mirrored = foil%fixed_edge == fixed_edge_trailing
-      if (allocated(foil%bump_thickness)) shape%bump%thickness = bump_thicknesses(foil)
-      if (shape%mirrored) shape%bump = shape%bump(foil%bumps:1:-1)
-      if (shape%mirrored) shape%edge = sum(shape%bump%pitch)
-    end associate
+    shape = shape_of(scene, scene%bump_foil)
+  end function strip_shape
+
+  !> Shape of one of the strips side by side, laid beside their mean.
+  function shape_beside(scene, mean, strip) result(shape)
+    type(scene_type), intent(in) :: scene
+    type(strip_shape_type), intent(in) :: mean
+    integer, intent(in) :: strip !! from the smallest z on
+    type(strip_shape_type) :: shape
+    type(bump_foil_case_type) :: one
+
+    one = one_strip(scene%bump_foil, strip)
+    shape = shape_of(scene, one)
+    shape%edge = mean%edge + (one%offset - scene%bump_foil%offset)* &
+                 merge(-1.0_wp, 1.0_wp, mean%mirrored)
+  end function shape_beside
+
+  !> Shape of a strip; a pitch that falls short of the arc does so in round-off.
+  function shape_of(scene, foil) result(shape)
+    type(scene_type), intent(in) :: scene
+    type(bump_foil_case_type), intent(in) :: foil
+    type(strip_shape_type) :: shape
+
+    allocate (shape%bump(foil%bumps))
+    shape%bump%half_length = bump_half_lengths(foil)
+    shape%bump%height = bump_heights(foil)
+    shape%bump%pitch = max(bump_pitches(foil), 2.0_wp*shape%bump%half_length)
+    shape%begins = foil%fixed_line
+    shape%mirrored = foil%fixed_edge == fixed_edge_trailing
+    if (allocated(foil%bump_thickness)) shape%bump%thickness = bump_thicknesses(foil)
+    if (shape%mirrored) shape%bump = shape%bump(foil%bumps:1:-1)
+    if (shape%mirrored) shape%edge = sum(shape%bump%pitch)
     shape%arc_elements = scene%mesh%arc_elements
     shape%flat_elements = scene%mesh%flat_elements
-  end function strip_shape
+  end function shape_of
 
   !> Mesh of a bearing's strip on the film's rows, or of strips side by side on rows of their own.
   function strip_on_pad(scene, film, window) result(mesh)
@@ -298,12 +168,39 @@ contains
     logical, intent(in) :: half      !! half the width is meshed
     integer, intent(in) :: window(2) !! first and last station of the stretch
     type(quad_mesh_type) :: mesh
+    integer :: strip
 
-    associate (strips => scene%bump_foil%strips, cut => scene%bump_foil%cut_width)
+    associate (foil => scene%bump_foil, strips => scene%bump_foil%strips, &
+               cut => scene%bump_foil%cut_width)
       mesh = bump_strip_mesh(shape, strip_rows(width, axial, half, strips, cut), half, window)
       mesh%cut = cut_rows(mesh%row_axial, width, strips, cut)
+      if (.not. strips_differ(foil)) return
+      mesh%row_strip = strips_of_rows(mesh%row_axial, width, strips, cut)
+      do strip = minval(mesh%row_strip), strips
+        call put_strip(mesh, bump_strip_mesh(shape_beside(scene, shape, strip), mesh%row_axial, &
+                                             half, window), strip)
+      end do
+      if (.not. allocated(foil%strip%thickness)) return
+      mesh%row_thickness = foil%strip%thickness(mesh%row_strip(:mesh%rows - 1))
     end associate
   end function cut_strip_mesh
+
+  !> Kinds of a bump foil's pieces: equal ones are equal on every strip.
+  function kinds_of_pieces(scene, shape, rows, half) result(kind)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(strip_shape_type), intent(in) :: shape !! of the strip, or the mean of strips that differ
+    real(wp), intent(in) :: rows(:) !! z [m]
+    logical, intent(in) :: half     !! rows begin at z = 0
+    integer, allocatable :: kind(:)
+    integer :: strip
+
+    kind = strip_kinds(shape, rows, half)
+    if (.not. strips_differ(scene%bump_foil)) return
+    kind = 1
+    do strip = 1, scene%bump_foil%strips
+      call join_kinds(kind, strip_kinds(shape_beside(scene, shape, strip), rows, half))
+    end do
+  end function kinds_of_pieces
 
   !> What the bump foil is made of.
   pure function section_of(foil) result(section)
@@ -363,7 +260,7 @@ contains
     column_part = strip_columns(shape, reduced, division%bumps)
     mesh = strip_on_pad(scene, film, columns_window(column_part, this_rank() + 1))
     piece = strip_substructures(shape, mesh)
-    piece%kind = strip_kinds(shape, mesh%row_axial, film%half)
+    piece%kind = kinds_of_pieces(scene, shape, mesh%row_axial, film%half)
     call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, 'fixed_edge')) = .true.
     call create_foil_structure(mesh, section_of(scene%bump_foil), fixed, piece, reduced, bumps, error, column_part)

@@ -6,8 +6,7 @@ module gfb_foil_grid
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_quad_mesh, only: solid_rows
-  use gfb_grid_file, only: grid_field_type, block_bounds
-  use gfb_result_set, only: result_grid_type, add_grid_field
+  use gfb_grid, only: grid_field_type, result_grid_type, block_bounds, add_grid_field
   implicit none (type, external)
   private
   public :: create_foil_grid, add_displacement, add_contacts, add_stress

@@ -4,7 +4,7 @@ module gfb_foil_output
   use gfb_text, only: text
   use gfb_bearing_system, only: bearing_system_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
-  use gfb_result_set, only: result_grid_type
+  use gfb_grid, only: result_grid_type
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_contacts, add_stress
   implicit none (type, external)
   private

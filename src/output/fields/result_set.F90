@@ -10,19 +10,15 @@ module gfb_result_set
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
   use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, history_csv
-  use gfb_grid_file, only: grid_type, grid_field_type, write_grid_file
+  use gfb_grid, only: result_grid_type
+  use gfb_grid_file, only: write_grid_file
+  use gfb_grid_series, only: grid_series_type, begin_step, add_surface
+  use gfb_series_file, only: write_series_file
   use gfb_text_file, only: write_unfinished_text
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
-  public :: write_result_set, add_grid_field
-
-  !> A surface with its fields, `<case>.<name>.vtkhdf`.
-  type, public :: result_grid_type
-    character(len=:), allocatable :: name !! film, top_foil or bump_foil
-    type(grid_type) :: grid
-    type(grid_field_type), allocatable :: point_field(:), cell_field(:)
-  end type result_grid_type
+  public :: write_result_set, add_series_step, result_grid_type
 
 contains
 
@@ -30,7 +26,7 @@ contains
   !>
   !> Fails when a file cannot be written; older results are then as they were.
   subroutine write_result_set(scene, folder, converged, provenance, summary, history, arrays, grids, &
-                              csv, log, error, columns)
+                              csv, log, error, columns, series)
     type(scene_type), intent(in) :: scene !! with its name and echo
     character(len=*), intent(in) :: folder !! where the files go
     logical, intent(in) :: converged !! it is an answer, not the last state reached
@@ -43,15 +39,19 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
+    type(grid_series_type), intent(in), optional :: series !! surfaces at steps, a further file each
 
     character(len=:), allocatable :: stem, names, table
     type(result_file_type) :: file
-    type(unfinished_file_type) :: files(size(grids) + merge(4, 3, csv .or. scene%sweep%present))
-    integer :: i
+    type(unfinished_file_type), allocatable :: files(:)
+    integer :: i, played
 
     stem = folder//'/'//scene%name
     if (.not. converged) stem = stem//'.unconverged'
     names = stem//'.summary, .h5'
+    played = 0
+    if (present(series)) played = surfaces_of(series)
+    allocate (files(size(grids) + played + merge(4, 3, csv .or. scene%sweep%present)))
     call write_case_file(stem//'.h5', PETSC_COMM_WORLD, this_rank() == 0, scene%verbatim, &
                          scene%echo, provenance, summary, history, arrays, file, error, columns)
     call share_failure(error)
@@ -64,6 +64,15 @@ contains
                            file, error)
       call share_failure(error)
       files(i + 1) = file%written
+    end do
+    do i = 1, played
+      if (allocated(error)) exit
+      associate (name => '.'//series%surface(i)%name//'.steps.vtkhdf')
+        names = names//', '//name
+        call write_series_file(stem//name, PETSC_COMM_WORLD, this_rank() == 0, series, i, file, error)
+      end associate
+      call share_failure(error)
+      files(1 + size(grids) + i) = file%written
     end do
     table = ''
     if (csv .or. scene%sweep%present) then
@@ -98,20 +107,28 @@ contains
     end do
   end subroutine keep_all
 
-  !> Puts a field at the end of a list.
-  subroutine add_grid_field(list, name, unit, meaning, block)
-    type(grid_field_type), allocatable, intent(inout) :: list(:) !! gets the field
-    character(len=*), intent(in) :: name !! of the field
-    character(len=*), intent(in) :: unit !! of its numbers
-    character(len=*), intent(in) :: meaning !! of the field, in words
-    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank), in its unit
-    type(grid_field_type) :: one
+  !> Surfaces of a series, which has none without a step.
+  pure function surfaces_of(series) result(number)
+    type(grid_series_type), intent(in) :: series
+    integer :: number
 
-    one%name = name
-    one%unit = unit
-    one%meaning = meaning
-    one%block = block
-    if (.not. allocated(list)) allocate (list(0))
-    list = [list, one]
-  end subroutine add_grid_field
+    number = 0
+    if (allocated(series%surface)) number = size(series%surface)
+  end function surfaces_of
+
+  !> Adds surfaces as the next step of a series; all ranks call it.
+  subroutine add_series_step(series, name, unit, value, grids)
+    type(grid_series_type), intent(inout) :: series !! gets the step
+    character(len=*), intent(in) :: name !! of what has a value at each step, such as time
+    character(len=*), intent(in) :: unit !! of the value
+    real(wp), intent(in) :: value !! at this step, in that unit
+    type(result_grid_type), intent(in) :: grids(:) !! the same surfaces and fields at each step
+    integer :: i
+
+    if (size(grids) == 0) return
+    call begin_step(series, name, unit, value)
+    do i = 1, size(grids)
+      call add_surface(series, PETSC_COMM_WORLD, this_rank(), rank_count(), grids(i))
+    end do
+  end subroutine add_series_step
 end module gfb_result_set

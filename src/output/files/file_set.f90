@@ -15,7 +15,7 @@ module gfb_file_set
 
   integer, parameter :: longest_path = 4096 !! of Linux, with the closing zero
   !> longest of the endings of a case's files
-  character(len=*), parameter :: longest_ending = '.unconverged.bump_foil.vtkhdf'
+  character(len=*), parameter :: longest_ending = '.unconverged.bump_foil.steps.vtkhdf'
 
   !> A file that is written and not yet visible.
   type, public :: unfinished_file_type

@@ -5,42 +5,17 @@
 !> points and cells.
 module gfb_grid_file
   use, intrinsic :: iso_c_binding, only: c_int8_t
-  use gfb_kinds, only: wp, long
+  use gfb_kinds, only: long
   use gfb_errors, only: error_type
+  use gfb_grid, only: grid_type, grid_field_type, block_bounds, corners, vtk_quad, grid_group
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   implicit none (type, external)
   private
-  public :: write_grid_file, block_bounds
+  public :: write_grid_file
 
-  integer, parameter :: corners = 4
-  integer(c_int8_t), parameter :: vtk_quad = 9_c_int8_t
-  character(len=*), parameter :: group = '/VTKHDF'
-
-  !> A field, of which each rank has consecutive entries.
-  type, public :: grid_field_type
-    character(len=:), allocatable :: name, unit, meaning
-    real(wp), allocatable :: block(:, :) !! (components, entries of this rank)
-  end type grid_field_type
-
-  !> A surface, of which each rank has consecutive points and cells.
-  type, public :: grid_type
-    integer :: points = 0                !! of all ranks
-    integer :: cells = 0                 !! of all ranks
-    real(wp), allocatable :: point(:, :) !! (3, points of this rank) [m]
-    integer, allocatable :: cell(:, :)   !! (4, cells of this rank), points from 1
-  end type grid_type
+  character(len=*), parameter :: group = grid_group
 
 contains
-
-  !> First and last of the entries, from 1, that a rank of several holds.
-  pure subroutine block_bounds(total, rank, ranks, first, last)
-    integer, intent(in) :: total       !! entries in all
-    integer, intent(in) :: rank, ranks !! this one, from 0, and their number
-    integer, intent(out) :: first, last !! first and last of this rank's entries
-
-    first = int(int(rank, long)*total/ranks) + 1
-    last = int(int(rank + 1, long)*total/ranks)
-  end subroutine block_bounds
 
   !> Writes a grid and its fields under the file's temporary name.
   !>

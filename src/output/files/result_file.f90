@@ -253,12 +253,13 @@ contains
   end subroutine put_block
 
   !> Adds 64-bit integers of which each rank has consecutive entries.
-  subroutine put_long_block(self, path, block, offset, total, meaning)
+  subroutine put_long_block(self, path, block, offset, total, meaning, shape)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer(long), intent(in) :: block(:) !! entries of this rank
     integer, intent(in) :: offset, total !! entries before this rank's; of all ranks
     character(len=*), intent(in) :: meaning !! a sentence
+    integer, intent(in), optional :: shape(:) !! of an entry that is no list, fastest index first
     integer(long), target :: buffer(max(1, size(block)))
     integer(hid_t) :: kind
 
@@ -266,7 +267,7 @@ contains
     kind = -1
     if (self%first_rank) kind = h5kind_to_type(long, H5_INTEGER_KIND)
     call self%put_parts(path, kind, storage_size(buffer)/8, c_loc(buffer), 1, size(block), offset, &
-                        total, '1', meaning)
+                        total, '1', meaning, shape)
   end subroutine put_long_block
 
   !> Adds unsigned bytes of which each rank has consecutive entries.
@@ -351,7 +352,7 @@ contains
     call h5gclose_f(object, status)
   end subroutine mark_text
 
-  !> Adds an attribute of integers to a group.
+  !> Adds an attribute of integers to a group; a single one has no dimension.
   subroutine mark_longs(self, group, name, numbers)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: group, name !! of the file; of the attribute
@@ -364,7 +365,8 @@ contains
     buffer = numbers
     kind = h5kind_to_type(long, H5_INTEGER_KIND)
     call h5gopen_f(self%file, group, object, status)
-    call h5screate_simple_f(1, [int(size(numbers), hsize_t)], space, status)
+    call h5screate_simple_f(merge(0, 1, size(numbers) == 1), [size(numbers, kind=hsize_t)], &
+                            space, status)
     call h5acreate_f(object, name, kind, space, attribute, status)
     call h5awrite_f(attribute, kind, c_loc(buffer), status)
     if (status /= 0) self%failed = .true.

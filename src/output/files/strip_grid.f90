@@ -1,7 +1,7 @@
 !> The grid of flat rectangles, one behind the other: stations along x, rows along z.
 module gfb_strip_grid
   use gfb_kinds, only: wp
-  use gfb_grid_file, only: grid_type, block_bounds
+  use gfb_grid, only: grid_type, block_bounds
   implicit none (type, external)
   private
   public :: strip_grid

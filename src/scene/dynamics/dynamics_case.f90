@@ -7,7 +7,8 @@ module gfb_dynamics_case
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
-                            analysis_fixed_position, asks_limit, misplaced_group
+                            analysis_fixed_position, analysis_transient, asks_limit, &
+                            misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
   use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)
@@ -39,9 +40,9 @@ module gfb_dynamics_case
 
 contains
 
-  !> The analysis that finds the state about which the shaft vibrates: a given load is balanced,
-  !> else the given position is kept. A limit is one of equilibria. The group `&operation` is not
-  !> read yet.
+  !> The analysis that finds the state about which the shaft vibrates, or from which it
+  !> moves: a given load is balanced, else the given position is kept. A limit is one of
+  !> equilibria. The group `&operation` is not read yet.
   pure function analysis_of_state(analysis, has_load, has_position) result(state)
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
     logical, intent(in) :: has_load, has_position !! keys that `&operation` holds
@@ -49,7 +50,7 @@ contains
 
     state = analysis
     if (asks_limit(analysis)) state = analysis_equilibrium
-    if (analysis /= analysis_linear_dynamics) return
+    if (analysis /= analysis_linear_dynamics .and. analysis /= analysis_transient) return
     state = analysis_equilibrium
     if (has_position .and. .not. has_load) state = analysis_fixed_position
   end function analysis_of_state

@@ -3,7 +3,7 @@ module gfb_rotor_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_operation_case, only: operation_case_type
-  use gfb_scene_case, only: analysis_linear_dynamics, misplaced_group
+  use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)
@@ -31,7 +31,8 @@ contains
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
 
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
-                          misplaced=misplaced_group(analysis, analysis == analysis_linear_dynamics))
+                          misplaced=misplaced_group(analysis, any(analysis == &
+                          [analysis_linear_dynamics, analysis_transient])))
     call keys%real_key(mass, rotor%mass, 'kg', &
                        'mass that this bearing carries: half of a rotor on two; the load is '// &
                        'given apart from it', positive, .true.)
@@ -48,14 +49,16 @@ contains
   end subroutine read_rotor_case
 
   !> What the keys, and the rest of the scene, ask of each other.
-  subroutine check_rotor(keys, rotor, operation, sweep)
+  subroutine check_rotor(keys, rotor, operation, sweep, whirls)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(rotor_case_type), intent(in) :: rotor !! what `&rotor` says
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    logical, intent(in) :: whirls !! its modes are asked for
 
     if (.not. rotor%present) return
-    if (keys%meant('operation', 'speed_rpm') .and. .not. operation%speed_rpm > 0.0_wp) then
+    if (whirls .and. keys%meant('operation', 'speed_rpm') .and. &
+        .not. operation%speed_rpm > 0.0_wp) then
       call keys%complain(group, mass, 'needs a shaft that turns: nothing whirls at rest')
     end if
     if (keys%meant(group, polar) .and. .not. keys%meant(group, transverse)) then

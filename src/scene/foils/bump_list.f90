@@ -6,7 +6,7 @@ module gfb_bump_list
   use gfb_value_rules, only: rule_type
   implicit none (type, external)
   private
-  public :: bump_list_key
+  public :: bump_list_key, complain_of_bumps
 
 contains
 
@@ -33,4 +33,31 @@ contains
     list = values
     if (size(values) == 1) list = spread(values(1), 1, bumps)
   end subroutine bump_list_key
+
+  !> Complains about sizes of single bumps, the first few by their numbers.
+  subroutine complain_of_bumps(keys, key, wrong, value, rule, other, limit, what)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    character(len=*), intent(in) :: key      !! that is wrong
+    logical, intent(in) :: wrong(:)          !! at which bumps
+    real(wp), intent(in) :: value(:)         !! of the bumps [m]
+    character(len=*), intent(in) :: rule, other !! what holds; what it is compared with
+    real(wp), intent(in) :: limit(:)         !! of the bumps [m]
+    character(len=*), intent(in), optional :: what !! they are; default: bump
+    integer, parameter :: most = 3           !! bumps that are named
+    character(len=:), allocatable :: words, one
+    integer :: bump
+
+    if (.not. any(wrong)) return
+    one = 'bump '
+    if (present(what)) one = what//' '
+    words = rule
+    do bump = 1, size(wrong)
+      if (.not. wrong(bump)) cycle
+      if (count(wrong(:bump)) > most) exit
+      words = words//merge('; ', ', ', count(wrong(:bump)) == 1)//one//text(bump)//' has '// &
+              text(value(bump))//' m with '//other//' = '//text(limit(bump))//' m'
+    end do
+    if (count(wrong) > most) words = words//', and '//text(count(wrong) - most)//' more'
+    call keys%complain('bump_foil', key, words)
+  end subroutine complain_of_bumps
 end module gfb_bump_list

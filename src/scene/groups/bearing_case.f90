@@ -2,7 +2,7 @@
 module gfb_bearing_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_value_rules, only: positive, from_below
+  use gfb_value_rules, only: at_least, positive, from_below
   implicit none (type, external)
   private
   public :: bearing_case_type, read_bearing_case, pad_angle, pad_length
@@ -19,6 +19,7 @@ module gfb_bearing_case
     real(wp) :: radius = 0.0_wp              !! of the shaft [m]
     real(wp) :: length = 0.0_wp              !! along the axis [m]
     real(wp) :: clearance = 0.0_wp           !! radial [m]
+    real(wp) :: interference = 0.0_wp        !! of assembly, off the gap all around [m]
     real(wp) :: leading_edge_angle = 0.0_wp  !! where the first pad begins [rad]
     integer :: leading_edge_condition = leading_edge_slit
     integer :: pads = 1                      !! equal ones, equally spaced
@@ -47,6 +48,9 @@ contains
                        'where the pad begins; it ends at 2 pi', from_below(0.0_wp, full_turn))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &
                          'ambient pressure at both ends of the pad, or a full ring')
+    call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
+                       'all around; more than `clearance` presses the foil back at rest', &
+                       at_least(0.0_wp))
     if (bearing%leading_edge_condition == leading_edge_periodic .and. &
         bearing%leading_edge_angle > 0.0_wp) then
       call keys%complain('bearing', 'leading_edge_angle', &

@@ -2,17 +2,20 @@
 module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
-  use gfb_bump_list, only: bump_list_key
+  use gfb_bump_list, only: bump_list_key, complain_of_bumps
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_height_deviation_keys, only: read_height_deviation, height_deviation_type, &
                                        drawn_gaps
+  use gfb_strip_sizes, only: strip_sizes_type, read_strip_sizes, refuse_strip_sizes, &
+                             gives_strips, sizes_differ
   use gfb_text, only: text
   use gfb_value_rules, only: at_least, between, not_negative, positive
   implicit none (type, external)
   private
-  public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest
-  public :: solid_width, has_sizes, one_bump
+  public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, &
+            gap_of_corner
+  public :: solid_width, has_sizes, one_bump, one_strip, strips_differ
   public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
   public :: drawn_gaps
 
@@ -40,11 +43,15 @@ module gfb_bump_foil_case
     real(wp) :: width = 0.0_wp              !! of a strip, along the axis [m]
     integer :: strips = 1                   !! side by side along the axis
     real(wp) :: cut_width = 0.0_wp          !! between two of them [m]
+    real(wp) :: offset = 0.0_wp             !! of their fixed edge from the pad's, mean [m]
+    type(strip_sizes_type) :: strip         !! sizes that differ from strip to strip
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
     logical :: poissons_ratio_given = .false.
     !> at rest, one a bump from the smallest x on; not allocated: all crests touch [m]
     real(wp), allocatable :: crest_gap(:)
+    !> at rest between the corners of each bump and the sleeve; not allocated: all touch [m]
+    real(wp), allocatable :: corner_gap(:)
     ! Sizes of each bump from the smallest x on, where they are given so; the single ones are then
     ! their means, that of the heights the largest one.
     real(wp), allocatable :: bump_pitch(:)       !! [m]
@@ -85,7 +92,8 @@ contains
                           as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       with_pitch .and. .not. keys%holds('bump_foil', 'bump_pitch'), &
+                       with_pitch .and. .not. keys%holds('bump_foil', 'bump_pitch') .and. &
+                       .not. gives_strips(keys, 'pitch'), &
                        default='length of the pad / `bumps`')
     call read_sizes(keys, foil)
     if (as_shell .and. .not. with_width) foil%width = bearing%length
@@ -99,8 +107,12 @@ contains
                        'between a bump''s crest and the top foil or plate', not_negative, &
                        '0: all crests touch')
     gaps = keys%key%given
+    call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'm', 'gap at rest '// &
+                       'between a bump''s two corner lines and the sleeve', not_negative, &
+                       '0: all corners touch')
     lowest = foil%height
     if (allocated(foil%bump_height)) lowest = minval(foil%bump_height)
+    if (allocated(foil%strip%height)) lowest = minval(foil%strip%height)
     call read_height_deviation(keys, foil%present, gaps, foil%bumps, lowest, foil%random, &
                                foil%crest_gap)
     call check_geometry(keys, foil, bearing)
@@ -115,7 +127,8 @@ contains
       character(len=*), intent(in), optional :: list !! key that says it bump by bump
       logical :: required
       required = as_shell
-      if (present(list)) required = required .and. .not. keys%holds('bump_foil', list)
+      if (present(list)) required = required .and. .not. keys%holds('bump_foil', list) .and. &
+                                    .not. gives_strips(keys, name)
       call keys%real_key(name, value, 'm', meaning, positive, required, default=no_default)
     end subroutine length_key
   end subroutine read_bump_foil_case
@@ -125,20 +138,25 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(inout) :: foil
     character(len=*), parameter :: meaning = 'width of each cut between two strips'
+    character(len=*), parameter :: why = 'needs strips = 2 in &bump_foil, or more'
     real(wp) :: strip !! width of each [m]
     logical :: right
 
-    call keys%integer_key('strips', foil%strips, 'equal strips side by side along the axis, '// &
+    call keys%integer_key('strips', foil%strips, 'strips side by side along the axis, '// &
                           'cut apart; the width is that of all with the cuts', &
                           at_least(1.0_wp))
     right = keys%last_key_is_right()
     if (foil%present .and. foil%strips <= 1) then
-      call keys%useless_key('cut_width', meaning, 'needs strips = 2 in &bump_foil, or more')
+      call keys%useless_key('cut_width', meaning, why)
+      call refuse_strip_sizes(keys, why)
       return
     end if
     call keys%real_key('cut_width', foil%cut_width, 'm', meaning, positive, &
                        foil%strips > 1, default='required with `strips`')
-    if (.not. right .or. .not. keys%last_key_is_right() .or. .not. foil%width > 0.0_wp) return
+    right = right .and. keys%last_key_is_right()
+    call read_strip_sizes(keys, foil%strips, foil%pitch, foil%half_length, foil%height, &
+                          foil%thickness, foil%offset, foil%strip)
+    if (.not. right .or. .not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
     if (foil%cut_width < strip) return
     call keys%complain('bump_foil', 'cut_width', 'must be less than the width of a strip, '// &
@@ -216,6 +234,31 @@ contains
     if (allocated(one%crest_gap)) deallocate (one%crest_gap)
   end function one_bump
 
+  !> Whether strips side by side have different bumps, or begin at different places.
+  elemental function strips_differ(foil) result(differ)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    logical :: differ
+    differ = sizes_differ(foil%strip)
+  end function strips_differ
+
+  !> A foil of one of the strips side by side alone.
+  elemental function one_strip(foil, strip) result(one)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer, intent(in) :: strip !! its number, from the smallest z on
+    type(bump_foil_case_type) :: one
+
+    one = foil
+    one%width = solid_width(foil)/real(foil%strips, wp)
+    one%strips = 1
+    one%cut_width = 0.0_wp
+    one%strip = strip_sizes_type()
+    if (allocated(foil%strip%pitch)) one%pitch = foil%strip%pitch(strip)
+    if (allocated(foil%strip%half_length)) one%half_length = foil%strip%half_length(strip)
+    if (allocated(foil%strip%height)) one%height = foil%strip%height(strip)
+    if (allocated(foil%strip%thickness)) one%thickness = foil%strip%thickness(strip)
+    if (allocated(foil%strip%offset)) one%offset = foil%strip%offset(strip)
+  end function one_strip
+
   !> Pitch of each bump [m].
   pure function bump_pitches(foil) result(pitch)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
@@ -249,15 +292,28 @@ contains
   end function bump_thicknesses
 
   !> Gap at rest between a bump's crest and the top foil, which is as high as the highest bump [m].
-  elemental function gap_of_crest(foil, bump) result(gap)
+  elemental function gap_of_crest(foil, bump, strip) result(gap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: bump !! number of the bump, from the smallest x on
+    !> of the bump, from the smallest z on; needed where strips differ
+    integer, intent(in), optional :: strip
     real(wp) :: gap
 
     gap = 0.0_wp
     if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
     if (allocated(foil%bump_height)) gap = gap + (foil%height - foil%bump_height(bump))
+    if (.not. present(strip)) return
+    if (allocated(foil%strip%height)) gap = gap + (foil%height - foil%strip%height(strip))
   end function gap_of_crest
+
+  !> Gap at rest between a corner line and the sleeve; each bump has two lines of its own [m].
+  elemental function gap_of_corner(foil, line) result(gap)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer, intent(in) :: line !! number of the corner line, from the smallest x on
+    real(wp) :: gap
+    gap = 0.0_wp
+    if (allocated(foil%corner_gap)) gap = foil%corner_gap((line + 1)/2)
+  end function gap_of_corner
 
   !> Whether there are flats between the bumps; with sizes bump by bump, at any of them.
   elemental function has_flats(foil) result(flats)
@@ -296,7 +352,9 @@ contains
     type(bump_foil_case_type), intent(in) :: foil
     type(bearing_case_type), intent(in) :: bearing
 
-    if (has_sizes(foil)) then
+    if (strips_differ(foil)) then
+      return ! checked strip by strip, where all groups are known
+    else if (has_sizes(foil)) then
       call check_bumps(keys, foil)
     else if (foil%half_length > 0.0_wp) then
       if (foil%height > foil%half_length) then
@@ -339,28 +397,4 @@ contains
                            'must be at least 2 half_length, or bumps overlap', &
                            '2 half_length', 2.0_wp*half_length)
   end subroutine check_bumps
-
-  !> Complains about sizes of single bumps, the first few by their numbers.
-  subroutine complain_of_bumps(keys, key, wrong, value, rule, other, limit)
-    type(case_keys_type), intent(inout) :: keys
-    character(len=*), intent(in) :: key      !! that is wrong
-    logical, intent(in) :: wrong(:)          !! at which bumps
-    real(wp), intent(in) :: value(:)         !! of the bumps [m]
-    character(len=*), intent(in) :: rule, other !! what holds; what it is compared with
-    real(wp), intent(in) :: limit(:)         !! of the bumps [m]
-    integer, parameter :: most = 3           !! bumps that are named
-    character(len=:), allocatable :: words
-    integer :: bump
-
-    if (.not. any(wrong)) return
-    words = rule
-    do bump = 1, size(wrong)
-      if (.not. wrong(bump)) cycle
-      if (count(wrong(:bump)) > most) exit
-      words = words//merge('; ', ', ', count(wrong(:bump)) == 1)//'bump '//text(bump)//' has '// &
-              text(value(bump))//' m with '//other//' = '//text(limit(bump))//' m'
-    end do
-    if (count(wrong) > most) words = words//', and '//text(count(wrong) - most)//' more'
-    call keys%complain('bump_foil', key, words)
-  end subroutine complain_of_bumps
 end module gfb_bump_foil_case

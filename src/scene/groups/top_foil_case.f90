@@ -5,7 +5,7 @@ module gfb_top_foil_case
   use gfb_value_rules, only: between, positive
   implicit none (type, external)
   private
-  public :: top_foil_case_type, read_top_foil_case
+  public :: top_foil_case_type, read_top_foil_case, initial_curvature
 
   integer, parameter, public :: top_foil_leading = 1  !! fixed at its leading edge
   integer, parameter, public :: top_foil_trailing = 2 !! fixed at its trailing edge
@@ -20,6 +20,7 @@ module gfb_top_foil_case
     real(wp) :: poissons_ratio = 0.0_wp !! [1]
     real(wp) :: density = 0.0_wp        !! [kg/m^3]
     integer :: fixed_edge = top_foil_trailing
+    real(wp) :: free_radius = 0.0_wp    !! of its curvature without forces; 0: it lies as it is [m]
   end type top_foil_case_type
 
 contains
@@ -42,6 +43,19 @@ contains
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
                        default=no_default)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the foil is fixed')
+    call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
+                       'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
+                       positive, default='`radius`')
     call keys%finish_group()
   end subroutine read_top_foil_case
+
+  !> Curvature of the foil without forces over that of the bore, \( \kappa_0 = 1/R_f - 1/R \).
+  elemental function initial_curvature(foil, radius) result(curvature)
+    type(top_foil_case_type), intent(in) :: foil !! what `&top_foil` asks for
+    real(wp), intent(in) :: radius !! of the bearing [m]
+    real(wp) :: curvature          !! positive: the foil is rolled more closely [1/m]
+
+    curvature = 0.0_wp
+    if (foil%free_radius > 0.0_wp) curvature = 1.0_wp/foil%free_radius - 1.0_wp/radius
+  end function initial_curvature
 end module gfb_top_foil_case

@@ -91,11 +91,12 @@ contains
       case ('gas', 'bore', 'contact', 'shaft_contact')
         keeps = .true.
       case ('bearing')
-        keeps = name == 'clearance'
+        keeps = name == 'clearance' .or. name == 'assembly_interference'
       case ('pads')
         keeps = name == 'preload' .or. name == 'preload_offset'
       case ('top_foil', 'bump_foil')
-        keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height'
+        keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height' .or. &
+                name == 'free_radius'
         ! else the first crest stands as far from the weld as half a bump is long
         if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
       case default

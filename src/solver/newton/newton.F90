@@ -29,8 +29,8 @@ module gfb_newton
   use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
   implicit none (type)
   private
-  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, solve_transposed, forget_factors, &
-            destroy_newton, newton_report_type
+  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, solve_transposed, keep_factors, &
+            forget_factors, destroy_newton, newton_report_type
 
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
 
@@ -197,6 +197,13 @@ contains
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     PetscCallA(KSPSolveTranspose(linear, right, solution, ierr))
   end subroutine solve_transposed
+
+  !> The next solve begins with the factors at hand, if there are any: its equations are nearly the same.
+  subroutine keep_factors(newton)
+    type(newton_type), intent(inout) :: newton !! the solver
+
+    call keep_ready(newton%linear, newton%system%times_filled > 0, newton%system%times_filled)
+  end subroutine keep_factors
 
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
   !> on the system's state alone, and so does a run that is resumed from that state.

@@ -26,6 +26,7 @@ module gfb_fold_search
   real(wp), parameter :: longest_change = 0.02_wp     !! of any unknown in a move; beyond, it is another branch
   real(wp), parameter :: closest_change = 2.0e-3_wp   !! of any unknown, that tells where a fold lies
   integer, parameter :: most_moves = 40
+  integer, parameter :: most_smooth_moves = 600    !! without contacts, where moves cost next to nothing
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
 
 contains
@@ -47,10 +48,12 @@ contains
     type(bordered_system_type), target :: path
     type(newton_type), target :: mover
     Vec :: farthest
+    integer :: most
     PetscErrorCode :: ierr
 
     ahead = 0.0_wp
     outcome = branch_lost
+    most = merge(most_moves, most_smooth_moves, bearing%pad(1)%foil%has_contacts())
     call create_bordered_system(bearing, target, path)
     call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
@@ -58,16 +61,16 @@ contains
     if (any_rank(size(bearing%pad(1)%edge%unknown) > 0)) then
       call aim_at_edge(bearing, path, before, known)
       call newton%log%detail('the free edge is moved on, the path follows')
-      call move_on(path, mover, wanted, farthest, outcome, ahead)
+      call move_on(path, mover, wanted, farthest, most, outcome, ahead)
       if (outcome == branch_folds .and. .not. known) then
         PetscCallA(VecScale(path%direction, -1.0_wp, ierr))
-        call move_on(path, mover, wanted, farthest, outcome, ahead)
+        call move_on(path, mover, wanted, farthest, most, outcome, ahead)
       end if
     end if
     if (outcome == branch_lost .and. known) then
       call aim_along_change(bearing, path, before)
       call newton%log%detail('the state is moved on as it changed, the path follows')
-      call move_on(path, mover, wanted, farthest, outcome, ahead)
+      call move_on(path, mover, wanted, farthest, most, outcome, ahead)
     end if
     PetscCallA(VecCopy(farthest, path%state, ierr))
     ahead = path%give()
@@ -79,11 +82,12 @@ contains
   end subroutine look_beyond
 
   !> Moves on in the path's direction.
-  subroutine move_on(path, mover, wanted, farthest, outcome, ahead)
+  subroutine move_on(path, mover, wanted, farthest, most, outcome, ahead)
     type(bordered_system_type), intent(inout) :: path
     type(newton_type), target, intent(inout) :: mover
     real(wp), intent(in) :: wanted   !! share of the path [1]
     Vec, intent(in) :: farthest      !! answer that lies farthest ahead
+    integer, intent(in) :: most      !! moves
     integer, intent(out) :: outcome
     real(wp), intent(inout) :: ahead !! its share of the path [1]
     type(newton_report_type) :: solved
@@ -94,7 +98,7 @@ contains
     outcome = branch_lost
     move = first_move
     moves = 0
-    do while (outcome == branch_lost .and. moves < most_moves .and. move >= shortest_move)
+    do while (outcome == branch_lost .and. moves < most .and. move >= shortest_move)
       moves = moves + 1
       PetscCallA(VecCopy(farthest, path%base, ierr))
       PetscCallA(VecCopy(farthest, path%state, ierr))

@@ -17,9 +17,9 @@ module gfb_cold_start
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type
+  use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
   use gfb_kept_state, only: kept_state_type
-  use gfb_start_list, only: try_starts
+  use gfb_start_list, only: start_pressed
   use gfb_branch_search, only: seek_branch
   use gfb_smaller_scene, only: find_smaller
   use gfb_answer_transfer, only: transfer_answer
@@ -27,7 +27,7 @@ module gfb_cold_start
   use gfb_model_case, only: foil_rigid
   implicit none (type)
   private
-  public :: start_bearing, start_partitioned
+  public :: start_bearing, restart_bearing, start_partitioned
 
   real(wp), parameter :: light = 0.1_wp !! load of a lighter start, over the one asked for [1]
   real(wp), parameter :: shortest = 0.02_wp !! step on the way [1]
@@ -56,7 +56,7 @@ contains
     type(path_settings_type) :: settings
     type(path_report_type) :: refusal
     type(kept_state_type) :: refused
-    integer :: iterations, factorizations, i
+    integer :: spent(3), i
     logical :: again
 
     call start_on_meshes(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -70,10 +70,7 @@ contains
     call log%line('no answer from there ('//report%reason//'); from '//text(100.0_wp*light, 2)//' % of the load:')
     refusal = report
     call refused%keep(bearing)
-    iterations = newton%iterations
-    factorizations = newton%factorizations
-    call destroy_newton(newton)
-    call bearing%destroy()
+    call drop_bearing(bearing, newton, spent)
     lighter = target
     lighter%load = light*target%load
     settings = path_settings
@@ -90,9 +87,29 @@ contains
       call refused%put_back(bearing)
     end if
     call refused%destroy()
-    newton%iterations = newton%iterations + iterations
-    newton%factorizations = newton%factorizations + factorizations
+    call count_spent(newton, spent)
   end subroutine start_bearing
+
+  !> `start_bearing` where there is a bearing already, whose way has ended: it is built anew, and what was spent on it counts.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine restart_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    type(scene_type), target, intent(in) :: scene !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan          !! its meshes
+    type(operating_point_type), intent(in) :: target     !! where the answer is asked for
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! in: the one before; out: built anew
+    type(newton_type), target, intent(inout) :: newton          !! its solver
+    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    integer :: spent(3)
+
+    call drop_bearing(bearing, newton, spent)
+    call start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    call count_spent(newton, spent)
+  end subroutine restart_bearing
 
   !> Builds a scene's equations and finds their answer, on smaller meshes first.
   recursive subroutine start_on_meshes(scene, plan, target, newton_settings, path_settings, log, &
@@ -116,7 +133,7 @@ contains
     type(scene_type), target :: small
     type(bearing_plan_type) :: small_plan
     type(start_problem_type) :: problem
-    logical :: has_smaller, helped
+    logical :: has_smaller, helped, told
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
@@ -144,17 +161,22 @@ contains
     problem%refused = has_smaller .and. .not. helped .and. bearing%pad(1)%foil%has_contacts()
     if (helped .or. coarse_anchor%created) problem%smaller => coarse
     if (problem%refused) problem%refusal = report
-    call try_starts(problem, report)
+    call start_pressed(problem, report)
     if (.not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())) then
       call set_upwind(bearing, .true.)
       call log%line('film: Galerkin finds no answer, SUPG is tried')
-      call try_starts(problem, report)
+      call start_pressed(problem, report)
     end if
     if (problem%refused .and. .not. (report%converged .or. report%has_cause())) then
-      report%reason = problem%refusal%reason ! of all starts, not of one
-      report%drawn = problem%refusal%drawn
-      report%of_smaller = .true.
-      if (.not. problem%refusal%of_smaller) then
+      told = allocated(problem%suspicion) .and. .not. (problem%refusal%has_cause() .or. problem%refusal%drawn)
+      if (told) then
+        report%reason = problem%suspicion
+      else
+        report%reason = problem%refusal%reason ! of all starts, not of one
+        report%drawn = problem%refusal%drawn
+        report%of_smaller = .true.
+      end if
+      if (.not. (told .or. problem%refusal%of_smaller)) then
         report%reason = report%reason//', as the mesh of '//text(small_plan%circumferential)//' x '// &
           text(small_plan%axial)//' has it'
       end if

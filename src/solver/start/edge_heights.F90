@@ -169,7 +169,11 @@ contains
       lower = force > 0.0_wp
     end associate
     report%converged = .false.
-    report%reason = 'the edge of the top foil stays at no height below that at rest'
+    if (report%has_cause()) then
+      report%reason = report%reason//', as the film presses the free edge of the top foil down'
+    else
+      report%reason = 'the edge of the top foil stays at no height below that at rest'
+    end if
   end subroutine seek_below
 
   !> Raises the edge to where it needs no force; where there is none below the shaft, that is the end.

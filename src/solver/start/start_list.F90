@@ -14,9 +14,10 @@ module gfb_start_list
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_edge_heights, only: has_free_edge
   use gfb_edge_start, only: try_free_edge
+  use gfb_interference_start, only: press, set_interference
   implicit none (type)
   private
-  public :: cold_starts, try_starts
+  public :: cold_starts, try_starts, start_pressed
 
   integer, parameter :: most_iterations = 800 !! Newton's, after which no other start begins
   real(wp), parameter :: slow = 0.5_wp       !! speed of a slower shaft, over the one asked for [1]
@@ -50,6 +51,25 @@ contains
       cold_start_type('the free edge fixed where it rests, under a fixed shaft', fixed_with_free_edge, try_free_edge), &
       cold_start_type('half the speed first', can_be_slower, try_half_speed, counts=.true.)]
   end function cold_starts
+
+  !> The list of starts; where there is interference, from a smaller system's answer with it, or else without it first.
+  subroutine start_pressed(problem, report)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
+    type(path_report_type), intent(out) :: report !! how it ended
+    real(wp) :: interference
+
+    interference = problem%scene%bearing%interference
+    if (.not. interference > 0.0_wp .or. associated(problem%smaller)) then
+      call try_starts(problem, report)
+      if (.not. interference > 0.0_wp .or. report%converged .or. problem%refused) return
+    end if
+    problem%smaller => null()
+    call problem%newton%log%detail('without interference of assembly:')
+    call set_interference(problem%bearing, 0.0_wp)
+    call try_starts(problem, report)
+    if (report%converged) call press(problem, interference, report)
+    call set_interference(problem%bearing, interference)
+  end subroutine start_pressed
 
   !> Tries the starts that apply, one after the other, until one leads to the target.
   !>

@@ -152,7 +152,7 @@ contains
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
       free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(bore_peak(scene%bore%profile), 0.0_wp) &
-        - 0.5_wp*scene%bearing%length*norm2(target%tilt)
+        - bearing%pad(1)%film%interference - 0.5_wp*scene%bearing%length*norm2(target%tilt)
       direction = start_attitude
       if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]

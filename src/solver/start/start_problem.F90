@@ -5,12 +5,12 @@ module gfb_start_problem
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type
+  use gfb_newton, only: newton_type, forget_factors, destroy_newton
   use gfb_kept_state, only: kept_state_type
   use gfb_path_report, only: path_settings_type, path_report_type
   implicit none (type)
   private
-  public :: trial_settings
+  public :: trial_settings, drop_bearing, count_spent
 
   integer, parameter, public :: never = 0        !! no soft contacts
   integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
@@ -75,6 +75,32 @@ module gfb_start_problem
     end subroutine try_start
   end interface
 contains
+
+  !> Frees a bearing and its solver.
+  subroutine drop_bearing(bearing, newton, spent)
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    type(newton_type), intent(inout) :: newton !! its solver; keeps its counts, unless they are taken
+    integer, intent(out), optional :: spent(3) !! the counts so far; those of the solver begin anew
+
+    call forget_factors(newton)
+    call destroy_newton(newton)
+    call bearing%destroy()
+    if (.not. present(spent)) return
+    spent = [newton%iterations, newton%factorizations, newton%factorizations_before]
+    newton%iterations = 0
+    newton%factorizations = 0
+    newton%factorizations_before = 0
+  end subroutine drop_bearing
+
+  !> Adds what was spent before a bearing was built anew.
+  subroutine count_spent(newton, spent)
+    type(newton_type), intent(inout) :: newton !! the new bearing's
+    integer, intent(in) :: spent(3) !! of `drop_bearing`
+
+    newton%iterations = newton%iterations + spent(1)
+    newton%factorizations = newton%factorizations + spent(2)
+    newton%factorizations_before = newton%factorizations_before + spent(3)
+  end subroutine count_spent
 
   !> Limits of a path while other starts, or another way to show a refusal, are left.
   pure function trial_settings(settings) result(trial)

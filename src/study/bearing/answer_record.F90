@@ -10,7 +10,12 @@ module gfb_answer_record
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_tilt_response, only: begin_tilt, measure_tilt
-  use gfb_bearing_record, only: bearing_record_type, add_row
+  use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
+  use gfb_film_grid, only: add_film_grid
+  use gfb_foil_output, only: add_foil_grids
+  use gfb_grid_series, only: grid_series_type
+  use gfb_result_set, only: result_grid_type, add_series_step
+  use gfb_sweep_case, only: sweep_keys
   use gfb_answer_judgement, only: judge_answer
   use gfb_rotor_modes, only: rotor_answer_type
   use gfb_dynamics_record, only: dynamics_record_type
@@ -81,7 +86,28 @@ contains
     if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
     if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
     call add_row(scene, bearing, newton, .true., record, value, fold)
+    call add_fields(scene, bearing, record%series, value)
   end subroutine record_swept
+
+  !> Adds film and foils of an answer to the series of the sweep, where the scene asks for fields.
+  subroutine add_fields(scene, bearing, series, value)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(grid_series_type), intent(inout) :: series
+    real(wp), intent(in) :: value !! of the sweep, in its unit
+    type(result_grid_type), allocatable :: grids(:)
+    character(len=:), allocatable :: name
+
+    associate (output => scene%output, sweep => scene%sweep)
+      if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
+      allocate (grids(0))
+      call add_film_grid(bearing, output, grids)
+      call add_foil_grids(bearing, grids)
+      name = 'key_value'
+      if (sweep%parameter /= sweep_keys) name = sweep_name(sweep)
+      call add_series_step(series, name, sweep_unit(sweep), value, grids)
+    end associate
+  end subroutine add_fields
 
   !> Judges an answer and, where that is asked for, derives its numbers by keys, with the factors of the judgement.
   subroutine judge_and_derive(scene, log, bearing, newton, build, judged, value)

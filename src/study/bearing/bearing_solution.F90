@@ -15,10 +15,10 @@ module gfb_bearing_solution
   use gfb_changed_bearing, only: evaluate_changed
   use gfb_newton, only: newton_settings_type, create_newton
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing, start_partitioned
+  use gfb_cold_start, only: start_bearing, restart_bearing, start_partitioned
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
   use gfb_bearing_restart, only: recall_bearing, find_restart_point
-  use gfb_key_path, only: follow_keys, drop_bearing
+  use gfb_key_path, only: follow_keys
   use gfb_reasons, only: reason_type
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: take_walk
@@ -216,21 +216,11 @@ contains
     type(path_report_type), intent(inout) :: report !! in: of the path; out: of the start
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: scene
-    integer :: iterations, factorizations
 
-    associate (newton => sweep%newton)
-      call sweep%tell_end(point, report)
-      call scene_of(sweep, point, scene, error)
-      if (allocated(error)) return
-      iterations = newton%iterations
-      factorizations = newton%factorizations
-      call drop_bearing(sweep%bearing, newton)
-      newton%iterations = 0
-      newton%factorizations = 0
-      call start_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
-                         sweep%context%log, sweep%bearing, newton, report, error)
-      newton%iterations = newton%iterations + iterations
-      newton%factorizations = newton%factorizations + factorizations
-    end associate
+    call sweep%tell_end(point, report)
+    call scene_of(sweep, point, scene, error)
+    if (allocated(error)) return
+    call restart_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
+                         sweep%context%log, sweep%bearing, sweep%newton, report, error)
   end subroutine start_anew
 end module gfb_bearing_solution

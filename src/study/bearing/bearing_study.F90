@@ -19,6 +19,7 @@ module gfb_bearing_study
   use gfb_bearing_summary, only: cost_type, answer_quantities
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
+  use gfb_transient, only: transient_type
   use gfb_sweep, only: sweep_type
   use gfb_bearing_solution, only: solve_bearing
   use gfb_dynamics_writing, only: record_arrays, write_coefficients
@@ -30,6 +31,7 @@ module gfb_bearing_study
   type, extends(study_type), public :: bearing_study_type
     type(bearing_plan_type) :: plan
     type(sweep_type) :: sweep
+    type(transient_type), allocatable :: transient !! the way of the shaft over time, where that is asked for
   contains
     procedure :: prepare => prepare_bearing
     procedure :: solve => solve_study
@@ -59,7 +61,7 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    call solve_bearing(scene, self%plan, context, self%sweep, self%reason, error)
+    call find_first(self, scene, context, error)
     if (allocated(error)) return
     self%converged = .not. self%reason%is_given()
     associate (dynamics => self%sweep%record%dynamics)
@@ -83,6 +85,25 @@ contains
     end associate
   end subroutine solve_study
 
+  !> Finds the answer, or the answers of a sweep; with `&transient` where the shaft begins, and its way from there.
+  !>
+  !> Fails when the mesh cannot be cut or a restart file cannot be read.
+  subroutine find_first(self, scene, context, error)
+    class(bearing_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(error_type), allocatable, intent(out) :: error
+    type(scene_type) :: first
+
+    first = scene
+    if (scene%transient%present) first%operation%load = scene%transient%start_load
+    call solve_bearing(first, self%plan, context, self%sweep, self%reason, error)
+    if (allocated(error) .or. self%reason%is_given() .or. .not. scene%transient%present) return
+    allocate (self%transient)
+    call self%transient%run(scene, context, self%sweep%bearing, self%sweep%newton, self%reason)
+    self%sweep%record%judged = self%transient%results() ! what was known of the first state is not of the last one
+  end subroutine find_first
+
   !> Writes the result files.
   !>
   !> Fails when one cannot be written.
@@ -105,6 +126,7 @@ contains
     associate (record => self%sweep%record)
       if (allocated(self%coefficient_errors)) record%dynamics%point(1)%error = self%coefficient_errors
       result%contacts = record_arrays(scene, self%sweep%bearing, record, size(record%history))
+      if (allocated(self%transient)) call self%transient%add_arrays(result%contacts)
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
       call write_bearing(scene, context, self%sweep, result, summary, error)
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)

@@ -85,7 +85,7 @@ contains
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)
       call write_result_set(scene, context%folder, converged, result%origin, summary, record%history, result%contacts, &
-                            grids, context%csv, log, error, columns)
+                            grids, context%csv, log, error, columns, record%series)
     end associate
   end subroutine write_bearing
 

@@ -15,14 +15,14 @@ module gfb_key_path
   use gfb_bearing_builder, only: build_bearing
   use gfb_pad_contacts, only: set_upwind
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton, &
-                        forget_factors, destroy_newton
+  use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
+  use gfb_start_problem, only: drop_bearing
   use gfb_answer_transfer, only: transfer_answer
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
-  public :: follow_keys, drop_bearing
+  public :: follow_keys
 
   integer, parameter :: hasty_iterations = 20      !! of a step that can be cut: one that converges does so soon
   integer, parameter :: straight_steps = 8         !! of a leap, before they are bent at contacts that change
@@ -112,16 +112,6 @@ contains
     end if
     report%reached = bearing%point
   end subroutine follow_keys
-
-  !> Frees the bearing and its solver.
-  subroutine drop_bearing(bearing, newton)
-    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
-    type(newton_type), intent(inout) :: newton !! its solver; keeps its counts
-
-    call forget_factors(newton)
-    call destroy_newton(newton)
-    call bearing%destroy()
-  end subroutine drop_bearing
 
   !> The value at a path parameter; the last one to the last digit.
   pure function value_at(from, to, at) result(value)

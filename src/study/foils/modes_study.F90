@@ -11,7 +11,8 @@ module gfb_modes_study
   use gfb_modes_case, only: part_strip
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_foil_assembly, only: assemble_mass
-  use gfb_foil_builder, only: foil_plan_type, build_part
+  use gfb_foil_builder, only: foil_plan_type
+  use gfb_part_builder, only: build_part
   use gfb_foil_plan, only: plan_foil
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
   use gfb_free_motions, only: free_motions

@@ -27,7 +27,7 @@ module gfb_divided_sweep
   use gfb_job_groups, only: job_type
   use gfb_group_log, only: group_log_path, open_group_log, close_group_log
   use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
-                               seam_words, place_text, add_origin, merge_dynamics
+                               seam_words, place_text, add_origin, merge_dynamics, merge_series, keep_series
   implicit none (type)
   private
   public :: run_divided_sweep
@@ -159,6 +159,7 @@ contains
       stretch%contacts = record_arrays(sweep%scene, sweep%bearing, sweep%record, found)
       stretch%dynamics = sweep%record%dynamics
       if (allocated(stretch%dynamics%point)) stretch%dynamics%point = stretch%dynamics%point(:found)
+      call keep_series(sweep%record%series, found, stretch)
     end associate
     if (found == points) return
     stretch%status = status_unconverged
@@ -241,6 +242,7 @@ contains
     call merge_arrays(stretches, result%contacts)
     call merge_histories(scene, stretches, study%sweep%record%history)
     call merge_dynamics(stretches, study%sweep%record%dynamics)
+    call merge_series(stretches, study%sweep%record%series)
     study%sweep%record%tilted%first_slope = stretches(1)%first_slope
     call write_bearing(scene, terminal, study%sweep, result, summary, error)
     if (.not. allocated(error)) call write_coefficients(study%sweep%record, scene, terminal, error)

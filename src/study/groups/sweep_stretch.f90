@@ -9,6 +9,8 @@ module gfb_sweep_stretch
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type
+  use gfb_grid_series, only: grid_series_type, cut_series, join_series
+  use gfb_series_memory, only: remember_series
   use gfb_row_memory, only: remember_rows, remember_arrays
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, remember_dynamics
   use gfb_tilt_response, only: tilt_axis
@@ -17,7 +19,7 @@ module gfb_sweep_stretch
   implicit none (type, external)
   private
   public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
-            place_text, add_origin, merge_dynamics
+            place_text, add_origin, merge_dynamics, merge_series, keep_series
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -38,6 +40,7 @@ module gfb_sweep_stretch
     type(case_array_type), allocatable :: contacts(:)
     real(wp) :: first_slope(2, 2) = 0.0_wp     !! where it begins [N m/rad]
     type(dynamics_record_type) :: dynamics !! coefficients at its points, onset of whirl
+    type(grid_series_type) :: series       !! film and foils at its points
   end type stretch_type
 
 contains
@@ -66,6 +69,8 @@ contains
     call memory%visit('first_slope', stretch%first_slope)
     call memory%part('dynamics')
     call remember_dynamics(memory, stretch%dynamics)
+    call memory%part('series')
+    call remember_series(memory, stretch%series)
   end subroutine remember_stretch
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
@@ -191,6 +196,27 @@ contains
       end do
     end do
   end subroutine merge_arrays
+
+  !> Film and foils at the first points of a stretch.
+  pure subroutine keep_series(series, points, stretch)
+    type(grid_series_type), intent(in) :: series !! of these and maybe more points
+    integer, intent(in) :: points !! that are kept
+    type(stretch_type), intent(inout) :: stretch !! gets the series
+
+    stretch%series = series
+    call cut_series(stretch%series, points)
+  end subroutine keep_series
+
+  !> Film and foils at all points in the sweep's order.
+  pure subroutine merge_series(stretches, series)
+    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(grid_series_type), intent(out) :: series !! of all points
+    integer :: i
+
+    do i = 1, size(stretches)
+      call join_series(series, stretches(i)%series)
+    end do
+  end subroutine merge_series
 
   !> Coefficients of all points, and the first onset of whirl that any stretch has seen.
   pure subroutine merge_dynamics(stretches, record)

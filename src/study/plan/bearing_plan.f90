@@ -20,7 +20,7 @@ module gfb_bearing_plan
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
-  use gfb_foil_plan, only: count_bumps
+  use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_solver_case, only: linear_solver_out_of_core
   use gfb_memory_estimate, only: film_memory, bearing_memory
   use gfb_memory_check, only: show_memory
@@ -141,6 +141,7 @@ contains
     else if (meshes_foils(scene%model%foil)) then
       call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps '// &
                     foil_meaning(scene%model%foil))
+      call show_strips(scene%bump_foil, log)
     else
       call log%line('foil: '//foil_meaning(scene%model%foil))
       if (scene%bump_foil%present) then
@@ -157,7 +158,10 @@ contains
 
     if (scene%model%half_width == half_width_auto) then
       plan%half = is_symmetric(scene%operation, scene%sweep) .and. modulo(plan%axial, 2) == 0
-      if (plan%half) then
+      plan%half = plan%half .and. strips_mirror(scene%bump_foil)
+      if (.not. strips_mirror(scene%bump_foil)) then
+        call log%line('width: whole, because the strips do not mirror each other')
+      else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
       else if (is_symmetric(scene%operation, scene%sweep)) then
         call log%line('width: whole, because axial_elements is odd')

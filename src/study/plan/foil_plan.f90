@@ -7,8 +7,10 @@ module gfb_foil_plan
   use gfb_scene_case, only: analysis_strip
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan
   use gfb_modes_case, only: part_words, part_strip
-  use gfb_bump_foil_case, only: fixed_edge_none, has_flats
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, &
+                                strips_differ
   use gfb_strip_load_case, only: support_held, load_plates
+  use gfb_strip_sizes, only: sizes_mirror
   use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_estimate, only: strip_memory, modes_memory
   use gfb_memory_check, only: show_memory
@@ -16,7 +18,7 @@ module gfb_foil_plan
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
-  public :: plan_foil, count_bumps, has_friction
+  public :: plan_foil, count_bumps, has_friction, show_strips, strips_mirror
 
 contains
 
@@ -37,7 +39,10 @@ contains
     plan%half = scene%model%half_width == half_width_yes
     if (scene%model%half_width == half_width_auto) then
       plan%half = strip .and. modulo(scene%mesh%axial_elements, 2) == 0
-      if (plan%half) then
+      plan%half = plan%half .and. strips_mirror(scene%bump_foil)
+      if (strip .and. .not. strips_mirror(scene%bump_foil)) then
+        call log%line('width: whole, because the strips do not mirror each other')
+      else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because the loads are')
       else if (strip) then
         call log%line('width: whole, because axial_elements is odd')
@@ -71,6 +76,23 @@ contains
     if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
   end subroutine plan_foil
 
+  !> Whether the strips mirror each other about the midplane; one does.
+  elemental function strips_mirror(foil) result(mirror)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    logical :: mirror
+    mirror = sizes_mirror(foil%strip)
+  end function strips_mirror
+
+  !> Tells of strips with sizes of their own.
+  subroutine show_strips(foil, log)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    type(run_log_type), intent(in) :: log !! where lines go
+
+    if (.not. strips_differ(foil)) return
+    call log%line('strips: '//text(foil%strips)//' side by side with sizes of their own; '// &
+                  'scales and mesh lines follow their mean')
+  end subroutine show_strips
+
   !> Whether anything rubs.
   pure function has_friction(scene) result(friction)
     type(scene_type), intent(in) :: scene !! of a strip
@@ -101,6 +123,7 @@ contains
       end if
       if (load%support == support_held) words = words//', corner lines held in v'
       call log%line(words)
+      call show_strips(scene%bump_foil, log)
       if (has_friction(scene)) then
         call log%line('friction: '//text(contact%friction_top, 4)//' on top, '// &
                       text(contact%friction_sleeve, 4)//' on the sleeve, stick length '// &

@@ -1,0 +1,336 @@
+!> Surfaces with fields at the steps of a series: the points of a sweep, the times of a transient.
+!>
+!> What a step shares with the one before, a grid that does not move or a field that does not
+!> change, is kept once. The first rank has all numbers; the other ranks know surfaces, fields and
+!> values.
+module gfb_grid_series
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int8_t, c_loc
+  use gfb_kinds, only: wp
+  use gfb_grid, only: grid_type, grid_field_type, result_grid_type, block_bounds
+  use gfb_rank_parts, only: gather_parts
+  implicit none (type, external)
+  private
+  public :: begin_step, add_surface, cut_series, join_series, forget_numbers
+
+  !> Columns of numbers, with room for more.
+  type, public :: columns_type
+    real(wp), allocatable :: number(:, :) !! (components, room)
+    integer :: used = 0                   !! columns that have numbers
+  end type columns_type
+
+  !> A field of a surface over the steps.
+  type, public :: series_field_type
+    character(len=:), allocatable :: name, unit, meaning
+    type(columns_type) :: value       !! entries of the steps that brought new ones, in `unit`
+    integer, allocatable :: offset(:) !! entries before those of each step
+  end type series_field_type
+
+  !> A surface over the steps.
+  type, public :: surface_series_type
+    character(len=:), allocatable :: name  !! of the surface, such as film
+    type(columns_type) :: point            !! of all grids, one behind the other [m]
+    type(columns_type) :: cell             !! the same; four points each, from 1 in each grid
+    integer, allocatable :: points(:), cells(:) !! of each grid
+    integer, allocatable :: grid(:)        !! that each step has, from 1
+    type(series_field_type), allocatable :: point_field(:), cell_field(:)
+  end type surface_series_type
+
+  !> The series; without a step where it has no values.
+  type, public :: grid_series_type
+    character(len=:), allocatable :: name, unit !! of what has a value at each step
+    real(wp), allocatable :: value(:)           !! one a step, in that unit
+    type(surface_series_type), allocatable :: surface(:)
+  end type grid_series_type
+
+contains
+
+  !> Begins a step; all its surfaces are to be added.
+  subroutine begin_step(series, name, unit, value)
+    type(grid_series_type), intent(inout) :: series !! gets the step
+    character(len=*), intent(in) :: name !! of what has a value, such as time
+    character(len=*), intent(in) :: unit !! of the value
+    real(wp), intent(in) :: value        !! at this step, in that unit
+
+    series%name = name
+    series%unit = unit
+    if (.not. allocated(series%value)) allocate (series%value(0))
+    if (.not. allocated(series%surface)) allocate (series%surface(0))
+    series%value = [series%value, value]
+  end subroutine begin_step
+
+  !> Adds a surface to the step that was begun last; all steps have the same surfaces and fields.
+  subroutine add_surface(series, communicator, rank, ranks, now)
+    type(grid_series_type), intent(inout) :: series !! gets the surface
+    integer, intent(in) :: communicator !! MPI's
+    integer, intent(in) :: rank, ranks  !! this one, from 0, and their number
+    type(result_grid_type), intent(in) :: now !! the surface at this step, parts by `block_bounds`
+    type(surface_series_type) :: new
+    integer :: i
+
+    if (size(series%value) == 1) then
+      call begin_surface(now, new)
+      series%surface = [series%surface, new]
+    end if
+    do i = 1, size(series%surface)
+      if (series%surface(i)%name == now%name) exit
+    end do
+    if (i > size(series%surface)) error stop 'a step has a surface that the first one has not'
+    associate (surface => series%surface(i))
+      call add_grid(surface, communicator, rank, ranks, now%grid)
+      call add_fields(surface%point_field, communicator, rank, ranks, now%grid%points, &
+                      now%point_field)
+      call add_fields(surface%cell_field, communicator, rank, ranks, now%grid%cells, now%cell_field)
+    end associate
+  end subroutine add_surface
+
+  !> A surface without a step.
+  pure subroutine begin_surface(now, surface)
+    type(result_grid_type), intent(in) :: now
+    type(surface_series_type), intent(out) :: surface
+
+    surface%name = now%name
+    allocate (surface%points(0), surface%cells(0), surface%grid(0))
+    allocate (surface%point%number(3, 0), surface%cell%number(4, 0))
+    call begin_fields(now%point_field, surface%point_field)
+    call begin_fields(now%cell_field, surface%cell_field)
+  end subroutine begin_surface
+
+  !> Fields without a step.
+  pure subroutine begin_fields(field, list)
+    type(grid_field_type), intent(in) :: field(:)
+    type(series_field_type), allocatable, intent(out) :: list(:)
+    integer :: i
+
+    allocate (list(size(field)))
+    do i = 1, size(field)
+      list(i)%name = field(i)%name
+      list(i)%unit = field(i)%unit
+      list(i)%meaning = field(i)%meaning
+      allocate (list(i)%offset(0), list(i)%value%number(size(field(i)%block, 1), 0))
+    end do
+  end subroutine begin_fields
+
+  !> Adds the grid of a step, unless it is that of the step before.
+  subroutine add_grid(surface, communicator, rank, ranks, grid)
+    type(surface_series_type), intent(inout) :: surface
+    integer, intent(in) :: communicator, rank, ranks
+    type(grid_type), intent(in) :: grid
+    real(wp), allocatable :: point(:, :), cell(:, :)
+    logical :: same
+
+    point = gathered(communicator, rank, ranks, grid%point, grid%points)
+    cell = gathered(communicator, rank, ranks, real(grid%cell, wp), grid%cells)
+    same = ends_with(surface%point, point) .and. ends_with(surface%cell, cell)
+    if (rank == 0 .and. .not. same) then
+      surface%points = [surface%points, grid%points]
+      surface%cells = [surface%cells, grid%cells]
+      call append(surface%point, point)
+      call append(surface%cell, cell)
+    end if
+    surface%grid = [surface%grid, size(surface%points)]
+  end subroutine add_grid
+
+  !> Adds the fields of a step; of a field that is as it was only where it stands.
+  subroutine add_fields(list, communicator, rank, ranks, total, field)
+    type(series_field_type), intent(inout) :: list(:)
+    integer, intent(in) :: communicator, rank, ranks
+    integer, intent(in) :: total !! entries of all ranks
+    type(grid_field_type), intent(in) :: field(:)
+    real(wp), allocatable :: value(:, :)
+    integer :: i
+
+    if (size(list) /= size(field)) error stop 'a step has other fields than the first one'
+    do i = 1, size(list)
+      value = gathered(communicator, rank, ranks, field(i)%block, total)
+      if (rank == 0 .and. .not. ends_with(list(i)%value, value)) call append(list(i)%value, value)
+      list(i)%offset = [list(i)%offset, list(i)%value%used - size(value, 2)]
+    end do
+  end subroutine add_fields
+
+  !> The entries of all ranks on the first one, none on the others.
+  function gathered(communicator, rank, ranks, block, total) result(all)
+    integer, intent(in) :: communicator, rank, ranks
+    real(wp), intent(in) :: block(:, :) !! (components, entries of this rank)
+    integer, intent(in) :: total        !! entries of all ranks
+    real(wp), allocatable :: all(:, :)
+    real(wp), target :: buffer(max(1, size(block)))
+    integer(c_int8_t), allocatable, target :: bytes(:)
+    real(wp), pointer :: number(:, :)
+    integer :: first, last
+
+    call block_bounds(total, rank, ranks, first, last)
+    buffer(:size(block)) = reshape(block, [size(block)])
+    call gather_parts(communicator, rank == 0, size(block, 1)*storage_size(buffer)/8, &
+                      c_loc(buffer), size(block, 2), first - 1, total, bytes)
+    allocate (all(size(block, 1), merge(total, 0, rank == 0)))
+    if (size(all) == 0) return
+    call c_f_pointer(c_loc(bytes), number, shape(all))
+    all = number
+  end function gathered
+
+  !> Whether the last columns are these.
+  pure function ends_with(columns, last) result(same)
+    type(columns_type), intent(in) :: columns
+    real(wp), intent(in) :: last(:, :)
+    logical :: same
+    integer :: before
+
+    before = columns%used - size(last, 2)
+    same = before >= 0
+    if (same) same = .not. any(abs(columns%number(:, before + 1:columns%used) - last) > 0.0_wp)
+  end function ends_with
+
+  !> Adds columns.
+  pure subroutine append(columns, more)
+    type(columns_type), intent(inout) :: columns
+    real(wp), intent(in) :: more(:, :)
+    real(wp), allocatable :: wider(:, :)
+    integer :: last
+
+    last = columns%used + size(more, 2)
+    if (last > size(columns%number, 2)) then
+      allocate (wider(size(more, 1), last + columns%used))
+      wider(:, :columns%used) = columns%number(:, :columns%used)
+      call move_alloc(wider, columns%number)
+    end if
+    columns%number(:, columns%used + 1:last) = more
+    columns%used = last
+  end subroutine append
+
+  !> Keeps the first steps only, and what these have.
+  pure subroutine cut_series(series, steps)
+    type(grid_series_type), intent(inout) :: series !! loses steps
+    integer, intent(in) :: steps !! that stay
+    type(grid_series_type) :: none
+    integer :: i
+
+    if (.not. allocated(series%value)) return
+    if (size(series%value) <= steps) return
+    if (steps == 0) then
+      series = none
+      return
+    end if
+    series%value = series%value(:steps)
+    do i = 1, size(series%surface)
+      associate (surface => series%surface(i))
+        surface%grid = surface%grid(:steps)
+        call cut_grids(surface, min(surface%grid(steps), size(surface%points)))
+        call cut_fields(surface%point_field, steps)
+        call cut_fields(surface%cell_field, steps)
+      end associate
+    end do
+  end subroutine cut_series
+
+  !> Keeps the first grids.
+  pure subroutine cut_grids(surface, grids)
+    type(surface_series_type), intent(inout) :: surface
+    integer, intent(in) :: grids !! that stay
+
+    surface%points = surface%points(:grids)
+    surface%cells = surface%cells(:grids)
+    surface%point%used = sum(surface%points)
+    surface%cell%used = sum(surface%cells)
+  end subroutine cut_grids
+
+  !> Keeps the first steps of fields, and the entries that these have.
+  pure subroutine cut_fields(list, steps)
+    type(series_field_type), intent(inout) :: list(:)
+    integer, intent(in) :: steps !! that stay
+    integer :: i
+
+    do i = 1, size(list)
+      associate (later => list(i)%offset(steps + 1:), last => list(i)%offset(steps))
+        if (any(later > last)) list(i)%value%used = minval(later, later > last)
+      end associate
+      list(i)%offset = list(i)%offset(:steps)
+    end do
+  end subroutine cut_fields
+
+  !> Adds the steps of another series with the same surfaces and fields at the end.
+  pure subroutine join_series(series, more)
+    type(grid_series_type), intent(inout) :: series !! gets steps
+    type(grid_series_type), intent(in) :: more !! what comes behind
+    integer :: i
+
+    if (.not. allocated(more%value)) return
+    if (.not. allocated(series%value)) then
+      series = more
+      return
+    end if
+    series%value = [series%value, more%value]
+    do i = 1, size(series%surface)
+      associate (surface => series%surface(i), next => more%surface(i))
+        call join_grids(surface, next)
+        call join_fields(surface%point_field, next%point_field)
+        call join_fields(surface%cell_field, next%cell_field)
+      end associate
+    end do
+  end subroutine join_series
+
+  !> Adds the grids of further steps, unless all of them have the last one.
+  pure subroutine join_grids(surface, more)
+    type(surface_series_type), intent(inout) :: surface
+    type(surface_series_type), intent(in) :: more
+    logical :: same
+
+    associate (point => more%point%number(:, :more%point%used), &
+               cell => more%cell%number(:, :more%cell%used))
+      same = size(more%points) == 1 .and. ends_with(surface%point, point)
+      same = same .and. ends_with(surface%cell, cell)
+      surface%grid = [surface%grid, more%grid + (size(surface%points) - merge(1, 0, same))]
+      if (same) return
+      surface%points = [surface%points, more%points]
+      surface%cells = [surface%cells, more%cells]
+      call append(surface%point, point)
+      call append(surface%cell, cell)
+    end associate
+  end subroutine join_grids
+
+  !> Adds further steps to those of fields, of one that stays as it was only where it stands.
+  pure subroutine join_fields(list, more)
+    type(series_field_type), intent(inout) :: list(:)
+    type(series_field_type), intent(in) :: more(:)
+    integer :: i
+
+    do i = 1, size(list)
+      associate (value => more(i)%value%number(:, :more(i)%value%used))
+        if (all(more(i)%offset == 0) .and. ends_with(list(i)%value, value)) then
+          list(i)%offset = [list(i)%offset, more(i)%offset + (list(i)%value%used - size(value, 2))]
+        else
+          list(i)%offset = [list(i)%offset, more(i)%offset + list(i)%value%used]
+          call append(list(i)%value, value)
+        end if
+      end associate
+    end do
+  end subroutine join_fields
+
+  !> Frees what the first rank alone has to know.
+  pure subroutine forget_numbers(series)
+    type(grid_series_type), intent(inout) :: series !! on another rank
+    integer :: i, k
+
+    if (.not. allocated(series%surface)) return
+    do i = 1, size(series%surface)
+      associate (surface => series%surface(i))
+        surface%points = surface%points(:0)
+        surface%cells = surface%cells(:0)
+        call empty(surface%point)
+        call empty(surface%cell)
+        do k = 1, size(surface%point_field)
+          call empty(surface%point_field(k)%value)
+        end do
+        do k = 1, size(surface%cell_field)
+          call empty(surface%cell_field(k)%value)
+        end do
+      end associate
+    end do
+  end subroutine forget_numbers
+
+  !> No columns.
+  pure subroutine empty(columns)
+    type(columns_type), intent(inout) :: columns
+
+    columns%number = columns%number(:, :0)
+    columns%used = 0
+  end subroutine empty
+end module gfb_grid_series

@@ -1,0 +1,196 @@
+!> Foils as they are built: gaps at crests need a model in which crests touch something, sizes bump
+!> by bump one that has the bumps, foils that lie with a force at rest one in which they give way.
+module gfb_assembly_rules
+  use gfb_bump_foil_case, only: bump_pitches, bump_half_lengths, fixed_edge_none
+  use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: coupling_partitioned, foil_elastic_foundation, foil_rigid, &
+                            foundation_pressure_local, meshes_foils
+  use gfb_modes_case, only: part_strip, part_top_foil
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
+  use gfb_strip_load_case, only: load_plates, support_held
+  use gfb_text, only: text
+  use gfb_top_foil_case, only: initial_curvature
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: check_crest_gaps, check_bump_sizes, check_assembly
+
+  character(len=*), parameter :: interference = 'assembly_interference'
+  character(len=*), parameter :: monolithic = "needs coupling = 'monolithic' in &model: film"// &
+                                 ' and foil in turns begin with a foil at rest without forces'
+  real(wp), parameter :: rise = 0.0704_wp !! of a foil that springs open, over kappa_0 R^2 [1]
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
+
+contains
+
+  !> Complains about gaps where no crest can close one.
+  subroutine check_crest_gaps(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: key(*) = [character(len=16) :: 'crest_gap', 'height_deviation']
+    character(len=:), allocatable :: words
+
+    words = ''
+    associate (analysis => scene%general%analysis)
+      if (is_bearing(analysis) .and. scene%model%foil > 0) then
+        if (.not. meshes_foils(scene%model%foil)) then
+          words = "needs foil = 'shell' in &model, or 'beam': no other foil has crests"
+        end if
+      else if (analysis == analysis_strip .and. scene%strip_load%kind /= load_plates) then
+        words = "needs kind = 'plates' in &strip_load: a force that is given acts on its crest "// &
+                'wherever that is'
+      else if (analysis == analysis_modes) then
+        words = 'needs a bearing or a strip between plates: modes are those of foils that '// &
+                'touch nothing'
+      end if
+    end associate
+    call complain_of(keys, key, words)
+    call check_corner_gaps(keys, scene)
+  end subroutine check_crest_gaps
+
+  !> Complains about gaps at corners that touch nothing, are two bumps', or leave the strip in air.
+  subroutine check_corner_gaps(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: key(*) = [character(len=10) :: 'corner_gap']
+    character(len=:), allocatable :: words
+
+    words = ''
+    associate (analysis => scene%general%analysis, foil => scene%bump_foil)
+      if (.not. allocated(foil%corner_gap)) return
+      if (is_bearing(analysis) .and. scene%model%foil > 0 .and. &
+          .not. meshes_foils(scene%model%foil)) then
+        words = "needs foil = 'shell' in &model, or 'beam': no other foil has corners"
+      else if (analysis == analysis_modes) then
+        words = 'needs a bearing or a strip under load: modes are those of foils that touch nothing'
+      else if (analysis == analysis_strip .and. scene%strip_load%support == support_held) then
+        words = "needs support = 'contact' in &strip_load: corner lines that are held cannot move"
+      else if (any(bump_pitches(foil) <= 2.0_wp*bump_half_lengths(foil)*(1.0_wp + rounding)) .and. &
+               maxval(foil%corner_gap) > minval(foil%corner_gap)) then
+        words = 'needs flats at all bumps: without one two bumps share a corner line'
+      else if (foil%fixed_edge == fixed_edge_none .and. minval(foil%corner_gap) > 0.0_wp) then
+        words = 'must be 0 for a bump at least, or nothing holds a strip that is fixed nowhere'
+      else if (.not. maxval(foil%corner_gap) < foil%height .and. foil%height > 0.0_wp) then
+        words = 'must be less than the height of the bumps, '//text(foil%height)//' m'
+      end if
+    end associate
+    call complain_of(keys, key, words)
+  end subroutine check_corner_gaps
+
+  !> Complains about sizes bump by bump where there is one bump, or none.
+  subroutine check_bump_sizes(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: key(*) = [character(len=16) :: 'bump_pitch', &
+                                             'bump_half_length', 'bump_height', 'bump_thickness']
+    character(len=:), allocatable :: words
+
+    words = ''
+    associate (analysis => scene%general%analysis, part => scene%modes%part)
+      if (is_bearing(analysis) .and. scene%model%foil > 0) then
+        if (.not. meshes_foils(scene%model%foil)) then
+          words = "needs foil = 'shell' in &model, or 'beam': no other foil has bumps"
+          if (scene%bump_foil%strips > 1) call keys%complain('bump_foil', 'strips', words)
+        end if
+      else if (analysis == analysis_modes .and. part > 0) then
+        if (scene%bump_foil%strips > 1) then
+          call keys%complain('bump_foil', 'strips', 'must be 1 for modes: each strip has its own')
+        end if
+        if (part /= part_strip .and. part /= part_top_foil) then
+          words = "needs part = 'strip' in &modes: the other parts are those of one bump"
+        end if
+      else if (analysis == analysis_strip .and. scene%bump_foil%strips > 1 .and. &
+               scene%mesh%edge_refinement > 1.0_wp) then
+        call keys%complain('mesh', 'edge_refinement', 'must be 1 for strips side by side: each '// &
+                           'has equal rows')
+      end if
+    end associate
+    call complain_of(keys, key, words)
+    call check_nested_strips(keys, scene)
+  end subroutine check_bump_sizes
+
+  !> Complains where the meshes of an estimated error would not refine each other: each must share
+  !> its elements out evenly among the strips.
+  subroutine check_nested_strips(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: multiple
+
+    if (scene%bump_foil%strips <= 1 .or. .not. scene%accuracy%present) return
+    multiple = merge(4, 8, modulo(scene%bump_foil%strips, 2) == 0)*scene%bump_foil%strips
+    if (modulo(scene%mesh%axial_elements, multiple) == 0) return
+    call keys%complain('bump_foil', 'strips', 'needs axial_elements in &mesh that are a '// &
+                       'multiple of '//text(multiple)//', not '// &
+                       text(scene%mesh%axial_elements)//', so that the meshes of &accuracy '// &
+                       'refine each other')
+  end subroutine check_nested_strips
+
+  !> Complains about keys of the bump foil that stand in the file; not where there are no words.
+  subroutine complain_of(keys, key, words)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: key(:), words
+    integer :: i
+
+    if (words == '') return
+    do i = 1, size(key)
+      if (.not. keys%meant('bump_foil', trim(key(i)))) cycle
+      call keys%complain('bump_foil', trim(key(i)), words)
+    end do
+  end subroutine complain_of
+
+  !> Complains about a foil that cannot give way, and warns of one that rises by more than there
+  !> is room for.
+  subroutine check_assembly(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    logical :: partitioned
+
+    partitioned = scene%model%coupling == coupling_partitioned
+    if (scene%bearing%interference > 0.0_wp) then
+      if (.not. is_bearing(scene%general%analysis)) then
+        call keys%complain('bearing', interference, 'needs a bearing with a film')
+      else if (scene%model%foil == foil_rigid) then
+        call keys%complain('bearing', interference, 'needs a foil that gives way: '// &
+                           "another one than 'rigid' in &model; a smaller clearance is the same")
+      else if (partitioned) then
+        call keys%complain('bearing', interference, monolithic)
+      else if (scene%model%foil == foil_elastic_foundation .and. &
+               scene%model%foundation_pressure == foundation_pressure_local .and. &
+               scene%bearing%clearance > 0.0_wp .and. &
+               scene%bearing%interference >= scene%bearing%clearance) then
+        call keys%complain('bearing', interference, 'needs foundation_pressure = '// &
+                           "'axial_mean' in &model: under the local pressure the sides, at "// &
+                           'ambient pressure, never give way')
+      end if
+    end if
+    if (.not. scene%top_foil%free_radius > 0.0_wp) return
+    if (.not. is_bearing(scene%general%analysis)) then
+      call keys%complain('top_foil', 'free_radius', &
+                         'needs a bearing: no other top foil lies in a bore')
+    else if (scene%model%foil > 0 .and. .not. meshes_foils(scene%model%foil)) then
+      call keys%complain('top_foil', 'free_radius', "needs foil = 'shell' in &model, or "// &
+                         "'beam': no other foil bends")
+    else if (partitioned) then
+      call keys%complain('top_foil', 'free_radius', monolithic)
+    else if (scene%model%foil > 0) then
+      call warn_of_rise(keys, scene)
+    end if
+  end subroutine check_assembly
+
+  !> Warns where the foil at rest rises over its bumps by more than the clearance.
+  subroutine warn_of_rise(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: height !! [m]
+
+    associate (bearing => scene%bearing)
+      if (.not. (bearing%radius > 0.0_wp .and. bearing%clearance > 0.0_wp)) return
+      height = rise*abs(initial_curvature(scene%top_foil, bearing%radius))*bearing%radius**2
+      if (height < bearing%clearance) return
+      call keys%warn('top_foil', 'free_radius', 'lets the foil rise over its bumps at '// &
+                     'rest by '//text(height, 3)//' m or more, and the clearance is '// &
+                     text(bearing%clearance)//' m')
+    end associate
+  end subroutine warn_of_rise
+end module gfb_assembly_rules

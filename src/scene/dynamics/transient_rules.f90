@@ -1,0 +1,155 @@
+!> What a scene must have, and cannot have, where a shaft is followed over time.
+module gfb_transient_rules
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation
+  use gfb_operation_case, only: operation_case_type
+  use gfb_rotor_case, only: rotor_case_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_transient_case, only: transient_case_type
+  implicit none (type, external)
+  private
+  public :: check_transient
+
+  character(len=*), parameter :: group = 'transient'
+
+contains
+
+  !> Checks a scene with `&transient`.
+  subroutine check_transient(keys, transient, operation, rotor, model, state)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(transient_case_type), intent(in) :: transient !! what `&transient` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(rotor_case_type), intent(in) :: rotor !! what `&rotor` says
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    integer, intent(in) :: state !! analysis that finds where the shaft begins
+
+    if (.not. transient%present) return
+    if (keys%meant(group, 'turns') .eqv. keys%meant(group, 'duration')) then
+      call keys%complain(group, 'turns', 'or duration must say how long: give one of them')
+    end if
+    if (keys%meant(group, 'steps_per_turn') .and. keys%meant(group, 'time_tolerance')) then
+      call keys%complain(group, 'time_tolerance', 'has no use with steps_per_turn')
+    end if
+    if (keys%meant(group, 'turns') .and. .not. &
+        max(operation%speed_rpm, transient%final_speed_rpm) > 0.0_wp) then
+      call keys%complain(group, 'turns', 'needs a shaft that turns: give duration')
+    end if
+    if (state == analysis_equilibrium) then
+      call check_free_shaft(keys, rotor)
+    else
+      call check_given_orbit(keys)
+    end if
+    call check_pulse_and_base(keys, transient)
+    call check_neighbours(keys, transient, model)
+  end subroutine check_transient
+
+  !> A shaft that bears a load has a mass, and finds its orbit itself.
+  subroutine check_free_shaft(keys, rotor)
+    type(case_keys_type), intent(inout) :: keys
+    type(rotor_case_type), intent(in) :: rotor
+
+    if (.not. rotor%present) then
+      call keys%complain('scene', 'analysis', "'transient' needs the mass of the shaft, in "// &
+                         '&rotor; without one give an eccentricity, and its orbit, for the load')
+    else if (keys%meant('rotor', 'bearing_distance')) then
+      call keys%complain('rotor', 'bearing_distance', "has no use with analysis = 'transient': "// &
+                         'the shaft moves in x and y alone')
+    end if
+    call refuse(keys, 'orbit_radius', 'needs an eccentricity in &operation instead of a load')
+    call refuse(keys, 'orbit_frequency', 'needs an eccentricity in &operation instead of a load')
+  end subroutine check_free_shaft
+
+  !> A shaft whose place is given feels no force.
+  subroutine check_given_orbit(keys)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), parameter :: free = 'needs a load in &operation, and a mass in &rotor'
+
+    if (keys%meant(group, 'orbit_radius') .neqv. keys%meant(group, 'orbit_frequency')) then
+      call keys%complain(group, 'orbit_radius', 'and orbit_frequency need each other')
+    end if
+    if (keys%meant('rotor', 'mass')) then
+      call keys%complain('rotor', 'mass', 'has no use where the place of the shaft is given')
+    end if
+    call refuse(keys, 'start_load', free)
+    call refuse(keys, 'unbalance', free)
+    call refuse(keys, 'pulse', free)
+    call refuse(keys, 'base_time', free)
+    call refuse(keys, 'steady_tolerance', free)
+    call refuse(keys, 'largest_orbit', free)
+  end subroutine check_given_orbit
+
+  !> Complains about a key that is given.
+  subroutine refuse(keys, name, words)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: name, words
+
+    if (keys%meant(group, name)) call keys%complain(group, name, words)
+  end subroutine refuse
+
+  !> A pulse has a length, a table its columns.
+  subroutine check_pulse_and_base(keys, transient)
+    type(case_keys_type), intent(inout) :: keys
+    type(transient_case_type), intent(in) :: transient
+
+    if (keys%meant(group, 'pulse') .and. .not. keys%meant(group, 'pulse_length')) then
+      call keys%complain(group, 'pulse_length', 'must be given with pulse')
+    end if
+    if (.not. keys%meant(group, 'pulse')) then
+      call refuse(keys, 'pulse_start', 'has no use without pulse')
+      call refuse(keys, 'pulse_length', 'has no use without pulse')
+    end if
+    if (keys%meant(group, 'ramp_time') .and. .not. transient%speed_changes) then
+      call refuse(keys, 'ramp_time', 'has no use without final_speed_rpm')
+    end if
+    call check_column(keys, 'base_acceleration_x', size(transient%base_acceleration_x), &
+                      size(transient%base_time))
+    call check_column(keys, 'base_acceleration_y', size(transient%base_acceleration_y), &
+                      size(transient%base_time))
+    associate (time => transient%base_time)
+      if (any(time(2:) <= time(:size(time) - 1))) then
+        call keys%complain(group, 'base_time', 'must rise from value to value')
+      end if
+    end associate
+  end subroutine check_pulse_and_base
+
+  !> A column of the table has a value a time, or none at all.
+  subroutine check_column(keys, name, values, times)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: values, times
+
+    if (values > 0 .and. values /= times) then
+      call keys%complain(group, name, 'must have as many values as base_time')
+    end if
+  end subroutine check_column
+
+  !> What cannot stand beside `&transient`.
+  subroutine check_neighbours(keys, transient, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(transient_case_type), intent(in) :: transient
+    type(model_case_type), intent(in) :: model
+    character(len=*), parameter :: useless = "has no use with analysis = 'transient'"
+
+    if (keys%meant('sweep', 'parameter')) then
+      call keys%complain('sweep', 'parameter', useless//': final_speed_rpm in &transient '// &
+                         'changes the speed over the time')
+    end if
+    if (keys%meant('accuracy', 'quantity')) call keys%complain('accuracy', 'quantity', useless)
+    if (keys%meant('sample', 'count')) call keys%complain('sample', 'count', useless)
+    if (keys%meant('sensitivity', 'quantity')) then
+      call keys%complain('sensitivity', 'quantity', useless)
+    end if
+    if (keys%meant('output', 'restart_every')) then
+      call keys%complain('output', 'restart_every', useless)
+    end if
+    if (model%coupling == coupling_partitioned) then
+      call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = "// &
+                         "'transient': film, foil and shaft take their steps together")
+    end if
+    if (transient%foundation_damping > 0.0_wp .and. model%foil /= foil_elastic_foundation) then
+      call keys%complain(group, 'foundation_damping', &
+                         "needs foil = 'elastic_foundation' in &model")
+    end if
+  end subroutine check_neighbours
+end module gfb_transient_rules

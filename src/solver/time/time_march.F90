@@ -1,0 +1,366 @@
+#include "gfb_petsc.h"
+!> A bearing and its shaft over time: film, foil and shaft in one implicit step.
+!>
+!> A step is the bearing's balance with three more terms, each a difference of second order over the
+!> present step and the one before (`gfb_backward_difference`): the gas that the film stores, dampers
+!> of the foil, and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
+!> force F on the sleeve and the outer one f on the shaft.
+!>
+!> PETSc's TS differentiates unknowns; here the product r h is differenced as a whole, which keeps the
+!> gas to round-off.
+module gfb_time_march
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_backward_difference, only: difference_weights, extrapolation_weights, error_share, next_step, kept_times
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_film_load, only: film_forces
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton, keep_factors
+  implicit none (type)
+  private
+  public :: begin_march, take_step, end_march
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
+  real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
+  integer, parameter :: most_trials = 12 !! of one step
+
+  !> What was before, on this rank, of a pad: now and one step ago.
+  type :: pad_history_type
+    real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
+    real(wp), allocatable :: deflection(:, :) !! (film nodes, 2) [m]
+  end type pad_history_type
+
+  !> How steps are chosen.
+  type, public :: march_settings_type
+    real(wp) :: steps_per_turn = 0.0_wp !! 0: by the error [1]
+    real(wp) :: least_steps = 60.0_wp   !! of a turn, then [1]
+    real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
+    real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
+    real(wp) :: end_time = 0.0_wp       !! [s]
+  end type march_settings_type
+
+  !> The march: what drives it, its past, the next step.
+  type, public :: march_type
+    type(shaft_drive_type) :: drive
+    type(march_settings_type) :: settings
+    real(wp) :: time = 0.0_wp           !! of the present state [s]
+    real(wp) :: step = 0.0_wp           !! that led there [s]
+    real(wp) :: next = 0.0_wp           !! that is tried next [s]
+    integer :: steps = 0                !! taken
+    integer :: rejections = 0           !! steps that were taken again, shorter
+    real(wp) :: velocity(2, 2) = 0.0_wp !! of the sleeve, now and one step ago [m/s]
+    real(wp) :: place(2, kept_times) = 0.0_wp !! of it, now and before [m]
+    real(wp) :: first_place(2) = 0.0_wp !! of it at the beginning [m]
+    real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
+    real(wp), allocatable :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
+    type(pad_history_type), allocatable :: pad(:)
+    type(operating_point_type) :: start !! whose tilt and fixed position stay
+  contains
+    procedure :: turns
+    procedure :: outer_load
+  end type march_type
+
+contains
+
+  !> Begins at rest: the present state has been there before.
+  subroutine begin_march(drive, settings, bearing, march)
+    type(shaft_drive_type), intent(in) :: drive !! what drives the shaft
+    type(march_settings_type), intent(in) :: settings !! how steps are chosen
+    type(bearing_system_type), intent(in) :: bearing !! at a steady state
+    type(march_type), intent(out) :: march !! ready for `take_step`
+    integer :: i
+
+    march%drive = drive
+    march%settings = settings
+    march%start = bearing%point
+    if (bearing%shaft_fixed) march%start%eccentricity = bearing%eccentricity()
+    march%next = first_step(march)
+    march%past_step = march%next
+    march%first_place = bearing%eccentricity()
+    march%place = spread(march%first_place, 2, kept_times)
+    allocate (march%unknown(bearing%local_size(), 2), march%pad(size(bearing%pad)))
+    call bearing%get_unknowns(march%unknown(:, 1))
+    march%unknown(:, 2) = march%unknown(:, 1)
+    do i = 1, size(bearing%pad)
+      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
+      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
+    end do
+    if (bearing%floats .and. .not. bearing%shaft_fixed) call begin_falling(bearing, march)
+  end subroutine begin_march
+
+  !> A load that is there at once moves a free shaft from the first moment on: its past is the parabola of that
+  !> acceleration a, \( \mathbf v(-\Delta) = -\mathbf a \Delta \). With a past at rest it would start late by half a step, of order 1.
+  subroutine begin_falling(bearing, march)
+    type(bearing_system_type), intent(in) :: bearing !! at rest
+    type(march_type), intent(inout) :: march !! with its first step; gets the past
+    real(wp) :: force(film_forces), acceleration(2)
+    integer :: i
+
+    force = bearing%reaction()
+    acceleration = (force(:2) - march%drive%load_at(0.0_wp))/march%drive%mass
+    do i = 2, kept_times
+      march%place(:, i) = march%first_place + 0.5_wp*acceleration*((i - 1)*march%next)**2
+    end do
+    march%velocity(:, 2) = -acceleration*march%next
+  end subroutine begin_falling
+
+  !> Gas and deflection of a pad at the present state become the newest ones.
+  subroutine look_at_pad(bearing, i, unknown, history)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: i !! of the pad
+    real(wp), intent(in) :: unknown(:) !! of the bearing [SI]
+    type(pad_history_type), intent(inout) :: history
+    real(wp) :: gap(bearing%film_nodes())
+
+    gap = bearing%gap(unknown)
+    associate (pad => bearing%pad(i), film => bearing%pad(i)%film, nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node)
+      if (.not. allocated(history%stored)) then
+        allocate (history%stored(size(film%shape, 2), size(film%element_nodes, 2), 2), source=0.0_wp)
+        allocate (history%deflection(nodes, 2), source=0.0_wp)
+      end if
+      history%stored(:, :, 2) = history%stored(:, :, 1)
+      history%stored(:, :, 1) = film%stored(unknown(pad%first + 1:pad%first + nodes), gap(pad%first_node + 1:pad%last_node), &
+                                            bearing%position(unknown))
+      history%deflection(:, 2) = history%deflection(:, 1)
+      history%deflection(:, 1) = pad%foil%deflection(unknown(pad%first + 1:pad%last))
+    end associate
+  end subroutine look_at_pad
+
+  !> One step; shorter where it does not converge or is too inaccurate.
+  !>
+  !> Where even a short one has no answer the report says so, and the bearing is where it was.
+  subroutine take_step(march, bearing, newton, report)
+    type(march_type), intent(inout) :: march !! its past and its next step
+    type(bearing_system_type), target, intent(inout) :: bearing !! at the newest state
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(newton_report_type), intent(out) :: report !! of the last trial
+    real(wp) :: step, error, place(2)
+    integer :: trial
+
+    step = allowed_step(march)
+    do trial = 1, most_trials
+      call put_terms(march, step, bearing)
+      call predict(march, step, bearing)
+      call keep_factors(newton)
+      call solve_newton(newton, report)
+      if (report%converged) then
+        place = bearing%eccentricity()
+        error = error_of(march, step, place)/(march%settings%tolerance*bearing%pad(1)%film%clearance)
+        if (march%settings%steps_per_turn > 0.0_wp .or. error < rejected) exit
+        step = next_step(step, error)
+      else
+        step = shortened*step
+      end if
+      march%rejections = march%rejections + 1
+      call bearing%set_unknowns(march%unknown(:, 1))
+    end do
+    if (report%converged .and. trial > most_trials) then
+      report%converged = .false.
+      report%reason = 'the error of a step stays too large'
+    end if
+    if (report%converged) then
+      call accept(march, step, place, bearing)
+      march%next = next_step(step, error)
+      if (march%settings%steps_per_turn > 0.0_wp) march%next = usual_step(march)
+    else
+      bearing%point%speed = march%drive%speed_at(march%time)
+      bearing%point%load = march%drive%load_at(march%time)
+    end if
+  end subroutine take_step
+
+  !> The state becomes the newest of the past; friction carries its slip along.
+  subroutine accept(march, step, place, bearing)
+    type(march_type), intent(inout) :: march
+    real(wp), intent(in) :: step !! that led to it [s]
+    real(wp), intent(in) :: place(2) !! of the sleeve [m]
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp) :: velocity(2), weight(0:2)
+    integer :: i
+
+    weight = difference_weights(step, march%past_step(1))
+    velocity = weight(0)*(place - march%place(:, 1)) + weight(2)*(march%place(:, 2) - march%place(:, 1))
+    march%velocity(:, 2) = march%velocity(:, 1)
+    march%velocity(:, 1) = velocity
+    march%place(:, 2:) = march%place(:, :kept_times - 1)
+    march%place(:, 1) = place
+    march%past_step(2:) = march%past_step(:kept_times - 1)
+    march%past_step(1) = step
+    march%time = march%time + step
+    if (abs(march%settings%end_time - march%time) < 1.0e-9_wp*step) march%time = march%settings%end_time
+    march%step = step
+    march%steps = march%steps + 1
+    march%unknown(:, 2) = march%unknown(:, 1)
+    call bearing%get_unknowns(march%unknown(:, 1))
+    do i = 1, size(bearing%pad)
+      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
+    end do
+    if (bearing%is_meshed()) call bearing%commit()
+  end subroutine accept
+
+  !> Puts what a step adds into the bearing's equations.
+  subroutine put_terms(march, step, bearing)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp) :: weight(0:2), time
+    integer :: i
+
+    time = march%time + step
+    weight = difference_weights(step, march%past_step(1))
+    bearing%point%speed = march%drive%speed_at(time)
+    bearing%point%load = march%drive%load_at(time)
+    if (bearing%floats .and. .not. bearing%shaft_fixed) then
+      bearing%point%inertia = march%drive%mass*weight(0)**2
+      bearing%point%eccentricity = free_place(march, weight)
+    else
+      bearing%point%eccentricity = march%start%eccentricity + march%drive%orbit_at(time)
+    end if
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), past => march%pad(i))
+        pad%film%storage = weight(0)
+        pad%film%past = weight(1)*past%stored(:, :, 1) + weight(2)*past%stored(:, :, 2)
+        if (march%settings%damping > 0.0_wp) then
+          call pad%foil%put_damping(march%settings%damping, weight(0), &
+                                    weight(1)*march%unknown(pad%first + 1:pad%last, 1) &
+                                    + weight(2)*march%unknown(pad%first + 1:pad%last, 2), &
+                                    weight(1)*past%deflection(:, 1) + weight(2)*past%deflection(:, 2))
+        end if
+      end associate
+    end do
+  end subroutine put_terms
+
+  !> Where the sleeve would be after a step without any force: the acceleration is a_0^2 times the way from there.
+  pure function free_place(march, weight) result(place)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
+    real(wp) :: place(2), drift(2)
+
+    ! Differences of places and of velocities keep their digits.
+    drift = weight(2)*(march%place(:, 2) - march%place(:, 1)) &
+      + (weight(1)*march%velocity(:, 1) + weight(2)*march%velocity(:, 2))/weight(0)
+    place = march%place(:, 1) - drift/weight(0)
+  end function free_place
+
+  !> Begins Newton's method ahead of the newest state, where the film is open there.
+  subroutine predict(march, step, bearing)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    type(bearing_system_type), intent(inout) :: bearing
+    real(wp) :: ahead(size(march%unknown, 1))
+    logical :: open
+
+    ahead = march%unknown(:, 1) + step/march%past_step(1)*(march%unknown(:, 1) - march%unknown(:, 2))
+    if (bearing%floats .and. .not. bearing%shaft_fixed) then
+      ahead(bearing%first_shaft + 1:bearing%first_shaft + 2) = place_ahead(march, step)
+    end if
+    open = bearing%is_open_at(ahead)
+    if (open) then
+      call bearing%set_unknowns(ahead)
+    else
+      call bearing%set_unknowns(march%unknown(:, 1))
+    end if
+  end subroutine predict
+
+  !> The sleeve's place one step ahead, on the parabola through the last ones.
+  pure function place_ahead(march, step) result(place)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    real(wp) :: place(2)
+    place = matmul(march%place, extrapolation_weights([step, march%past_step(:2)]))
+  end function place_ahead
+
+  !> Error of a step in the sleeve's place [m].
+  pure function error_of(march, step, place) result(error)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    real(wp), intent(in) :: place(2) !! that it led to [m]
+    real(wp) :: error
+    error = error_share([step, march%past_step(:2)])*norm2(place - place_ahead(march, step))
+  end function error_of
+
+  !> The next step, not beyond the end; one that the error chooses not beyond a jump of what drives the shaft either, and
+  !> with no short one left over before it.
+  pure function allowed_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp), parameter :: nearly = 0.999_wp !! over what is left [1]
+    real(wp) :: step, left
+
+    step = march%next
+    left = march%settings%end_time - march%time
+    if (march%settings%steps_per_turn > 0.0_wp) then
+      if (step > nearly*left) step = left
+      return
+    end if
+    step = min(step, longest_step(march))
+    left = min(left, march%drive%jumps(march%time) - march%time)
+    if (step > nearly*left) then
+      step = left
+    else if (step > 0.5_wp*left) then
+      step = 0.5_wp*left
+    end if
+  end function allowed_step
+
+  !> Steps of a turn that are asked for, or to begin with where the error chooses them.
+  pure function first_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    real(wp), parameter :: short = 0.02_wp !! over the longest one [1]
+
+    step = short*longest_step(march)
+    if (march%settings%steps_per_turn > 0.0_wp) step = usual_step(march)
+  end function first_step
+
+  !> A step where their number is given.
+  pure function usual_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    step = 2.0_wp*pi/(march%settings%steps_per_turn*fastest(march))
+  end function usual_step
+
+  !> The longest step.
+  pure function longest_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    step = 2.0_wp*pi/(march%settings%least_steps*fastest(march))
+  end function longest_step
+
+  !> The speed whose turns are divided: the present one, a tenth of the largest one at least; that of one turn in the whole
+  !> time where nothing turns.
+  pure function fastest(march) result(speed)
+    type(march_type), intent(in) :: march
+    real(wp) :: speed
+    associate (drive => march%drive, end_time => march%settings%end_time)
+      speed = max(abs(drive%speed_at(march%time)), abs(drive%orbit_frequency), &
+                  0.1_wp*max(abs(drive%speed), abs(drive%speed_at(end_time))))
+      if (.not. speed > 0.0_wp) speed = 2.0_wp*pi/end_time
+    end associate
+  end function fastest
+
+  !> Turns of the shaft so far.
+  pure function turns(self) result(number)
+    class(march_type), intent(in) :: self !! the march
+    real(wp) :: number !! [1]
+    number = self%drive%angle_at(self%time)/(2.0_wp*pi)
+  end function turns
+
+  !> The outer forces at the present time [N].
+  pure function outer_load(self) result(load)
+    class(march_type), intent(in) :: self !! the march
+    real(wp) :: load(2)
+    load = self%drive%load_at(self%time)
+  end function outer_load
+
+  !> The bearing's equations become those of a steady state again.
+  subroutine end_march(bearing)
+    type(bearing_system_type), intent(inout) :: bearing !! at the last state
+    integer :: i
+
+    bearing%point%inertia = 0.0_wp
+    if (bearing%floats) bearing%point%eccentricity = bearing%eccentricity()
+    do i = 1, size(bearing%pad)
+      if (allocated(bearing%pad(i)%film%past)) deallocate (bearing%pad(i)%film%past)
+    end do
+  end subroutine end_march
+end module gfb_time_march

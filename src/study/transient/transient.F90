@@ -1,0 +1,222 @@
+#include "gfb_petsc.h"
+!> A shaft over time, from an equilibrium or a given position on.
+module gfb_transient
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_petsc_session, only: wall_time
+  use gfb_text, only: text
+  use gfb_scene, only: scene_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type
+  use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march
+  use gfb_case_file, only: case_array_type, add_arrays
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
+  use gfb_run_context, only: run_context_type
+  use gfb_transient_history, only: transient_history_type
+  implicit none (type)
+  private
+  public :: duration_of, drive_of
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter :: between_lines = 5.0_wp !! of the log [s]
+
+  !> The way of a shaft.
+  type, public :: transient_type
+    type(march_type) :: march
+    type(transient_history_type) :: history
+    character(len=:), allocatable :: ending !! why the time has ended before its end; empty: it has not
+  contains
+    procedure :: run => run_transient
+    procedure :: results
+    procedure :: add_arrays => add_transient_arrays
+    procedure, private :: look_for_limits
+    procedure, private :: look_for_steady_orbit
+  end type transient_type
+
+contains
+
+  !> Follows the shaft from an equilibrium, or a given position.
+  subroutine run_transient(self, scene, context, bearing, newton, reason)
+    class(transient_type), intent(inout) :: self !! its way, from nothing
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(run_context_type), intent(in) :: context !! of the run
+    type(bearing_system_type), target, intent(inout) :: bearing !! where the shaft begins; left at its end
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(reason_type), intent(inout) :: reason !! why the time has no end
+    type(march_settings_type) :: settings
+
+    call context%log%heading('time')
+    settings%steps_per_turn = scene%transient%steps_per_turn
+    settings%tolerance = scene%transient%time_tolerance
+    settings%damping = scene%transient%foundation_damping
+    settings%end_time = duration_of(scene)
+    newton%log%verbose = .false.
+    call begin_march(drive_of(scene), settings, bearing, self%march)
+    call self%history%add(self%march, bearing, newton)
+    call follow_shaft(self, scene, context, bearing, newton, reason)
+    call end_march(bearing)
+  end subroutine run_transient
+
+  !> Steps until the time is over, or something has happened.
+  subroutine follow_shaft(self, scene, context, bearing, newton, reason)
+    type(transient_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(reason_type), intent(inout) :: reason
+    type(newton_report_type) :: report
+    real(wp) :: begun, told, now
+
+    self%ending = ''
+    begun = wall_time()
+    told = begun
+    associate (march => self%march, every => scene%transient%output_every, log => context%log)
+      do while (march%time < march%settings%end_time)
+        call take_step(march, bearing, newton, report)
+        if (stop_agreed()) then
+          reason%code = reason_stopped
+          reason%detail = stop_words()//' at '//place_in_time(march)
+        else if (.not. report%converged) then
+          reason%code = reason_no_answer
+          reason%detail = 'no step of time leads on from '//place_in_time(march)//': '//report%reason
+          call log%tell(reason%words())
+        else
+          call self%history%see_gap(bearing)
+          call self%look_for_limits(scene)
+          if (modulo(march%steps, every) == 0 .or. march%time >= march%settings%end_time .or. self%ending /= '') then
+            call self%history%add(march, bearing, newton)
+            if (self%ending == '') call self%look_for_steady_orbit(scene)
+          end if
+        end if
+        if (reason%is_given() .or. self%ending /= '') exit
+        now = wall_time()
+        if (now - told < between_lines) cycle
+        told = now
+        call log%stage(place_in_time(march)//', about '// &
+                       text((now - begun)*(march%settings%end_time/march%time - 1.0_wp), 2)//' s left')
+      end do
+      if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
+      call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
+                    text(self%history%smallest_gap*1.0e6_wp, 4)//' um')
+    end associate
+  end subroutine follow_shaft
+
+  !> Time and turns, in words.
+  function place_in_time(march) result(words)
+    type(march_type), intent(in) :: march
+    character(len=:), allocatable :: words
+
+    words = 'time '//text(march%time, 6)//' s, turn '//text(march%turns(), 5)
+  end function place_in_time
+
+  !> Whether the film has closed, or the shaft has left its place: after every step.
+  subroutine look_for_limits(self, scene)
+    class(transient_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+
+    associate (march => self%march, history => self%history, transient => scene%transient)
+      if (history%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
+        self%ending = 'the shaft touches down'
+      else if (transient%largest_orbit > 0.0_wp) then
+        if (norm2(march%place(:, 1) - march%first_place) > transient%largest_orbit) self%ending = 'the orbit has grown beyond its limit'
+      end if
+    end associate
+  end subroutine look_for_limits
+
+  !> Whether the orbit stays as it is, by the lines of the last two turns.
+  subroutine look_for_steady_orbit(self, scene)
+    class(transient_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    real(wp) :: now(4), before(4)
+
+    if (.not. scene%transient%steady_tolerance > 0.0_wp) return
+    associate (turn => self%march%turns())
+      if (turn < 2.0_wp .or. self%march%drive%jumps(self%march%time) < self%march%settings%end_time) return
+      now = self%history%extent(turn - 1.0_wp, turn)
+      before = self%history%extent(turn - 2.0_wp, turn - 1.0_wp)
+    end associate
+    if (maxval(abs(now - before)) > scene%transient%steady_tolerance*scene%bearing%clearance) return
+    self%ending = 'the orbit is steady'
+  end subroutine look_for_steady_orbit
+
+  !> What the summary says of the whole time.
+  function results(self) result(found)
+    class(transient_type), intent(in) :: self !! its way
+    type(quantity_type), allocatable :: found(:)
+    real(wp) :: box(4)
+
+    associate (march => self%march)
+      box = self%history%extent(march%turns() - 1.0_wp, march%turns())
+      call add_result(found, 'time', march%time)
+      call add_result(found, 'turns', march%turns())
+      call add_result(found, 'time_steps', march%steps)
+      call add_result(found, 'orbit_x', box(2) - box(1))
+      call add_result(found, 'orbit_y', box(4) - box(3))
+      call add_result(found, 'minimum_gap_over_time', self%history%smallest_gap)
+      if (self%ending /= '') call add_result(found, 'ending', self%ending)
+    end associate
+  end function results
+
+  !> Adds the history of the time to what the result file gets.
+  subroutine add_transient_arrays(self, arrays)
+    class(transient_type), intent(in) :: self !! its way
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get a dataset a name
+    call add_arrays(arrays, self%history%arrays())
+  end subroutine add_transient_arrays
+
+  !> What drives the shaft of a scene.
+  pure function drive_of(scene) result(drive)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(shaft_drive_type) :: drive
+
+    associate (transient => scene%transient)
+      drive%mass = scene%rotor%mass
+      drive%load = scene%operation%load
+      drive%speed = angular_speed(scene%operation%speed_rpm)
+      drive%ramp = duration_of(scene)
+      if (transient%ramp_time > 0.0_wp) drive%ramp = transient%ramp_time
+      drive%acceleration = (angular_speed(transient%final_speed_rpm) - drive%speed)/drive%ramp
+      drive%unbalance = transient%unbalance
+      drive%unbalance_angle = transient%unbalance_angle
+      drive%pulse = transient%pulse
+      drive%pulse_start = transient%pulse_start
+      drive%pulse_length = transient%pulse_length
+      drive%orbit_radius = transient%orbit_radius
+      drive%orbit_frequency = transient%orbit_frequency
+      if (size(transient%base_time) == 0) return
+      drive%base_time = transient%base_time
+      allocate (drive%base_acceleration(2, size(drive%base_time)), source=0.0_wp)
+      if (size(transient%base_acceleration_x) > 0) drive%base_acceleration(1, :) = transient%base_acceleration_x
+      if (size(transient%base_acceleration_y) > 0) drive%base_acceleration(2, :) = transient%base_acceleration_y
+    end associate
+  end function drive_of
+
+  !> The whole time: as given, or that of the turns while the speed changes [s].
+  pure function duration_of(scene) result(duration)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    real(wp) :: duration, first, last, angle, rising
+
+    duration = scene%transient%duration
+    if (duration > 0.0_wp) return
+    first = angular_speed(scene%operation%speed_rpm)
+    last = angular_speed(scene%transient%final_speed_rpm)
+    angle = 2.0_wp*pi*scene%transient%turns
+    associate (ramp => scene%transient%ramp_time)
+      if (.not. ramp > 0.0_wp) then
+        duration = 2.0_wp*angle/(first + last)
+        return
+      end if
+      rising = 0.5_wp*(first + last)*ramp
+      if (angle > rising) then
+        duration = ramp + (angle - rising)/last
+      else ! while it rises: the smaller root of the parabola
+        duration = 2.0_wp*angle/(first + sqrt(first**2 + 2.0_wp*(last - first)/ramp*angle))
+      end if
+    end associate
+  end function duration_of
+end module gfb_transient

@@ -1,0 +1,135 @@
+#include "gfb_petsc.h"
+!> What is kept of a shaft over time: a line a step, or every few steps.
+module gfb_transient_history
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_time_march, only: march_type
+  use gfb_newton, only: newton_type
+  use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  implicit none (type)
+  private
+
+  integer, parameter :: columns = 21
+  character(len=*), parameter :: names(columns) = [character(len=17) :: &
+    'time', 'turns', 'speed', 'eccentricity_x', 'eccentricity_y', 'velocity_x', 'velocity_y', &
+    'force_x', 'force_y', 'load_x', 'load_y', 'minimum_gap', 'maximum_pressure', 'minimum_pressure', &
+    'friction_torque', 'step', 'stored_gas', 'gas_outflow', 'steps', 'newton_iterations', 'factorizations']
+  character(len=*), parameter :: units(columns) = [character(len=8) :: &
+    's', '1', 'rad/s', 'm', 'm', 'm/s', 'm/s', 'N', 'N', 'N', 'N', 'm', 'Pa', 'Pa', 'N m', 's', &
+    'Pa m^3', 'Pa m^3/s', '1', '1', '1']
+  character(len=*), parameter :: meanings(columns) = [character(len=96) :: &
+    'time from the beginning', 'turns of the shaft so far', 'speed of the shaft', &
+    'e_x, of the sleeve relative to the shaft', 'e_y, of the sleeve relative to the shaft', &
+    'rate of e_x', 'rate of e_y', &
+    'film force on the sleeve, x', 'film force on the sleeve, y', &
+    'outer force on the shaft, x: load, unbalance, pulse, base', &
+    'outer force on the shaft, y: load, unbalance, pulse, base', &
+    'smallest film thickness', 'largest absolute pressure', 'smallest absolute pressure', &
+    'torque with which the film brakes the shaft', 'step of time that led here', &
+    'p h integrated over the film (in a real gas density times p_a over that at p_a, times h)', &
+    'that leaves the film through its edges, a time', 'steps so far', &
+    'Newton iterations so far, with those of the start', &
+    'factorizations so far, with those of the start']
+
+  !> The lines so far.
+  type, public :: transient_history_type
+    integer :: lines = 0
+    real(wp), allocatable :: values(:, :)       !! (columns, lines), with room for more [SI]
+    real(wp) :: smallest_gap = huge(1.0_wp)     !! of all steps [m]
+  contains
+    procedure :: add => add_line
+    procedure :: see_gap
+    procedure :: arrays => history_arrays
+    procedure :: extent
+  end type transient_history_type
+
+contains
+
+  !> Adds the present state.
+  subroutine add_line(self, march, bearing, newton)
+    class(transient_history_type), intent(inout) :: self !! gets the line
+    type(march_type), intent(in) :: march !! at the state
+    type(bearing_system_type), intent(in) :: bearing !! the same
+    type(newton_type), intent(in) :: newton !! its solver
+    type(bearing_answer_type) :: answer
+    real(wp) :: gas(2)
+    real(wp), allocatable :: grown(:, :)
+
+    if (.not. allocated(self%values)) allocate (self%values(columns, 256))
+    if (self%lines == size(self%values, 2)) then
+      allocate (grown(columns, 2*self%lines))
+      grown(:, :self%lines) = self%values
+      call move_alloc(grown, self%values)
+    end if
+    answer = bearing_answer(bearing)
+    gas = gas_balance(bearing)
+    self%lines = self%lines + 1
+    self%smallest_gap = min(self%smallest_gap, answer%minimum_gap)
+    self%values(:, self%lines) = [march%time, march%turns(), bearing%point%speed, march%place(:, 1), march%velocity(:, 1), &
+                                  answer%force(:2), march%outer_load(), answer%minimum_gap, answer%maximum_pressure, &
+                                  answer%minimum_pressure, answer%friction_torque, march%step, gas, &
+                                  real([march%steps, newton%iterations, newton%factorizations], wp)]
+  end subroutine add_line
+
+  !> Notes the smallest gap of the present state, which no line need show.
+  subroutine see_gap(self, bearing)
+    class(transient_history_type), intent(inout) :: self !! notes it
+    type(bearing_system_type), intent(in) :: bearing !! after a step
+
+    self%smallest_gap = min(self%smallest_gap, bearing%smallest_gap())
+  end subroutine see_gap
+
+  !> The gas that the films hold, and what leaves them a time.
+  function gas_balance(bearing) result(gas)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp) :: gas(2) !! [Pa m3], [Pa m3/s]
+    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), flows(bearing%film_nodes())
+    real(wp), allocatable :: stored(:, :)
+    integer :: i, element
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    flows = 0.0_wp
+    gas = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), film => bearing%pad(i)%film, nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node, &
+                 first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
+        stored = film%stored(unknown(pad%first + 1:pad%first + nodes), gap(first:last), bearing%position(unknown))
+        do element = 1, size(stored, 2)
+          gas(1) = gas(1) + film%copies*dot_product(film%geometry(element)%area(:size(stored, 1)), stored(:, element))
+        end do
+        call film%add_flows(unknown(pad%first + 1:pad%first + nodes), gap(first:last), bearing%position(unknown), flows(first:last))
+        gas(2) = gas(2) - film%copies*sum(flows(first:last), film%fixed)
+      end associate
+    end do
+    gas = sum_over_ranks(gas)
+  end function gas_balance
+
+  !> The arrays of the result file, a dataset a name.
+  function history_arrays(self) result(arrays)
+    class(transient_history_type), intent(in) :: self !! the lines
+    type(case_array_type), allocatable :: arrays(:)
+    type(case_array_type) :: one(1)
+    integer :: i
+
+    allocate (arrays(0))
+    do i = 1, columns
+      call fill_array('/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines), one(1))
+      call add_arrays(arrays, one)
+    end do
+  end function history_arrays
+
+  !> Smallest and largest e_x and e_y in the lines of the turns between two numbers.
+  pure function extent(self, from, to) result(box)
+    class(transient_history_type), intent(in) :: self !! the lines
+    real(wp), intent(in) :: from, to !! turns of the shaft [1]
+    real(wp) :: box(4)               !! smallest e_x, largest, e_y [m]
+    logical :: there(self%lines)
+
+    there = self%values(2, :self%lines) >= from .and. self%values(2, :self%lines) <= to
+    box = [minval(self%values(4, :self%lines), there), maxval(self%values(4, :self%lines), there), &
+           minval(self%values(5, :self%lines), there), maxval(self%values(5, :self%lines), there)]
+  end function extent
+end module gfb_transient_history

@@ -1,0 +1,207 @@
+"""Tests of tools/plot on what moves or is rolled up: steps of a sweep, a shaft in time, film and foils in 3D, animations.
+
+The shaft's motion is made up, so that its spectrum and its points once a turn are known; film and foils are gfb's own.
+"""
+
+import importlib.util
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+import h5py
+import numpy
+from PIL import Image
+
+PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
+os.environ["MPLBACKEND"] = "Agg"
+sys.path[:0] = [str(PROJECT/"tools"), str(pathlib.Path(__file__).parent)]
+
+import gfb  # noqa: E402 (found only now)
+from gfb import steps  # noqa: E402
+from gfb.plot import animation, rolled, scene, transient  # noqa: E402
+from plot_test import BEAMS, call  # noqa: E402
+
+CLEARANCE, RADIUS = 31.8e-6, 19.05e-3
+SPEEDS = (20000.0, 30000.0)
+ECHO = (f"&bearing\n  radius = {RADIUS} ! [m]\n  clearance = {CLEARANCE} ! [m]\n/\n"
+        "&bump_foil\n  pitch = 4.572e-3 ! [m]\n  bumps = 26 ! [1]\n  half_length = 1.778e-3 ! [m]\n/\n")
+
+
+def shaft_file(path, speed=(200.0, 1200.0), circle=2.0e-6, whirl=0.0, instants=20001, seconds=2.0):
+    """A shaft that runs up, on a circle once a turn and one every other turn."""
+    time = numpy.linspace(0.0, seconds, instants)
+    slope = (speed[1] - speed[0])/seconds
+    angle = speed[0]*time + 0.5*slope*time**2
+    x = 10.0e-6 + circle*numpy.cos(angle) + whirl*numpy.cos(0.5*angle)
+    y = 4.0e-6 + circle*numpy.sin(angle) + whirl*numpy.sin(0.5*angle)
+    columns = {"time": (time, "s"), "turns": (angle/(2.0*math.pi), "1"), "speed": (speed[0] + slope*time, "rad/s"),
+               "eccentricity_x": (x, "m"), "eccentricity_y": (y, "m"), "minimum_gap": (CLEARANCE - numpy.hypot(x, y), "m")}
+    with h5py.File(path, "w") as file:
+        for name, (values, unit) in columns.items():
+            file[f"transient/{name}"] = values
+            file[f"transient/{name}"].attrs.update(unit=unit, meaning="made up")
+        file["scene/used"] = ECHO
+    return path
+
+
+class ShaftTest(unittest.TestCase):
+    """A shaft in time."""
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+
+    def chart(self, path, kind):
+        """The axes of a picture."""
+        with h5py.File(path, "r") as file:
+            return transient.draw(path, file, kind).axes
+
+    def test_orbit_is_the_shaft_in_its_bearing(self):
+        chart, = self.chart(shaft_file(self.folder/"a.h5"), "orbit")
+        way = next(line for line in chart.lines if len(line.get_xdata()) == 20001)
+        numpy.testing.assert_allclose([way.get_xdata().mean(), way.get_ydata().mean()], [-10.0, -4.0], atol=0.1)
+        self.assertAlmostEqual(chart.patches[0].radius, 31.8)
+        marks = [line for line in chart.lines if len(line.get_xdata()) == 2]
+        self.assertEqual(len(marks), 26)
+        places = sorted(math.degrees(math.atan2(line.get_ydata()[0], line.get_xdata()[0])) % 360.0 for line in marks)
+        # 26 pitches end at theta = 360 deg; the last bump is half_length from there.
+        self.assertAlmostEqual(places[-1], 360.0 - math.degrees(1.778e-3/RADIUS), places=6)
+        numpy.testing.assert_allclose(numpy.diff(places), math.degrees(4.572e-3/RADIUS), rtol=1e-6)
+
+    def test_points_once_a_turn(self):
+        chart, = self.chart(shaft_file(self.folder/"a.h5"), "bifurcation")
+        for line, place in zip(chart.lines, (-12.0, -4.0)):  # at whole turns the circle's angle is 0
+            numpy.testing.assert_allclose(line.get_ydata(), place, atol=0.02)
+        chart, = self.chart(shaft_file(self.folder/"b.h5", whirl=3.0e-6), "bifurcation")
+        found = chart.lines[0].get_ydata()                   # two points by turns: +-3 um
+        numpy.testing.assert_allclose([found[0::2].mean(), found[1::2].mean()], [-15.0, -9.0], atol=0.05)
+
+    def test_spectra_have_the_lines_that_were_put_in(self):
+        path = shaft_file(self.folder/"a.h5", speed=(600.0, 600.0), whirl=1.0e-6)
+        with h5py.File(path, "r") as file:
+            found = list(transient.spectra({name: data[...] for name, data in file["transient"].items()}))
+        for speed, _, frequency, line in found:
+            self.assertAlmostEqual(speed, 600.0*30.0/math.pi, places=6)
+            for ratio, height in ((1.0, 2.0), (0.5, 1.0)):
+                near = abs(frequency - ratio*speed/60.0) < 0.1*speed/60.0
+                self.assertAlmostEqual(line[near].max(), height, delta=0.02*height)
+        chart, = self.chart(path, "waterfall")
+        self.assertEqual((len(chart.lines), chart.get_ylabel()), (len(found) + 2, "time [s]"))  # the speed stays
+        chart, = self.chart(shaft_file(self.folder/"b.h5"), "waterfall")
+        self.assertEqual(chart.get_ylabel(), "speed [rpm]")
+        short = shaft_file(self.folder/"c.h5", speed=(600.0, 600.0), seconds=0.08, whirl=1.0e-6)
+        chart, = self.chart(short, "waterfall")
+        self.assertEqual(chart.get_ylabel(), "amplitude of -e_y [um]")
+        self.assertAlmostEqual(chart.lines[0].get_ydata().max(), 2.0, delta=0.1)
+
+    def test_thinnest_film(self):
+        chart, = self.chart(shaft_file(self.folder/"a.h5"), "thinnest")
+        self.assertAlmostEqual(chart.lines[1].get_ydata()[0], 31.8 - math.hypot(10.0, 4.0) - 2.0, delta=0.01)
+
+    def test_calls(self):
+        shaft_file(self.folder/"a.h5", instants=3001)
+        shaft_file(self.folder/"short.h5", instants=30, seconds=1.0e-3)
+        shaft_file(self.folder/"instant.h5", instants=2)
+        self.assertEqual(call(self.folder, "a.h5"), (0, "drawn: a.h5.png\n"))
+        for kind in transient.KINDS:
+            self.assertEqual(call(self.folder, "a.h5", "--show", kind), (0, f"drawn: a.h5.{kind}.png\n"))
+        with unittest.mock.patch.object(animation, "FRAMES", 6):
+            self.assertEqual(call(self.folder, "a.h5", "--animate"), (0, "drawn: a.h5.gif\n"))
+        with Image.open(self.folder/"a.h5.gif") as film:
+            self.assertEqual(film.n_frames, 6)
+        for words, said in ((("short.h5", "--show", "waterfall"), "less than two turns"),
+                            (("short.h5", "--show", "bifurcation"), "less than two turns"),
+                            (("instant.h5",), "no more than 2 instants"),
+                            (("a.h5", "--animate", "--show", "orbit"), "goes without"),
+                            (("a.h5", "--3d"), "no a.film.vtkhdf")):
+            status, found = call(self.folder, *words)
+            self.assertEqual((status, said in found), (1, True), found)
+
+
+class StepsTest(unittest.TestCase):
+    """Film and foils of a small sweep."""
+
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = pathlib.Path(place.name)
+        case = BEAMS + f"&sweep parameter = 'speed_rpm' values = {SPEEDS[0]}, {SPEEDS[1]} /\n"
+        (cls.folder/"beams.nml").write_text(case, encoding="utf-8")
+        subprocess.run([os.environ["GFB"], "--output", cls.folder, cls.folder/"beams.nml"], check=True, stdout=subprocess.DEVNULL)
+
+    def test_a_step_is_a_file_of_its_own(self):
+        with h5py.File(self.folder/"beams.film.steps.vtkhdf", "r") as file, h5py.File(self.folder/"beams.film.vtkhdf", "r") as last:
+            self.assertEqual((steps.count(file), scene.step_words(file, 0)), (2, "speed = 20000 rpm"))
+            with steps.at_step(file, 1) as one:
+                for name, data in last["VTKHDF/PointData"].items():
+                    numpy.testing.assert_array_equal(one[f"VTKHDF/PointData/{name}"][...], data[...])
+                    self.assertEqual(one[f"VTKHDF/PointData/{name}"].attrs["unit"], data.attrs["unit"])
+
+    def test_python_reads_all_steps(self):
+        film, last = (gfb.read(self.folder/f"beams.film{ending}.vtkhdf") for ending in (".steps", ""))
+        self.assertEqual((dict(film.sizes)["point"], list(film["speed_rpm"].values), film["speed_rpm"].units), (2, list(SPEEDS), "rpm"))
+        self.assertEqual(film["gap"].dims, ("point", "theta", "z"))
+        numpy.testing.assert_array_equal(film["gap"][1].values, last["gap"].values)
+        foil = gfb.read(self.folder/"beams.bump_foil.steps.vtkhdf")
+        self.assertEqual((foil["displacement"].dims, foil["displacement"].units), (("point", "node", "component"), "m"))
+
+    def test_rolled_up(self):
+        status, said = call(self.folder, "--3d", "beams.h5")
+        self.assertEqual((status, said), (0, "for ParaView: beams.3d.vtkhdf\ndrawn: beams.h5.3d.png\n"))
+        with h5py.File(self.folder/"beams.3d.vtkhdf", "r") as file, h5py.File(self.folder/"beams.film.vtkhdf", "r") as film, \
+                h5py.File(self.folder/"beams.top_foil.vtkhdf", "r") as top:
+            grid = file["VTKHDF"]
+            films, tops = len(film["VTKHDF/Points"]), len(top["VTKHDF/Points"])
+            points, moved = grid["Points"][...], grid["PointData/displacement"][...].reshape(2, -1, 3)
+            far = numpy.hypot(points[:, 0], points[:, 1])
+            numpy.testing.assert_allclose(far[:films], RADIUS, rtol=1e-12)
+            numpy.testing.assert_allclose(far[films:films + tops], RADIUS + CLEARANCE, rtol=1e-12)
+            self.assertTrue((far[films + tops:] > RADIUS + CLEARANCE).all())
+            # What v is towards the shaft, the rolled displacement is towards the axis.
+            towards = -(moved[1, films:films + tops, :2]*points[films:films + tops, :2]).sum(axis=1)/(RADIUS + CLEARANCE)
+            numpy.testing.assert_allclose(towards, top["VTKHDF/PointData/displacement"][:, 1], atol=1e-15)
+            angle = numpy.arctan2(points[:films, 1], points[:films, 0]) % (2.0*math.pi)
+            off = abs(angle - film["VTKHDF/PointData/theta"][...] % (2.0*math.pi))
+            self.assertLess(numpy.minimum(off, 2.0*math.pi - off).max(), 1e-12)
+            self.assertEqual(list(grid["Steps/Values"]), list(SPEEDS))
+        if importlib.util.find_spec("vtk") is None:
+            self.skipTest("no vtk in this Python")
+        import vtk
+        reader = vtk.vtkHDFReader()
+        reader.SetFileName(str(self.folder/"beams.3d.vtkhdf"))
+        reader.UpdateInformation()
+        reader.UpdateTimeStep(SPEEDS[1])
+        data = reader.GetOutput()
+        self.assertEqual((reader.GetNumberOfSteps(), data.GetNumberOfPoints()), (2, len(points)))
+        self.assertEqual(data.GetPointData().GetArray("displacement").GetTuple(films + 7), tuple(moved[1, films + 7]))
+
+    def test_pictures_and_calls(self):
+        for words, drawn in ((("beams.film.steps.vtkhdf",), "beams.film.steps.vtkhdf.png"),
+                             (("beams.bump_foil.steps.vtkhdf", "--step", "1"), "beams.bump_foil.steps.vtkhdf.png"),
+                             (("--animate", "beams.h5"), "beams.h5.gif")):
+            self.assertEqual(call(self.folder, *words), (0, f"drawn: {drawn}\n"))
+        with Image.open(self.folder/"beams.h5.gif") as film:
+            self.assertEqual(film.n_frames, len(SPEEDS))
+        for words, said in ((("beams.film.steps.vtkhdf", "--step", "3"), "no step 3; there are 2"),
+                            (("beams.film.steps.vtkhdf", "--show", "loop"), "one is drawn"),
+                            (("beams.h5", "--show", "orbit"), "nothing moves"),
+                            (("--3d", "beams.h5", "--step", "1"), "--3d is of one case")):
+            status, found = call(self.folder, *words)
+            self.assertEqual((status, said in found), (1, True), found)
+
+    def test_heights_and_displacements_are_drawn_larger_as_the_title_says(self):
+        surface = rolled.Surface("top_foil", "top_foil", numpy.array([[0.0, 2.0e-3, 1.0]]), numpy.zeros((0, 4)), 1,
+                                 {"displacement": numpy.array([[0.0, -1.0e-6, 0.0]])}, {})
+        shaft = rolled.Shaft(0.02, 0.0, 3.0e-3, 0.0)
+        numpy.testing.assert_allclose(surface.rolled(shaft, 5.0, 100.0), [[0.02 + 5.0e-3 + 1.0e-4, 0.0, 1.0]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""A page of tools/report in Chromium without a window: no complaint, every picture there, nothing wider than the page."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
+import gfb  # noqa: E402
+from gfb.tool import ROOT  # noqa: E402
+from report_test import SMALL  # noqa: E402
+
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+WIDTH = 1300
+# What the browser made of the page, written into it.
+PROBE = """<script>addEventListener("load", () => {
+  const pictures = Array.from(document.images, (image) => image.naturalWidth);
+  document.body.dataset.seen = [document.documentElement.scrollWidth, pictures.length, Math.min(...pictures)].join(" ");
+});</script></body>"""
+
+
+@unittest.skipUnless(BROWSER, "Chromium is not installed")
+class BrowserTest(unittest.TestCase):
+    def browse(self, folder, page, *options):
+        """What is printed and what is logged where the browser opens a page."""
+        done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-logging=stderr",
+                               f"--user-data-dir={folder/'profile'}", f"--window-size={WIDTH},2000", *options, page.as_uri()],
+                              capture_output=True, text=True, check=True, timeout=120)
+        return done.stdout, done.stderr
+
+    def test_a_page_of_two_results(self):
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+            folder = pathlib.Path(place)
+            case = gfb.Case(SMALL)
+            gfb.run(case, folder, "first")
+            case["sweep%parameter"], case["sweep%values"] = "load", (10.0, 20.0)
+            gfb.run(case, folder, "second")
+            page = folder/"page.html"
+            subprocess.run([sys.executable, ROOT/"tools/report", folder/"first", folder/"second", "-o", page], check=True, capture_output=True)
+            text = page.read_text(encoding="utf-8")
+            page.write_text(text.replace("</body>", PROBE), encoding="utf-8")
+            shown, logged = self.browse(folder, page, "--dump-dom")
+            self.assertNotIn("CONSOLE", logged)
+            seen = re.search(r'data-seen="(\d+) (\d+) (\d+)"', shown)
+            self.assertIsNotNone(seen, "the page did not load")
+            wide, pictures, narrowest = map(int, seen.groups())
+            self.assertLessEqual(wide, WIDTH)
+            self.assertEqual(pictures, 3)  # a film each, and the points of the sweep
+            self.assertGreater(narrowest, 400)
+            self.assertRegex(shown, r'<th class="n">load \[N\]</th><th class="n">converged')
+            shot = folder/"page.png"
+            self.browse(folder, page, f"--screenshot={shot}")
+            self.assertGreater(shot.stat().st_size, 20000, "an empty page")
+
+    def test_a_complaint_is_seen(self):
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+            page = pathlib.Path(place)/"bad.html"
+            page.write_text("<body><script>nothing.here()</script></body>", encoding="utf-8")
+            self.assertIn("CONSOLE", self.browse(pathlib.Path(place), page, "--dump-dom")[1])
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main()

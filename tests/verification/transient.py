@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+"""A shaft over time: an orbit whose force is known exactly, the linear theory of small motions, the rotor's own balance,
+an independent program's orbits (with --long), and what must not matter.
+
+Full ring: on a circle of frequency w the film's force is that of a steady film at the speed Omega - 2 w, turning with it,
+at any amplitude; there is none at w = Omega/2.
+
+Small motions in equal steps D obey the same difference formula in all unknowns, so a mode of rate lambda goes as z^n with
+lambda = (3 - 4/z + 1/z^2)/(2 D): a growth rate is compared without any error of the steps.
+"""
+
+import json
+import math
+import pathlib
+import sys
+import tempfile
+
+import h5py
+import numpy
+
+from dynamics import FOIL_BEARING, RING, beams
+from gfb_run import Checks, case_groups, largest_difference, observed_order, solve
+from rotor import modes_of, rotor_case, speed_of
+
+ORBITS = json.loads((pathlib.Path(__file__).parent/"reference/orbits.json").read_text(encoding="utf-8"))["orbits"]
+MESH = (32, 4)
+TIGHT = {"residual_tolerance": 1.0e-12, "step_tolerance": 1.0e-13}
+ORDER = (1.8, 2.2)
+NAMES = ("time", "turns", "speed", "eccentricity_x", "eccentricity_y", "velocity_x", "velocity_y", "force_x", "force_y",
+         "load_x", "load_y", "minimum_gap", "maximum_pressure", "step", "stored_gas", "gas_outflow")
+
+
+def history(answer):
+    """All rows over time, one array a name."""
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        return {name: values[...] for name, values in file["transient"].items()}
+
+
+def plane(rows, name):
+    """Both components of a history as complex numbers."""
+    return rows[f"{name}_x"] + 1j*rows[f"{name}_y"]
+
+
+def rate(rows, values):
+    """Backward difference of second order over the rows' steps, from the third row on."""
+    step = numpy.diff(rows["time"])
+    ratio = step[1:]/step[:-1]
+    newest, oldest = (1.0 + 2.0*ratio)/((1.0 + ratio)*step[1:]), ratio**2/((1.0 + ratio)*step[1:])
+    return newest*(values[2:] - values[1:-1]) + oldest*(values[:-2] - values[1:-1])
+
+
+def ring_case(ratio, steps, radius, turns=2.0):
+    """A full ring whose sleeve goes round on a circle."""
+    content = case_groups(RING, mesh=(48, 8), number=1.0, eccentricity=(0.0, 0.0), groups={"model": {"film_order": 2}})
+    content["scene"]["analysis"] = "transient"
+    content["transient"] = {"turns": turns, "steps_per_turn": steps, "orbit_radius": radius,
+                            "orbit_frequency": ratio*speed_of(content)}
+    return content
+
+
+def check_ring(checks, folder):
+    """The exact orbit: order of the steps, the value they tend to, no force at half the speed."""
+    radius, ratio = 0.4*RING.clearance, 0.3
+    steady = case_groups(RING, mesh=(48, 8), number=1.0 - 2.0*ratio, eccentricity=(radius, 0.0),
+                         groups={"model": {"film_order": 2}})
+    force = solve(folder, "steady", steady).force
+    exact = complex(*force)
+    found = []
+    for steps in (60, 120, 240):
+        rows = history(solve(folder, "ring", ring_case(ratio, steps, radius)))
+        found.append(plane(rows, "force")[-1]/(plane(rows, "eccentricity")[-1]/radius))
+    order = observed_order(abs(found[0] - found[1]), abs(found[1] - found[2]))
+    checks.within("ring: order of the steps", order, *ORDER)
+    limit = (4.0*found[2] - found[1])/3.0
+    checks.below("ring: force of the turning steady film", abs(limit - exact)/abs(exact), 3.0e-4)
+    half = [abs(plane(history(solve(folder, "half", ring_case(0.5, steps, radius))), "force")[-1])/abs(exact)
+            for steps in (60, 120)]
+    checks.below("ring: force at half the speed", half[1], 2.0e-3)
+    checks.within("ring: its order", observed_order(*half), *ORDER)
+
+
+def foil_case(mass, load, mesh=MESH, name="PT1", **keys):
+    """A rotor on damped springs, over time."""
+    one = {"name": name, "case": ORBITS[name]["case"], "operation": {"load": load}}
+    content = rotor_case(one, mass, mesh=mesh)
+    linear = {group: dict(values) for group, values in content.items()}
+    damping = content.pop("dynamics")["foundation_damping"]
+    content["scene"]["analysis"] = "transient"
+    content["transient"] = {"foundation_damping": damping, **keys}
+    return content, linear
+
+
+def check_rows(checks, rows, mass):
+    """What the rows say of each other: the shaft's equation of motion, and its work."""
+    checks.that("names of the history", set(NAMES) <= set(rows) and len({len(row) for row in rows.values()}) == 1)
+    place, velocity = plane(rows, "eccentricity"), plane(rows, "velocity")
+    size = numpy.abs(velocity).max()
+    checks.below("velocity is the rate of the position", numpy.abs(rate(rows, place) - velocity[2:]).max()/size, 1.0e-6)
+    missing = plane(rows, "force") - plane(rows, "load")
+    size = numpy.abs(missing).max()
+    checks.below("force, load and inertia balance", numpy.abs(mass*rate(rows, velocity) - missing[2:]).max()/size, 1.0e-6)
+    # The shaft moves against the sleeve, and the force on it is the reaction: twice the same sign.
+    power = (missing*velocity.conj()).real
+    work = numpy.concatenate(([0.0], numpy.cumsum(0.5*(power[1:] + power[:-1])*numpy.diff(rows["time"]))))
+    energy = 0.5*mass*numpy.abs(velocity)**2
+    checks.below("work is kinetic energy", numpy.abs(energy - energy[0] - work).max()/energy.max(), 5.0e-3)
+
+
+def stepped(free, step):
+    """The rate with which a mode goes in equal steps: the reverse of the formula above."""
+    return -numpy.log(2.0 - numpy.sqrt(1.0 + 2.0*complex(free)*step))/step
+
+
+def harmonic(rows, omega, free, turns):
+    """Mean and first harmonic of the last turns [m], x and y, beside free modes that die out."""
+    kept = rows["turns"] > rows["turns"][-1] - turns
+    time = rows["time"][kept] - rows["time"][-1]
+    free = [stepped(one, rows["step"][-1]) for one in free]
+    columns = numpy.array([numpy.ones_like(time), numpy.cos(omega*time), numpy.sin(omega*time)]
+                          + [part for one in free for part in ((numpy.exp(one*time)).real, (numpy.exp(one*time)).imag)]).T
+    parts = [numpy.linalg.lstsq(columns, rows[f"eccentricity_{axis}"][kept], rcond=None)[0] for axis in "xy"]
+    first = numpy.array([part[1] - 1j*part[2] for part in parts])*numpy.exp(-1j*omega*rows["time"][-1])
+    return numpy.array([part[0] for part in parts]), first
+
+
+def slow_modes(answer, omega):
+    """Rates of the modes that are seen longest [1/s]."""
+    growth, frequency, *_ = modes_of(answer)
+    slow = (frequency > 0.0) & (growth > -0.5*omega)
+    return growth[slow] + 1j*frequency[slow]
+
+
+def check_gas(checks, words, rows):
+    """What the film holds changes by what flows out, over a turn and over every step."""
+    missing = (rate(rows, rows["stored_gas"]) + rows["gas_outflow"][2:])*rows["step"][2:]/rows["stored_gas"].mean()
+    turn = rows["turns"][2:] > rows["turns"][-1] - 1.0 - 1.0e-9
+    checks.below(f"gas, {words}: balance over a turn", abs(missing[turn].sum()), 1.0e-12)
+    checks.below(f"gas, {words}: balance of each step", numpy.abs(missing).max(), 1.0e-12)
+    checks.that(f"gas, {words}: it does go in and out", numpy.ptp(rows["stored_gas"])/rows["stored_gas"].mean() > 1.0e-9)
+
+
+def check_unbalance(checks, folder):
+    """Response to a small unbalance: that of Z at the same mesh."""
+    mass, unbalance = 0.1, 1.0e-9
+    content, linear = foil_case(mass, (-20.0, 0.0), name="PT2", turns=6, unbalance=unbalance)
+    omega = speed_of(content)
+    linear["dynamics"]["frequencies"] = (omega,)
+    answer = solve(folder, "linear", linear)
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        stiffness, damping = (file[f"dynamics/{name}"][0, :2, :2] for name in ("stiffness", "damping"))
+    drive = unbalance*omega**2*numpy.array([1.0, -1.0j])
+    wanted = -numpy.linalg.solve(stiffness + 1j*omega*damping - mass*omega**2*numpy.eye(2), drive)
+    found = []
+    for steps in (100, 200):
+        content["transient"]["steps_per_turn"] = steps
+        rows = history(solve(folder, "unbalance", content))
+        found.append(harmonic(rows, omega, slow_modes(answer, omega), 2.0)[1])
+    check_rows(checks, rows, mass)
+    check_gas(checks, "small motion", rows)
+    size = numpy.linalg.norm(wanted)
+    checks.below("unbalance: response of the linear theory",
+                 numpy.linalg.norm((4.0*found[1] - found[0])/3.0 - wanted)/size, 1.0e-4)
+    checks.below("unbalance: with 200 steps a turn", numpy.linalg.norm(found[1] - wanted)/size, 5.0e-3)
+
+
+def modes_in(rows, turns, count=1):
+    """Rates of the modes that a free motion ends in, from rows at equal steps: the least damped one first."""
+    kept = rows["turns"] > rows["turns"][-1] - turns
+    motion = [numpy.diff(rows[f"eccentricity_{axis}"][kept]) for axis in "xy"] # the equilibrium drops out
+    order = 2*count
+    before = numpy.concatenate([numpy.array([one[order - i:len(one) - i] for i in range(1, order + 1)]).T for one in motion])
+    after = numpy.concatenate([one[order:] for one in motion])
+    z = numpy.roots(numpy.concatenate(([1.0], -numpy.linalg.lstsq(before, after, rcond=None)[0])))
+    rates = (3.0 - 4.0/z + 1.0/z**2)/(2.0*rows["step"][-1])
+    return sorted(rates[rates.imag > 0.0], key=lambda one: -one.real)
+
+
+def check_growth(checks, folder):
+    """A pushed shaft: growth and frequency of the linear theory, none at the critical mass."""
+    upwind = {"film_order": 1, "film_scheme": "supg"}
+    cases = (("above the critical mass", 1.1, {}), ("at it", 1.0, {}), ("SUPG", 1.1, upwind),
+             ("local springs, SUPG", 1.1, upwind | {"foundation_pressure": "local"}), ("rigid pad", 1.1, {"foil": "rigid"}))
+    for words, share, model in cases:
+        content, linear = foil_case(0.3, (-20.0, 0.0), name="PT2", turns=10, steps_per_turn=60)
+        omega = speed_of(content)
+        for one in (content, linear):
+            one["model"].update(model)
+            if model.get("foil") == "rigid":
+                del one["model"]["foundation_stiffness"], one["model"]["foundation_pressure"]
+        if model.get("foil") == "rigid":
+            del content["transient"]["foundation_damping"], linear["dynamics"]["foundation_damping"]
+        mass = share*solve(folder, "critical", linear)["critical_mass"]
+        linear["rotor"]["mass"] = content["rotor"]["mass"] = mass
+        answer = solve(folder, "mode", linear)
+        push = 1.0e-4*31.8e-6*mass*0.5*omega
+        content["transient"] |= {"pulse": (push, 0.0), "pulse_length": 2.0*math.pi/omega}
+        found = modes_in(history(solve(folder, "growth", content)), 4.0)[0]/omega
+        checks.below(f"push, {words}: growth over the speed", found.real - answer["growth_rate"]/omega, 2.0e-5)
+        checks.below(f"push, {words}: frequency over the speed", found.imag - answer["whirl_frequency"]/omega, 2.0e-5)
+
+
+def check_beams(checks, folder):
+    """Beams that do not rub: both modes of a pushed shaft are those of the linear theory."""
+    beam = beams(0.0)
+    groups = {group: dict(keys) for group, keys in beam["groups"].items()}
+    del groups["model"]
+    mass = 0.8
+    linear = case_groups(FOIL_BEARING, beam["mesh"], "beam", load=(-60.0, 0.0), speed_rpm=beam["speed_rpm"],
+                         groups=groups | {"rotor": {"mass": mass}})
+    omega = speed_of(linear)
+    content = {group: dict(keys) for group, keys in linear.items()}
+    linear["scene"]["analysis"] = "linear_dynamics"
+    linear["dynamics"] = {"frequencies": (omega,), "foil_mass": "off"}
+    content["scene"]["analysis"] = "transient"
+    content["solver"] = TIGHT
+    content["transient"] = {"turns": 8, "steps_per_turn": 60, "pulse_length": 2.0*math.pi/omega,
+                            "pulse": (1.0e-5*FOIL_BEARING.clearance*mass*0.5*omega, 0.0)}
+    wanted = sorted(slow_modes(solve(folder, "beams", linear), omega), key=lambda one: -one.real)
+    found = modes_in(history(solve(folder, "beams_pushed", content)), 6.0, 2)
+    for number, (one, other) in enumerate(zip(found, wanted), 1):
+        checks.below(f"beams: mode {number} over the speed", abs(one - other)/omega, 2.0e-4)
+    checks.that("beams: two modes", min(len(found), len(wanted)) >= 2)
+
+
+def check_same(checks, folder):
+    """Rest stays rest; ranks."""
+    content, _ = foil_case(0.3, (-60.0, 0.0), turns=1, steps_per_turn=60)
+    rows = history(solve(folder, "rest", content))
+    checks.below("without a drive nothing moves", numpy.ptp(rows["eccentricity_x"])/31.8e-6, 1.0e-9)
+    content["transient"] |= {"unbalance": 1.0e-6}
+    one, four = (history(solve(folder, "ranks", content, ranks)) for ranks in (1, 4))
+    checks.below("four ranks: positions", largest_difference(
+        plane(one, "eccentricity"), plane(four, "eccentricity"), 31.8e-6), 1.0e-8)
+    checks.below("four ranks: forces", largest_difference(plane(one, "force"), plane(four, "force"), 60.0), 1.0e-7)
+
+
+def check_steps(checks, folder):
+    """A smooth push: steps that the error chooses end where equal ones tend to, which are of order 2."""
+    mass = 0.3
+    content, _ = foil_case(mass, (-60.0, 0.0), turns=1, time_tolerance=1.0e-7)
+    omega = speed_of(content)
+    content["transient"] |= {"pulse": (0.05*31.8e-6*mass*omega, 0.0), "pulse_length": 1.2*math.pi/omega}
+    content["solver"] = TIGHT # what Newton's method leaves is gas, too
+    chosen = history(solve(folder, "chosen", content))
+    check_gas(checks, "large motion, steps by the error", chosen)
+    checks.that("steps by the error: at least 60 a turn, and they change",
+                chosen["step"].max() <= 2.0*math.pi/omega/60.0*(1.0 + 1.0e-9) and numpy.ptp(chosen["step"][1:]) > 0.0)
+    del content["transient"]["time_tolerance"]
+    ends = []
+    for steps in (60, 120, 240):
+        content["transient"] |= {"steps_per_turn": steps}
+        ends.append(plane(history(solve(folder, "equal", content)), "eccentricity")[-1])
+    checks.within("equal steps: their order", observed_order(abs(ends[1] - ends[0]), abs(ends[2] - ends[1])), *ORDER)
+    checks.below("steps by the error: where the shaft ends",
+                 abs(plane(chosen, "eccentricity")[-1] - (4.0*ends[2] - ends[1])/3.0)/31.8e-6, 2.0e-5)
+
+
+def check_touch_down(checks, folder):
+    """A shaft that is pushed into its foil stops there, however seldom a line is written."""
+    mass, ends = 0.3, []
+    for every in (1, 1000):
+        content, _ = foil_case(mass, (-60.0, 0.0), turns=1, output_every=every)
+        omega = speed_of(content)
+        content["transient"] |= {"pulse": (-6.0*31.8e-6*mass*omega, 0.0), "pulse_length": 0.6*math.pi/omega}
+        content["solver"] = {"touch_down_gap": 5.0e-6}
+        ends.append(history(solve(folder, "touch_down", content))["turns"][-1])
+    checks.that("touch-down: the shaft does", ends[0] < 0.9)
+    checks.below("touch-down: the same with few lines", ends[1] - ends[0], 1.0e-12)
+
+
+def check_start(checks, folder):
+    """An unbalance is there at once: equal steps are of order 2 from such a start, too."""
+    ends = []
+    for steps in (60, 120, 240):
+        content, _ = foil_case(0.3, (-60.0, 0.0), turns=1, steps_per_turn=steps, unbalance=1.0e-7)
+        content["solver"] = TIGHT
+        ends.append(plane(history(solve(folder, "start", content)), "eccentricity")[-1])
+    checks.within("sudden start: order of the steps",
+                  observed_order(abs(ends[1] - ends[0]), abs(ends[2] - ends[1])), *ORDER)
+
+
+def check_orbits(checks, folder):
+    """Large orbits of an independent program."""
+    one = ORBITS["PT3"]
+    wanted = numpy.array([complex(*part) for part in one["result"]["harmonic_1"]])
+    found = []
+    for steps in (60, 120):
+        content, linear = foil_case(one["operation"]["mass"], one["operation"]["load"], (60, 8), turns=60,
+                                    steps_per_turn=steps, unbalance=one["operation"]["unbalance_kg_m"])
+        omega = speed_of(content)
+        # Of the way to the orbit 1.5e-3 is left after 60 turns: only the slow mode is.
+        free = [mode for mode in slow_modes(solve(folder, "modes", linear), omega) if mode.real > -0.05*omega]
+        found.append(harmonic(history(solve(folder, "orbit", content)), omega, free, 4.0))
+    mean, first = ((4.0*found[1][part] - found[0][part])/3.0 for part in (0, 1))
+    checks.below("PT3: first harmonic of a large orbit", numpy.linalg.norm(first - wanted)/numpy.linalg.norm(wanted), 5.0e-4)
+    checks.below("PT3: its centre over the clearance", numpy.linalg.norm(mean - one["result"]["mean"])/31.8e-6, 5.0e-4)
+    one = ORBITS["PT2"]
+    mass = one["operation"]["mass"]
+    content, _ = foil_case(mass, one["operation"]["load"], (60, 8), name="PT2", turns=110, steps_per_turn=120)
+    omega = speed_of(content)
+    content["transient"] |= {"pulse": (0.3*31.8e-6*mass*0.5*omega, 0.0), "pulse_length": 2.0*math.pi/omega}
+    rows = history(solve(folder, "limit_cycle", content))
+    kept = rows["turns"] > rows["turns"][-1] - 10.0
+    for axis, limit in zip("xy", one["result"]["limit_peak_to_peak"]):
+        checks.below(f"PT2: limit cycle, peak to peak of {axis}",
+                     numpy.ptp(rows[f"eccentricity_{axis}"][kept])/limit - 1.0, 1.0e-2)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        if "--long" in sys.argv:
+            check_orbits(checks, folder)
+        else:
+            check_ring(checks, folder)
+            check_unbalance(checks, folder)
+            check_growth(checks, folder)
+            check_beams(checks, folder)
+            check_same(checks, folder)
+            check_steps(checks, folder)
+            check_touch_down(checks, folder)
+            check_start(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
