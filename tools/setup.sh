@@ -12,8 +12,10 @@ run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi
 report_packages=(python3-numpy python3-h5py python3-matplotlib python3-jinja2)
 # shellcheck disable=SC2034
 test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib python3-xarray
-  python3-jinja2 findent
+  python3-jinja2 findent hunspell hunspell-en-gb
   ca-certificates)
+# shellcheck disable=SC2034
+long_packages=(python3-sphinx python3-myst-parser libjs-mathjax dpkg-dev)
 libraries='gfortran, a C compiler, CMake 3.21, Ninja, pkg-config, Open MPI or another MPI, PETSc 3.18 with
   MUMPS, SLEPc 3.18, HDF5 for that MPI with its Fortran interface, METIS, BLAS and LAPACK, Python 3'
 

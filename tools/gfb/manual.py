@@ -4,6 +4,8 @@
   gfb --results    every name of a result      docs/manual/results.md
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
 
+  --html           all pages as HTML that reads offline   build/manual/index.html
+
 A table stands between two lines such as `<!-- keys -->` and `<!-- end of keys -->`. Exit status: 0 the manual is as it
 should be, 1 it differs or has no such place.
 """
@@ -16,7 +18,7 @@ import sys
 
 from gfb.run import call, find_gfb
 from gfb.shell import pages
-from gfb.tool import ROOT, stop
+from gfb.tool import ROOT, need_packages, stop
 
 TABLES = ("keys", "results")  # an option of gfb and a page each
 
@@ -48,7 +50,13 @@ def main():
                         help="folder of the pages; default: docs/manual of this checkout")
     parser.add_argument("--share", type=pathlib.Path, default=ROOT/"share", metavar="DIR",
                         help="folder of man page and completions; default: share of this checkout")
+    parser.add_argument("--html", type=pathlib.Path, nargs="?", const=ROOT/"build/manual", metavar="DIR",
+                        help="only make HTML pages, in DIR, by default build/manual; needs Sphinx, MyST and MathJax")
     options = parser.parse_args()
+    if options.html:
+        need_packages("sphinx", "myst_parser")
+        from gfb.html.main import make_pages  # what else tools/manual does needs no Sphinx
+        return make_pages(options.html.resolve())
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
     differ += [path for path, content in made_of_help(gfb).items() if not renew_file(options.share/path, content, options.check)]

@@ -9,7 +9,8 @@ import h5py
 import numpy
 import xarray
 
-from gfb.results import open_results, reading, text_of
+from gfb import steps
+from gfb.results import Unreadable, open_results, reading, text_of
 
 PROVENANCE = ("scene", "provenance")  # groups whose texts become attributes
 
@@ -19,11 +20,14 @@ def read(path: str | os.PathLike[str]) -> xarray.Dataset:
 
     A case file: every number of the summary is a variable without dimension. Where the case has several points or load
     steps, names of the history have a value each along `point`. Other arrays are called by their path, such as
-    `contact_top_normal_force`. A film: fields over `theta` and `z`; a foil: fields over `node`. Every variable has
+    `contact_top_normal_force`. A film: fields over `theta` and `z`; a foil: fields over `node`; of `<case>.<part>.steps.vtkhdf` also
+    along `point`, with what the sweep changes as its coordinate. Every variable has
     `units` and `long_name`; texts, such as the case itself, are attributes. Raises `FileNotFoundError`, and
     `gfb.results.Unreadable` (an `OSError`) for what is damaged or none of gfb's files."""
     path = pathlib.Path(path)
     with reading(path), open_results(path) as file:
+        if steps.has_steps(file):
+            return series(path, file)
         if "VTKHDF" in file:
             return surface(file["VTKHDF"])
         if "summary" not in file and "history" not in file:
@@ -76,6 +80,19 @@ def dimensions(path: str, shape: tuple[int, ...], points: int) -> tuple[str, ...
         return (("point", f"{group}_node") if len(shape) == 2 and shape[0] == points
                 else tuple(f"{group}_{'node' if i == len(shape) - 1 else 'step'}" for i in range(len(shape))))
     return tuple(f"{path.replace('/', '_')}_{i}" for i in range(len(shape)))
+
+
+def series(path: pathlib.Path, file: h5py.File) -> xarray.Dataset:
+    """The film, or a foil, at all points of a sweep."""
+    found, numbers = [], []
+    for step in range(steps.count(file)):
+        name, unit, number = steps.value(file, step)
+        numbers.append(number)
+        with steps.at_step(file, step) as one:
+            found.append(surface(one["VTKHDF"]))
+    if any(other.sizes != found[0].sizes for other in found):
+        raise Unreadable(f"{path}: nodes differ from point to point, which makes no one dataset")
+    return xarray.concat(found, "point").assign_coords({name: ("point", numbers, {"units": unit})})
 
 
 def surface(group: h5py.Group) -> xarray.Dataset:

@@ -10,14 +10,15 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-from gfb.gallery import field, film, frame, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
+from gfb.gallery import contact, field, film, frame, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
 from gfb.gallery.page import Page, write_index  # noqa: E402
 from gfb.gallery.runs import Runs  # noqa: E402
 from gfb.run import find_gfb  # noqa: E402
 from gfb.tool import MEASURED, ROOT, stop  # noqa: E402
 
-PAGES = {  # name: what makes the page; frame: the picture of docs/manual/frame.md
+PAGES = {  # name: what makes the page; frame, contact: pictures of docs/manual/frame.md and equations.md
     "frame": frame.draw_frame,
+    "contact": contact.draw_contact,
     "section41": strip.draw_cost,
     "fig7a": strip.draw_uniform,
     "fig7b": strip.draw_increasing,

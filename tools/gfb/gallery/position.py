@@ -162,7 +162,7 @@ def judge(page, points):
     paper = numpy.hypot(*(numpy.array(PAPER["beam"]) - PAPER["shell"]))
     page.judge("the two models match closely.", apart < CLOSE,
                f"Resting on the paper's mesh they are {apart:.4f} C apart, the paper's {paper:.4f} (criterion: "
-               f"{CLOSE}).")
+               f"{CLOSE}; gfb's is {apart/paper:.1f} times the paper's).")
     page.short = ("nearest branches to the paper's positions: "
                   + ", ".join(f"{words} {nearest[model]:.4f} C away" for model, words in MODELS.items())
                   + f"; {page.count()}.")

@@ -18,6 +18,13 @@
                                         without --show: loops where the load goes back, otherwise bumps
   tools/plot CASE.h5 --show campbell    frequency and damping of a rotor's modes, of a sweep over the speed
   tools/plot CASE.h5 ... --show map     critical mass over load and speed, of several sweeps
+  tools/plot CASE.film.steps.vtkhdf     a step of a sweep's film or foils, the last one or that of --step
+  tools/plot --3d CASE.h5               film and foils rolled up on the shaft; beside the picture CASE.3d.vtkhdf for ParaView
+  tools/plot --animate CASE.h5          moving picture of a sweep's film, or else of an orbit: a GIF, with -o NAME.mp4 an MP4
+  tools/plot CASE.h5                    of analysis = 'transient': orbit and thinnest film over time
+      --show orbit, thinnest              each alone
+      --show waterfall                    spectra over the speed of a run-up
+      --show bifurcation                  the shaft's centre once a turn, over the speed
 
 Where no columns are named, the ones most asked for are drawn; --list prints the names there are.
 Several strips are told apart by the keys in which they differ. A picture lies beside its data, named after them; CASE.h5 beside
@@ -35,9 +42,10 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-from gfb.plot import dynamics, foil, rotor, sample, strip  # noqa: E402
+from gfb import steps  # noqa: E402
+from gfb.plot import animation, dynamics, foil, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
-from gfb.plot.scene import case_name, named, read_scene, round_numbers  # noqa: E402
+from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 from gfb.tool import stop  # noqa: E402
 
@@ -64,22 +72,27 @@ def main():
                         help="the picture; default: beside the file, its name with what is shown and .png")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, *rotor.KINDS),
+    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, *rotor.KINDS, *transient.KINDS),
                         help="what of a strip's or bearing's CASE.h5")
+    parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils rolled up on the shaft")
+    parser.add_argument("--animate", action="store_true", help="a moving picture of a sweep's film, or of an orbit")
     parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",
                         help="load steps of --show bumps and contact, or sweep points of a bearing; default: the one "
                              "of the largest force, or the last point")
     options = parser.parse_args()
     more = [pathlib.Path(name) for name in options.columns if name.endswith(".h5")]
     options.columns = [name for name in options.columns if not name.endswith(".h5")]
-    shown = f".{options.show}" if options.show else ""
-    picture = options.output or options.file.with_name(f"{options.file.name}{shown}.png")
+    shown = ".3d" if options.rolled else f".{options.show}" if options.show else ""
+    picture = options.output or options.file.with_name(f"{options.file.name}{shown}{'.gif' if options.animate else '.png'}")
     with contextlib.ExitStack() as opened:
         files = [open_file(path, opened) for path in [options.file, *more]]
         try:
             with reading(options.file):
                 if options.list:
                     print(list_names(options.file, files[0]), end="")
+                    return 0
+                if options.animate:
+                    write_animation(options, files[0], picture)
                     return 0
                 figure = draw(options, [options.file, *more], files)
         except Unreadable as error:
@@ -90,6 +103,19 @@ def main():
         stop(f"{picture}: {error}", 3)
     print(f"drawn: {picture}")
     return 0
+
+
+def write_animation(options, file, picture):
+    """The moving picture."""
+    if options.show or options.rolled or options.columns or options.step:
+        stop("--animate goes without --show, --3d, --step and columns")
+    try:
+        animation.draw(options.file, file, picture)
+    except (OSError, ValueError) as error:
+        if isinstance(error, Unreadable):
+            raise
+        stop(f"{picture}: {error}", 3)
+    print(f"drawn: {picture}")
 
 
 def step_numbers(text):
@@ -113,6 +139,16 @@ def open_file(path, opened):
 def draw(options, paths, files):
     """The picture asked for."""
     path, file = paths[0], files[0]
+    if options.rolled:
+        if options.show or options.step or options.columns or len(files) > 1:
+            stop("--3d is of one case, without --show, --step and columns")
+        return rolled.draw(path)
+    if steps.has_steps(file):
+        return draw_step(options, path, file)
+    if options.show in transient.KINDS or transient.is_transient(file) and not (options.show or options.columns):
+        if len(files) > 1 or options.step or options.columns:
+            stop("a shaft's motion is drawn of one file, without --step and columns")
+        return transient.draw(path, file, options.show)
     of_strips = options.show or options.step or len(files) > 1
     if of_strips and options.columns:
         stop("columns are drawn of one file, without --show and --step")
@@ -135,6 +171,25 @@ def draw(options, paths, files):
     if "history" in file:
         return draw_history(path, file, options.columns, options.together)
     return stop(f"{path}: neither a film or foil file nor a case file of gfb")
+
+
+def draw_step(options, path, file):
+    """The picture of a step: of the last one, where none is named."""
+    many = steps.count(file)
+    if options.show or options.columns or len(options.step) > 1:
+        stop("of a file with steps one is drawn, --step N, without --show and columns")
+    number = options.step[0] if options.step else many
+    if not 1 <= number <= many:
+        stop(f"{path}: no step {number}; there are {many}")
+    one = steps.at_step(file, number - 1)
+    try:
+        drawing = foil.draw if foil.is_foil(one) else lambda path, file, _: draw_film(path, file)
+        figure = drawing(steps.alone(path), one, [])
+    finally:
+        one.close()
+    what = steps.alone(path).name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
+    figure.suptitle(f"{case_name(steps.alone(path))}: {step_words(file, number - 1)}, step {number} of {many}: {what}", fontsize=11)
+    return figure
 
 
 def list_names(path, file):
@@ -207,6 +262,7 @@ def draw_history(path, file, columns, together=False):
             chart.plot(along, values, "o-", markersize=3.5, label=named(name, ""))
         chart.set_ylabel(f"[{unit}]" if len(names) > 1 else named(names[0], unit))
         chart.yaxis.set_major_locator(round_numbers(6))
+        chart.xaxis.set_major_locator(round_numbers(6))
         if len(names) > 1:
             chart.legend(fontsize=8)
         chart.grid(alpha=0.3)

@@ -6,6 +6,7 @@ import math
 import numpy
 from matplotlib import ticker
 
+from gfb import steps
 from gfb.plot.strip import used_keys
 from gfb.results import BROKEN, open_results
 
@@ -89,6 +90,12 @@ def named(name, unit):
     """A result's name as an axis has it."""
     words = WORDS.get(name, name.replace("_", " "))
     return words if unit in ("", "1") else f"{words} [{unit}]"
+
+
+def step_words(file, step):
+    """Which value a step, from 0, has, such as 'speed = 30000 rpm'."""
+    name, unit, number_there = steps.value(file, step)
+    return f"{named(name, '')} = {number_there:.6g}{'' if unit == '1' else f' {unit}'}"
 
 
 # --- colours and lines ---

@@ -9,6 +9,7 @@ from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be wr
 
 import argparse
 import base64
+import os
 import pathlib
 import subprocess
 import sys
@@ -19,7 +20,7 @@ import jinja2
 
 from gfb.case import Case, program
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
-from gfb.tool import ROOT, stop
+from gfb.tool import stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
@@ -66,8 +67,8 @@ def read_run(stem, gfb):
         raise FileNotFoundError(2, "no such file", str(path))
     with reading(path), open_results(path) as file:
         summary = {name: of_dataset(file["summary"][name]) for name in in_order(stem, file["summary"])}
-        history = {name: data[...] for name, data in file["history"].items()}
-        heads = [(name, text_of(data.attrs["unit"])) for name, data in file["history"].items()]
+        history = {name: file["history"][name][...] for name in columns(file["history"], summary)}
+        heads = [(name, text_of(file["history"][name].attrs["unit"])) for name in history]
         case_file = text_of(file["scene/case_file"][()])
         used = text_of(file["scene/used"][()])
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
@@ -85,6 +86,11 @@ def in_order(stem, group):
     path = pathlib.Path(f"{stem}.summary")
     first = [name for name in read_summary(path)[0] if name in group] if path.exists() else []
     return list(dict.fromkeys([*first, *group]))
+
+
+def columns(history, summary):
+    """Names of a history: first what the answer does not have, such as the value of a sweep, then as the answer stands."""
+    return [*(name for name in history if name not in summary), *(name for name in summary if name in history)]
 
 
 def of_dataset(data):
@@ -125,9 +131,10 @@ def pictures_of(stem, points, shows):
 def drawn(arguments, picture):
     """A picture of tools/plot as text; empty where there is none."""
     picture.unlink(missing_ok=True)
-    command = [sys.executable, str(ROOT/"tools/plot"), *arguments, "-o", str(picture)]
+    command = [sys.executable, "-c", "import sys; from gfb.scripts import plot; sys.exit(plot())", *arguments, "-o", str(picture)]
     try:
-        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=True, timeout=SECONDS)
+        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=True, timeout=SECONDS,
+                       env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
         return ""
     return base64.b64encode(picture.read_bytes()).decode()

@@ -3,7 +3,7 @@
 import statistics
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (AGAINST, ANSWER, BOUND, BY_GAP, FALLING, OUTCOMES, REFUSALS, RISING,
+from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, FALLING, LIGHTER, OUTCOMES, REFUSALS, RISING,
                                         SECOND_WAYS, SLOWER, THIN, imbalance)
 from gfb.tables import markdown_table, plain_table
 
@@ -52,11 +52,14 @@ def notes(title):
     """What a table's words mean."""
     if title != SHOWN:
         return ""
-    rising, falling, slower = (", ".join(f"{share:g}" for share in shares) for shares in (RISING, FALLING, SLOWER))
+    rising, falling, slower, lighter = (", ".join(f"{share:g}" for share in shares)
+                                        for shares in (RISING, FALLING, SLOWER, LIGHTER))
     return (f"*{BY_GAP}*: the smallest gap of the last state is at most {THIN:g} touch_down_gap. *by a load sweep*: else a sweep of "
             f"the load, from a\ncold start at {rising} of it, ends for the same reason before the whole load; where the film draws "
             f"the edge to the shaft, also at\n{falling}, and it ends in a fold or there. *by a speed sweep*: else one of the speed, "
-            f"at {rising}\nor {slower} of it. *contradicted*: a sweep gets to the member itself. *not shown*: none of these.\n\n")
+            f"at {rising}\nor {slower} of it. A touch-down that neither shows: a sweep of the load at\n"
+            f"{lighter} of it, too; *{BELOW}*: that one ends in a fold before the load.\n"
+            "*contradicted*: a sweep gets to the member itself. *not shown*: none of these.\n\n")
 
 
 OUTCOME, RATIO, SHOWN, DEAR = "Outcomes", "Refusals against answers", "Second ways", f"The {WORST} most expensive"

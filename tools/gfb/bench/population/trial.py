@@ -21,15 +21,17 @@ TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
 BY_SIGNAL = 128            # plus the signal's number: the status of a run that a signal has stopped
 THIN = 2.0                 # a film this many times touch_down_gap has touched down
 RISING = (0.1, 0.25, 0.5, 0.75, 1.0)  # of the load or the speed, in the sweeps that must stop
+LIGHTER = (0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 1.0)  # where a tenth of the load has no answer either
 FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)
 SLOWER = (2.0, 1.6, 1.3, 1.15, 1.0)   # of the speed, where the film gives way as it falls
-BY_GAP, AGAINST, OPEN = "by its last film", "contradicted", "not shown"
+BY_GAP, BELOW, AGAINST, OPEN = "by its last film", "by a fold below it", "contradicted", "not shown"
 BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep"}
-SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER)), "emptied": (("load", RISING), ("speed_rpm", SLOWER)),
+SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER)),
+          "emptied": (("load", RISING), ("speed_rpm", SLOWER)),
           "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER)),
           **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING)))}
 CHEAP = 3.0  # times the CPU time of the run that is to be shown, a sweep
-SECOND_WAYS = (BY_GAP, *BY_SWEEP.values(), AGAINST, OPEN)
+SECOND_WAYS = (BY_GAP, *BY_SWEEP.values(), BELOW, AGAINST, OPEN)
 
 
 def run_bounded(gfb, path, folder, seconds):
@@ -111,6 +113,8 @@ def second_way(gfb, member, row):
             return AGAINST, spent
         if again.get("points", 0) > 0 and again["outcome"] in ends:
             return BY_SWEEP[parameter], spent
+        if again.get("points", 0) > 0 and again["outcome"] == "fold" and shares is LIGHTER:
+            return BELOW, spent  # no film of that branch is so thin: it ends before
     return OPEN, spent
 
 

@@ -1,0 +1,68 @@
+"""tools/manual --html: the pages by Sphinx and MyST, those of the modules by FORD, equations by a MathJax beside them."""
+
+import importlib.util
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from gfb.tool import ROOT, say, stop
+
+HERE = pathlib.Path(__file__).parent
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+# What TeX drawn as SVG takes.
+PARTS = ("MathJax.js", "config/TeX-AMS_SVG.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/SVG/autoload",
+         "jax/output/SVG/jax.js", "jax/output/SVG/config.js", "jax/output/SVG/fonts/TeX")
+MATHJAX_OF_FORD = re.compile(r'<script src="https://[^"]*/MathJax\.js\?[^>]*></script>')
+START = '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>gfb</title><meta http-equiv="refresh" content="0; url=docs/README.html">\n'
+
+
+def make_pages(folder):
+    """Builds the pages anew; a warning, such as a link that leads nowhere, is a failure."""
+    if not (MATHJAX/"MathJax.js").exists():
+        stop(f"{MATHJAX} is missing; with apt:\n  apt-get install libjs-mathjax", 3)
+    if folder.exists() and any(folder.iterdir()) and not (folder/"objects.inv").exists():
+        stop(f"{folder}: holds something else than pages of the manual")
+    shutil.rmtree(folder, ignore_errors=True)
+    ford = find_ford()
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{folder}.doctrees", "-c", str(HERE),
+               str(ROOT), str(folder)]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": str(ROOT/"tools"), "GFB_MODULES": "yes" if ford else ""})
+    shutil.rmtree(f"{folder}.doctrees", ignore_errors=True)
+    if done.returncode != 0:
+        stop(f"Sphinx complains:\n{(done.stdout + done.stderr).strip()}")
+    for part in PARTS:
+        source, target = MATHJAX/part, folder/"_static/mathjax"/part
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if source.is_dir() else shutil.copyfile)(source, target)
+    if ford:
+        make_modules(ford, folder/"api")
+    else:
+        say("without the pages of the modules: ford is missing (pip install ford)")
+    (folder/"index.html").write_text(START, encoding="utf-8")
+    print(f"written: {folder/'index.html'}")
+    return 0
+
+
+def find_ford():
+    """The command of FORD; none where it is not installed."""
+    if importlib.util.find_spec("ford"):
+        return [sys.executable, "-m", "ford"]
+    found = shutil.which("ford")
+    return [found] if found else None
+
+
+def make_modules(ford, folder):
+    """Pages of all modules, with the MathJax of the others."""
+    done = subprocess.run([*ford, "--output_dir", str(folder), str(HERE/"ford.md")], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False)
+    if done.returncode != 0 or not (folder/"index.html").exists():
+        stop(f"FORD complains:\n{(done.stdout + done.stderr).strip()[-2000:]}")
+    for page in folder.rglob("*.html"):
+        root = "../"*(len(page.relative_to(folder).parts))
+        text = page.read_text(encoding="utf-8")
+        page.write_text(MATHJAX_OF_FORD.sub(f'<script src="{root}_static/mathjax/MathJax.js?config=TeX-AMS_SVG" async></script>', text),
+                        encoding="utf-8")

@@ -1,0 +1,114 @@
+"""Moving pictures: film and foil over the steps of a sweep or of time, or the orbit of a shaft; a GIF, or an MP4 where ffmpeg is."""
+
+import numpy
+from matplotlib import animation, colors, pyplot
+
+from gfb import steps
+from gfb.plot import transient
+from gfb.plot.film import READABLE, WORDS, around_zero, read_film
+from gfb.plot.scene import case_name, step_words
+from gfb.plot.strip import used_keys
+from gfb.results import open_results
+from gfb.tool import stop
+
+FIELDS = ("pressure", "gap", "deflection")
+FRAMES = 100   # at most
+PACE = 5.0     # frames a second, of steps
+FAST = 20.0    # of an orbit
+DOTS = 80      # a GIF's dots an inch
+
+
+def draw(path, file, picture):
+    """Writes the moving picture of a case, which any of its files names."""
+    case = case_name(steps.alone(path))
+    film = path.with_name(f"{case}.film{steps.ENDING}")
+    if film.exists():
+        with open_results(film) as opened:
+            save(*of_film(film, opened), picture)
+        return
+    if transient.is_transient(file):
+        save(*of_orbit(path, file), picture)
+        return
+    stop(f"{path}: nothing moves: there is no {film.name} and no orbit in it")
+
+
+def save(figure, frame, frames, pace, picture):
+    """The file, by Pillow or ffmpeg."""
+    if picture.suffix == ".mp4":
+        if not animation.writers.is_available("ffmpeg"):
+            stop("an MP4 needs ffmpeg, which is not there; a name with .gif needs nothing")
+        writer = animation.FFMpegWriter(fps=pace)
+    else:
+        writer = animation.PillowWriter(fps=pace)
+    animation.FuncAnimation(figure, frame, frames=frames).save(picture, writer=writer, dpi=DOTS)
+
+
+def chosen(many):
+    """Numbers of the frames, evenly among so many."""
+    return [int(i) for i in numpy.unique(numpy.linspace(0, many - 1, min(many, FRAMES)).round())]
+
+
+# --- film over the steps ---
+
+def of_film(path, file):
+    """Maps of pressure, film thickness and deflection, one colour scale for all steps."""
+    films = []
+    numbers = chosen(steps.count(file))
+    for step in numbers:
+        one = steps.at_step(file, step)
+        try:
+            films.append(read_film(path, one))
+        finally:
+            one.close()
+    names = [name for name in FIELDS if name in films[0].fields and any(numpy.any(film.fields[name]) for film in films)]
+    if not names:
+        stop(f"{path}: no pressure, gap or deflection in it")
+    figure, axes = pyplot.subplots(len(names), 1, figsize=(8.0, 2.3*len(names) + 0.5), squeeze=False, layout="constrained", sharex=True)
+    meshes = []
+    for chart, name in zip(axes.flat, names):
+        every = [film.readable(name)[0] for film in films]
+        unit = READABLE.get(films[0].units[name], (films[0].units[name],))[0]
+        low, high = min(one.min() for one in every), max(one.max() for one in every)
+        shades = around_zero(numpy.array((low, high))) if name == "deflection" and low < 0.0 else \
+            {"norm": colors.Normalize(low, high), "cmap": "viridis"}
+        mesh = chart.pcolormesh(films[0].theta, 1.0e3*films[0].z, every[0].T, shading="gouraud", **shades)
+        figure.colorbar(mesh, ax=chart, label=f"[{unit}]")
+        chart.set_title(WORDS[name], fontsize=10)
+        chart.set_ylabel("z [mm]")
+        meshes.append((mesh, every))
+    axes[-1, 0].set_xlabel("theta [deg]")
+    title = figure.suptitle(" ", fontsize=11)
+
+    def frame(number):
+        for mesh, every in meshes:
+            mesh.set_array(every[number].T)
+        title.set_text(f"{case_name(steps.alone(path))}: {step_words(file, numbers[number])}, step {numbers[number] + 1} of {steps.count(file)}")
+
+    return figure, frame, len(films), PACE
+
+
+# --- orbit ---
+
+def of_orbit(path, file):
+    """The shaft's centre on its way, with a tail of two turns."""
+    history = {name: data[...] for name, data in file["transient"].items()}
+    keys = used_keys(file) if "scene/used" in file else {}
+    figure, chart = pyplot.subplots(figsize=(6.0, 6.0), layout="constrained")
+    transient.draw_orbit(chart, history, keys)
+    for line in chart.get_lines()[-4:]:
+        line.set_alpha(0.15)
+    chart.get_legend().remove()
+    tail, = chart.plot([], [], color="C0", linewidth=1.5)
+    spot, = chart.plot([], [], "o", color="C3", markersize=8)
+    x, y = transient.places(history)
+    numbers = chosen(len(x))
+
+    def frame(number):
+        end = numbers[number]
+        shown = (history["turns"] <= history["turns"][end]) & (history["turns"] >= history["turns"][end] - 2.0)
+        tail.set_data(x[shown], y[shown])
+        spot.set_data(x[end:end + 1], y[end:end + 1])
+        chart.set_title(f"{case_name(path)}: turn {history['turns'][end]:.1f}, {history['time'][end]:.4g} s, "
+                        f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm", fontsize=10)
+
+    return figure, frame, len(numbers), FAST
