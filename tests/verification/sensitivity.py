@@ -7,6 +7,8 @@ import tempfile
 from gfb_run import Checks, solve
 
 LIMIT = 1.0e-6      # relative, of a derivative against differences
+CENTRAL = {1: 0.5, -1: -0.5}  # weights of the answers that many steps away: second order
+CENTRAL_FOURTH = {1: 2.0/3.0, -1: -2.0/3.0, 2: -1.0/12.0, -2: 1.0/12.0}  # for longer steps, where round-off is large
 SUM_LIMIT = 1.0e-7  # of a sum over keys, over the sum of its terms' sizes
 NAMES = ("eccentricity_x", "eccentricity_y", "attitude_angle", "friction_torque", "power_loss", "minimum_gap",
          "maximum_pressure", "minimum_pressure")
@@ -69,15 +71,15 @@ def derived(folder, content, keys, names=NAMES, ranks=1, **more):
     return solve(folder, "derived", with_keys(content, sensitivity={"quantity": names, "parameters": keys, **more}), ranks).summary
 
 
-def check_differences(checks, folder, words, content, steps, names=NAMES):
+def check_differences(checks, folder, words, content, steps, names=NAMES, sides=CENTRAL):
     """Every derivative against a central difference of whole answers, each with its relative step."""
     answer = derived(folder, content, tuple(steps), names)
     for key, part in steps.items():
         value = value_of(content, key)
-        more, less = (solve(folder, "differ", changed(content, key, value*(1.0 + side*part))).summary for side in (1, -1))
+        there = {side: solve(folder, "differ", changed(content, key, value*(1.0 + side*part))).summary for side in sides}
         worst = (0.0, "all")
         for name in names:
-            difference = (more[name] - less[name])/(2.0*part*value)
+            difference = sum(weight*there[side][name] for side, weight in sides.items())/(part*value)
             size = max(abs(difference), 1.0e-2*abs(answer[name]/value), 1.0e-30)  # tiny ones are round-off of the answers
             worst = max(worst, (abs(answer[slope_name(name, key)] - difference)/size, name))
         checks.below(f"{words}: by {key}, {worst[1]}", worst[0], LIMIT)
