@@ -64,6 +64,7 @@ contains
         merge('new   ', 'lagged', new_factors)
     end if
     call log%detail(trim(line))
+    call log%waiting('Newton iteration '//text(iteration)//', residual '//text(residual, 2))
   end subroutine show_iteration
 
   !> Says that MUMPS found its workspace too small, and how often so far.

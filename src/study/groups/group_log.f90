@@ -40,8 +40,8 @@ contains
       open (newunit=unit, file=path, action='write', status='new', iostat=status)
       context%log%unit = unit
       context%log%colours = .false.
-      allocate (context%log%warnings)
-      context%log%warnings%lines = ''
+      context%log%terminal = .false.
+      call context%log%remember()
     end if
     if (any_rank(status /= 0)) then
       context%log = run_log_type(active=.false.)

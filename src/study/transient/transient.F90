@@ -22,7 +22,6 @@ module gfb_transient
   public :: duration_of, drive_of
 
   real(wp), parameter :: pi = acos(-1.0_wp)
-  real(wp), parameter :: between_lines = 5.0_wp !! of the log [s]
 
   !> The way of a shaft.
   type, public :: transient_type
@@ -70,11 +69,10 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(reason_type), intent(inout) :: reason
     type(newton_report_type) :: report
-    real(wp) :: begun, told, now
+    real(wp) :: begun
 
     self%ending = ''
     begun = wall_time()
-    told = begun
     associate (march => self%march, every => scene%transient%output_every, log => context%log)
       do while (march%time < march%settings%end_time)
         call take_step(march, bearing, newton, report)
@@ -94,11 +92,8 @@ contains
           end if
         end if
         if (reason%is_given() .or. self%ending /= '') exit
-        now = wall_time()
-        if (now - told < between_lines) cycle
-        told = now
-        call log%stage(place_in_time(march)//', about '// &
-                       text((now - begun)*(march%settings%end_time/march%time - 1.0_wp), 2)//' s left')
+        call log%is_at(place_in_time(march)//', about '// &
+                       text((wall_time() - begun)*(march%settings%end_time/march%time - 1.0_wp), 2)//' s left')
       end do
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
