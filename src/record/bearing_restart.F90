@@ -25,7 +25,7 @@ module gfb_bearing_restart
                                 read_contacts, put_contact_record, read_contact_record
   implicit none (type)
   private
-  public :: keep_bearing, find_restart_point, recall_bearing, recall_way, remember_bearing
+  public :: keep_bearing, find_restart_point, recall_bearing, recall_way, remember_bearing, put_state, put_record
 
 contains
 
@@ -75,9 +75,9 @@ contains
 
   !> State, operating point, contacts, counters.
   subroutine put_state(bearing, newton, file)
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(result_file_type), intent(inout) :: file
+    type(bearing_system_type), intent(inout) :: bearing !! at an answer
+    type(newton_type), intent(inout) :: newton !! its solver
+    type(result_file_type), intent(inout) :: file !! that is being written
     type(memory_type) :: memory
     integer :: i
 
@@ -168,9 +168,9 @@ contains
 
   !> Rows and contacts of the points so far, and what is known of the last.
   subroutine put_record(bearing, record, file)
-    type(bearing_system_type), intent(in) :: bearing
-    type(bearing_record_type), intent(inout) :: record
-    type(result_file_type), intent(inout) :: file
+    type(bearing_system_type), intent(in) :: bearing !! whose contacts they are
+    type(bearing_record_type), intent(inout) :: record !! what is recorded
+    type(result_file_type), intent(inout) :: file !! that is being written
     type(memory_type) :: memory
 
     call remember_record(memory, record)
@@ -221,6 +221,7 @@ contains
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error)) return
+    if (.not. scene%sweep%present) return
     if (scene%sweep%turn_folds .and. point > 1) then
       call log%line('restart: resumed from answer '//text(point)//' of the branch')
     else if (point == 0) then

@@ -57,7 +57,8 @@ contains
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
-    call check_restart(keys, scene%output, scene%sweep, scene%general%analysis)
+    call check_restart(keys, scene%output, scene%general%analysis, &
+                       scene%sweep%present .or. scene%transient%present)
     call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
     call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis, &
                         scene%dynamics%present)

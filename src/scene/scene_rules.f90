@@ -103,16 +103,16 @@ contains
   end subroutine check_stability
 
   !> A run can be resumed where it has steps.
-  subroutine check_restart(keys, output, sweep, analysis)
+  subroutine check_restart(keys, output, analysis, has_steps)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(output_case_type), intent(in) :: output !! what `&output` asks for
-    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
+    logical, intent(in) :: has_steps !! points of a sweep, or steps of time
 
     if (output%restart_every == 0 .or. analysis == 0) return
-    if (analysis /= analysis_strip .and. .not. sweep%present) then
-      call keys%complain('output', 'restart_every', "needs a &sweep, or analysis = 'strip': "// &
-                         'nothing else has steps to resume from')
+    if (analysis /= analysis_strip .and. .not. has_steps) then
+      call keys%complain('output', 'restart_every', "needs a &sweep, or analysis = 'strip' or "// &
+                         "'transient': nothing else has steps to resume from")
     end if
   end subroutine check_restart
 

@@ -58,6 +58,13 @@ def vibrating():
                    dynamics={"frequency_ratios": (0.5, 1.0), "foundation_damping": 3.0e5})
 
 
+def shaft_in_time():
+    """A shaft with an unbalance on beams, four turns of it."""
+    content = bearing("beam", {}, every=15, scene={"analysis": "transient"}, rotor={"mass": 4.0}, mesh={"circumferential_elements": 208},
+                      transient={"turns": 4.0, "steps_per_turn": 60, "unbalance": 4.0e-6})
+    return {group: keys for group, keys in content.items() if group != "sweep"}
+
+
 def strip(kind, every=1):
     """A strip up and down, its crests under forces or between plates."""
     load = {"kind": kind, "steps_up": 8, "steps_down": 8}
@@ -106,6 +113,13 @@ def run_whole(path, folder, ranks):
     if process.returncode != 0:
         sys.exit(f"{path}: status {process.returncode}")
     return read_answer(path, folder), len(moments), min(numpy.diff(moments))
+
+
+def run_time(path, folder):
+    """The same of a shaft over time, whose log has no line a step."""
+    begun = time.monotonic()
+    answer = run_file(path, folder)
+    return answer, int(answer["time_steps"]), (time.monotonic() - begun)/answer["time_steps"]
 
 
 def run_and_kill(path, folder, ranks, files, delay, restart):
@@ -326,6 +340,8 @@ def main():
         check_kills(checks, folder, "beams_folded",
                     bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
         check_kills(checks, folder, "rotor", vibrating(), chance)
+        turning = run_time(write_case(folder, "turning", shaft_in_time()), pathlib.Path(folder)/"whole")
+        check_kills(checks, folder, "turning", shaft_in_time(), chance, whole=turning)
         check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)
         loop = check_kills(checks, folder, "strip_squeezed", strip("plates"), chance)
         if "--long" in sys.argv:

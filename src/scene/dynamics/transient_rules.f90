@@ -140,9 +140,6 @@ contains
     if (keys%meant('sensitivity', 'quantity')) then
       call keys%complain('sensitivity', 'quantity', useless)
     end if
-    if (keys%meant('output', 'restart_every')) then
-      call keys%complain('output', 'restart_every', useless)
-    end if
     if (model%coupling == coupling_partitioned) then
       call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = "// &
                          "'transient': film, foil and shaft take their steps together")

@@ -38,7 +38,7 @@ contains
     output%gap = any(chosen .and. (field_words == 'all' .or. field_words == 'gap'))
     output%deflection = any(chosen .and. (field_words == 'all' .or. field_words == 'deflection'))
     call keys%integer_key('restart_every', output%restart_every, &
-                          'sweep points, or load steps of a strip, after which '// &
+                          'sweep points, load steps of a strip or steps of time, after which '// &
                           '`CASE.restart.h5` is written for `--restart`; 0: once a minute', &
                           from_to(0.0_wp, most_steps))
     call keys%finish_group()

@@ -27,6 +27,7 @@ module gfb_linear_solver
     character(len=:), allocatable :: unsolved !! why a linear system was not solved, in words; else empty
     logical, private :: iterates = .false.    !! linear systems are solved by multigrid
     logical, private :: keep = .false.        !! use the present factors again
+    logical :: forgotten = .true.             !! there are no factors since the beginning, or since they were dropped
     logical, private :: ready = .false.       !! they belong to an answer, and no solve has begun since
     integer, private :: filled = 0            !! times that the matrix had been filled then
     type(lagged_factors_type), private :: lagged !! what GMRES has cost with the present factors
@@ -95,6 +96,7 @@ contains
       solver%fresh = .not. solver%keep
       fill = solver%fresh
     end if
+    if (solver%fresh) solver%forgotten = .false.
   end subroutine decide_factors
 
   !> Whether a linear system was solved; says why where new factors could not do it.
@@ -188,6 +190,7 @@ contains
     PetscCallA(SNESGetKSP(snes, linear, ierr))
     PetscCallA(KSPReset(linear, ierr))
     solver%ready = .false.
+    solver%forgotten = .true.
     solver%lagged = none
   end subroutine forget_solver
 end module gfb_linear_solver

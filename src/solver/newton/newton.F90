@@ -202,7 +202,7 @@ contains
   subroutine keep_factors(newton)
     type(newton_type), intent(inout) :: newton !! the solver
 
-    call keep_ready(newton%linear, newton%system%times_filled > 0, newton%system%times_filled)
+    call keep_ready(newton%linear, .not. newton%linear%forgotten, newton%system%times_filled)
   end subroutine keep_factors
 
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends

@@ -9,58 +9,24 @@
 !> PETSc's TS differentiates unknowns; here the product r h is differenced as a whole, which keeps the
 !> gas to round-off.
 module gfb_time_march
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_backward_difference, only: difference_weights, extrapolation_weights, error_share, next_step, kept_times
+  use gfb_backward_difference, only: difference_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces
-  use gfb_operating_point, only: operating_point_type
+  use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
+                             place_ahead, error_of
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton, keep_factors
   implicit none (type)
   private
-  public :: begin_march, take_step, end_march
+  public :: march_type, march_settings_type, begin_march, rebuild_past, take_step, end_march
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
   integer, parameter :: most_trials = 12 !! of one step
 
-  !> What was before, on this rank, of a pad: now and one step ago.
-  type :: pad_history_type
-    real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
-    real(wp), allocatable :: deflection(:, :) !! (film nodes, 2) [m]
-  end type pad_history_type
-
-  !> How steps are chosen.
-  type, public :: march_settings_type
-    real(wp) :: steps_per_turn = 0.0_wp !! 0: by the error [1]
-    real(wp) :: least_steps = 60.0_wp   !! of a turn, then [1]
-    real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
-    real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
-    real(wp) :: end_time = 0.0_wp       !! [s]
-  end type march_settings_type
-
-  !> The march: what drives it, its past, the next step.
-  type, public :: march_type
-    type(shaft_drive_type) :: drive
-    type(march_settings_type) :: settings
-    real(wp) :: time = 0.0_wp           !! of the present state [s]
-    real(wp) :: step = 0.0_wp           !! that led there [s]
-    real(wp) :: next = 0.0_wp           !! that is tried next [s]
-    integer :: steps = 0                !! taken
-    integer :: rejections = 0           !! steps that were taken again, shorter
-    real(wp) :: velocity(2, 2) = 0.0_wp !! of the sleeve, now and one step ago [m/s]
-    real(wp) :: place(2, kept_times) = 0.0_wp !! of it, now and before [m]
-    real(wp) :: first_place(2) = 0.0_wp !! of it at the beginning [m]
-    real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
-    real(wp), allocatable :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
-    type(pad_history_type), allocatable :: pad(:)
-    type(operating_point_type) :: start !! whose tilt and fixed position stay
-  contains
-    procedure :: turns
-    procedure :: outer_load
-  end type march_type
 
 contains
 
@@ -70,10 +36,15 @@ contains
     type(march_settings_type), intent(in) :: settings !! how steps are chosen
     type(bearing_system_type), intent(in) :: bearing !! at a steady state
     type(march_type), intent(out) :: march !! ready for `take_step`
+    PetscErrorCode :: ierr
     integer :: i
 
     march%drive = drive
     march%settings = settings
+    do i = 1, 2
+      PetscCallA(VecDuplicate(bearing%state, march%state(i), ierr))
+      PetscCallA(VecCopy(bearing%state, march%state(i), ierr))
+    end do
     march%start = bearing%point
     if (bearing%shaft_fixed) march%start%eccentricity = bearing%eccentricity()
     march%next = first_step(march)
@@ -105,6 +76,25 @@ contains
     end do
     march%velocity(:, 2) = -acceleration*march%next
   end subroutine begin_falling
+
+  !> Goes on from a restart file, which has left the bearing at the newest state, and the march with all but what follows
+  !> from its last two states.
+  subroutine rebuild_past(bearing, march)
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    type(march_type), intent(inout) :: march !! begun anew, then filled from the file
+    integer :: i, step
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
+    call bearing%get_unknowns(march%unknown(:, 1))
+    call bearing%get_unknowns(march%unknown(:, 2), march%state(2))
+    do step = 2, 1, -1
+      if (.not. bearing%floats) bearing%point%eccentricity = march%place(:, step)
+      do i = 1, size(bearing%pad)
+        call look_at_pad(bearing, i, march%unknown(:, step), march%pad(i))
+      end do
+    end do
+  end subroutine rebuild_past
 
   !> Gas and deflection of a pad at the present state become the newest ones.
   subroutine look_at_pad(bearing, i, unknown, history)
@@ -154,7 +144,7 @@ contains
         step = shortened*step
       end if
       march%rejections = march%rejections + 1
-      call bearing%set_unknowns(march%unknown(:, 1))
+      call go_back(march, bearing)
     end do
     if (report%converged .and. trial > most_trials) then
       report%converged = .false.
@@ -170,6 +160,15 @@ contains
     end if
   end subroutine take_step
 
+  !> Puts the bearing back to the newest state, with all its digits.
+  subroutine go_back(march, bearing)
+    type(march_type), intent(in) :: march
+    type(bearing_system_type), intent(inout) :: bearing
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(march%state(1), bearing%state, ierr))
+  end subroutine go_back
+
   !> The state becomes the newest of the past; friction carries its slip along.
   subroutine accept(march, step, place, bearing)
     type(march_type), intent(inout) :: march
@@ -178,6 +177,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     real(wp) :: velocity(2), weight(0:2)
     integer :: i
+    PetscErrorCode :: ierr
 
     weight = difference_weights(step, march%past_step(1))
     velocity = weight(0)*(place - march%place(:, 1)) + weight(2)*(march%place(:, 2) - march%place(:, 1))
@@ -193,6 +193,8 @@ contains
     march%steps = march%steps + 1
     march%unknown(:, 2) = march%unknown(:, 1)
     call bearing%get_unknowns(march%unknown(:, 1))
+    PetscCallA(VecCopy(march%state(1), march%state(2), ierr))
+    PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
     do i = 1, size(bearing%pad)
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
@@ -263,100 +265,16 @@ contains
     end if
   end subroutine predict
 
-  !> The sleeve's place one step ahead, on the parabola through the last ones.
-  pure function place_ahead(march, step) result(place)
-    type(march_type), intent(in) :: march
-    real(wp), intent(in) :: step !! [s]
-    real(wp) :: place(2)
-    place = matmul(march%place, extrapolation_weights([step, march%past_step(:2)]))
-  end function place_ahead
-
-  !> Error of a step in the sleeve's place [m].
-  pure function error_of(march, step, place) result(error)
-    type(march_type), intent(in) :: march
-    real(wp), intent(in) :: step !! [s]
-    real(wp), intent(in) :: place(2) !! that it led to [m]
-    real(wp) :: error
-    error = error_share([step, march%past_step(:2)])*norm2(place - place_ahead(march, step))
-  end function error_of
-
-  !> The next step, not beyond the end; one that the error chooses not beyond a jump of what drives the shaft either, and
-  !> with no short one left over before it.
-  pure function allowed_step(march) result(step)
-    type(march_type), intent(in) :: march
-    real(wp), parameter :: nearly = 0.999_wp !! over what is left [1]
-    real(wp) :: step, left
-
-    step = march%next
-    left = march%settings%end_time - march%time
-    if (march%settings%steps_per_turn > 0.0_wp) then
-      if (step > nearly*left) step = left
-      return
-    end if
-    step = min(step, longest_step(march))
-    left = min(left, march%drive%jumps(march%time) - march%time)
-    if (step > nearly*left) then
-      step = left
-    else if (step > 0.5_wp*left) then
-      step = 0.5_wp*left
-    end if
-  end function allowed_step
-
-  !> Steps of a turn that are asked for, or to begin with where the error chooses them.
-  pure function first_step(march) result(step)
-    type(march_type), intent(in) :: march
-    real(wp) :: step
-    real(wp), parameter :: short = 0.02_wp !! over the longest one [1]
-
-    step = short*longest_step(march)
-    if (march%settings%steps_per_turn > 0.0_wp) step = usual_step(march)
-  end function first_step
-
-  !> A step where their number is given.
-  pure function usual_step(march) result(step)
-    type(march_type), intent(in) :: march
-    real(wp) :: step
-    step = 2.0_wp*pi/(march%settings%steps_per_turn*fastest(march))
-  end function usual_step
-
-  !> The longest step.
-  pure function longest_step(march) result(step)
-    type(march_type), intent(in) :: march
-    real(wp) :: step
-    step = 2.0_wp*pi/(march%settings%least_steps*fastest(march))
-  end function longest_step
-
-  !> The speed whose turns are divided: the present one, a tenth of the largest one at least; that of one turn in the whole
-  !> time where nothing turns.
-  pure function fastest(march) result(speed)
-    type(march_type), intent(in) :: march
-    real(wp) :: speed
-    associate (drive => march%drive, end_time => march%settings%end_time)
-      speed = max(abs(drive%speed_at(march%time)), abs(drive%orbit_frequency), &
-                  0.1_wp*max(abs(drive%speed), abs(drive%speed_at(end_time))))
-      if (.not. speed > 0.0_wp) speed = 2.0_wp*pi/end_time
-    end associate
-  end function fastest
-
-  !> Turns of the shaft so far.
-  pure function turns(self) result(number)
-    class(march_type), intent(in) :: self !! the march
-    real(wp) :: number !! [1]
-    number = self%drive%angle_at(self%time)/(2.0_wp*pi)
-  end function turns
-
-  !> The outer forces at the present time [N].
-  pure function outer_load(self) result(load)
-    class(march_type), intent(in) :: self !! the march
-    real(wp) :: load(2)
-    load = self%drive%load_at(self%time)
-  end function outer_load
-
   !> The bearing's equations become those of a steady state again.
-  subroutine end_march(bearing)
+  subroutine end_march(march, bearing)
+    type(march_type), intent(inout) :: march !! its numbers stay
     type(bearing_system_type), intent(inout) :: bearing !! at the last state
     integer :: i
+    PetscErrorCode :: ierr
 
+    do i = 1, 2
+      PetscCallA(VecDestroy(march%state(i), ierr))
+    end do
     bearing%point%inertia = 0.0_wp
     if (bearing%floats) bearing%point%eccentricity = bearing%eccentricity()
     do i = 1, size(bearing%pad)

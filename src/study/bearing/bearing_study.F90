@@ -100,7 +100,8 @@ contains
     call solve_bearing(first, self%plan, context, self%sweep, self%reason, error)
     if (allocated(error) .or. self%reason%is_given() .or. .not. scene%transient%present) return
     allocate (self%transient)
-    call self%transient%run(scene, context, self%sweep%bearing, self%sweep%newton, self%reason)
+    call self%transient%run(scene, context, self%sweep%bearing, self%sweep%newton, self%sweep%record, self%reason, error)
+    if (allocated(error)) return
     self%sweep%record%judged = self%transient%results() ! what was known of the first state is not of the last one
   end subroutine find_first
 

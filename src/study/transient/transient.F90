@@ -2,6 +2,7 @@
 !> A shaft over time, from an equilibrium or a given position on.
 module gfb_transient
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
@@ -17,6 +18,9 @@ module gfb_transient
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_transient_history, only: transient_history_type
+  use gfb_bearing_record, only: bearing_record_type
+  use gfb_restart, only: restart_type
+  use gfb_transient_restart, only: keep_march, recall_march
   implicit none (type)
   private
   public :: duration_of, drive_of
@@ -38,14 +42,18 @@ module gfb_transient
 
 contains
 
-  !> Follows the shaft from an equilibrium, or a given position.
-  subroutine run_transient(self, scene, context, bearing, newton, reason)
+  !> Follows the shaft from an equilibrium, or a given position; or on from where a restart file has left it.
+  !>
+  !> Fails when that file is damaged.
+  subroutine run_transient(self, scene, context, bearing, newton, record, reason, error)
     class(transient_type), intent(inout) :: self !! its way, from nothing
     type(scene_type), intent(in) :: scene !! with `&transient`
     type(run_context_type), intent(in) :: context !! of the run
     type(bearing_system_type), target, intent(inout) :: bearing !! where the shaft begins; left at its end
     type(newton_type), target, intent(inout) :: newton !! its solver
+    type(bearing_record_type), intent(inout) :: record !! of where the shaft begins, for restart files
     type(reason_type), intent(inout) :: reason !! why the time has no end
+    type(error_type), allocatable, intent(out) :: error !! why it failed
     type(march_settings_type) :: settings
 
     call context%log%heading('time')
@@ -56,44 +64,64 @@ contains
     newton%log%verbose = .false.
     call begin_march(drive_of(scene), settings, bearing, self%march)
     call self%history%add(self%march, bearing, newton)
-    call follow_shaft(self, scene, context, bearing, newton, reason)
-    call end_march(bearing)
+    if (context%restart%goes_on) then
+      call recall_march(context%restart, bearing, self%march, self%history, error)
+      if (.not. allocated(error)) call context%log%line('restart: resumed from '//place_in_time(self%march))
+    end if
+    if (.not. allocated(error)) call follow_shaft(self, scene, context, bearing, newton, record, reason)
+    call end_march(self%march, bearing)
   end subroutine run_transient
 
   !> Steps until the time is over, or something has happened.
-  subroutine follow_shaft(self, scene, context, bearing, newton, reason)
+  subroutine follow_shaft(self, scene, context, bearing, newton, record, reason)
     type(transient_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
+    type(bearing_record_type), intent(inout) :: record
     type(reason_type), intent(inout) :: reason
     type(newton_report_type) :: report
-    real(wp) :: begun
+    type(restart_type) :: restart
+    real(wp) :: begun, from
+    logical :: due
 
     self%ending = ''
+    restart = context%restart
     begun = wall_time()
+    from = self%march%time
     associate (march => self%march, every => scene%transient%output_every, log => context%log)
       do while (march%time < march%settings%end_time)
         call take_step(march, bearing, newton, report)
-        if (stop_agreed()) then
-          reason%code = reason_stopped
-          reason%detail = stop_words()//' at '//place_in_time(march)
-        else if (.not. report%converged) then
-          reason%code = reason_no_answer
-          reason%detail = 'no step of time leads on from '//place_in_time(march)//': '//report%reason
-          call log%tell(reason%words())
-        else
+        if (report%converged) then
           call self%history%see_gap(bearing)
           call self%look_for_limits(scene)
           if (modulo(march%steps, every) == 0 .or. march%time >= march%settings%end_time .or. self%ending /= '') then
             call self%history%add(march, bearing, newton)
             if (self%ending == '') call self%look_for_steady_orbit(scene)
           end if
+        else
+          reason%code = reason_no_answer
+          reason%detail = 'no step of time leads on from '//place_in_time(march)//': '//report%reason
         end if
-        if (reason%is_given() .or. self%ending /= '') exit
+        if (self%ending /= '') exit
+        if (stop_agreed()) then
+          reason%code = reason_stopped
+          reason%detail = stop_words()//' at '//place_in_time(march)
+          if (restart%may_be_written()) then
+            call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
+            call restart%tell(log, reason%detail)
+          end if
+        else if (reason%is_given()) then
+          call log%tell(reason%words())
+        end if
+        if (reason%is_given()) exit
+        due = restart%is_due(march%steps)
+        if (due .and. march%time < march%settings%end_time) then
+          call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
+        end if
         call log%is_at(place_in_time(march)//', about '// &
-                       text((wall_time() - begun)*(march%settings%end_time/march%time - 1.0_wp), 2)//' s left')
+                       text((wall_time() - begun)*(march%settings%end_time - march%time)/(march%time - from), 2)//' s left')
       end do
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &

@@ -2,6 +2,7 @@
 !> What is kept of a shaft over time: a line a step, or every few steps.
 module gfb_transient_history
   use gfb_kinds, only: wp
+  use gfb_memory, only: memory_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -43,6 +44,7 @@ module gfb_transient_history
     procedure :: see_gap
     procedure :: arrays => history_arrays
     procedure :: extent
+    procedure :: remember => remember_history
   end type transient_history_type
 
 contains
@@ -120,6 +122,22 @@ contains
       call add_arrays(arrays, one)
     end do
   end function history_arrays
+
+  !> Packs or unpacks the lines.
+  subroutine remember_history(self, memory)
+    class(transient_history_type), intent(inout) :: self !! written where the memory unpacks
+    type(memory_type), intent(inout) :: memory !! that packs or unpacks
+    real(wp), allocatable :: lines(:, :)
+
+    lines = self%values(:, :self%lines)
+    call memory%visit_sized('lines', lines)
+    call memory%visit('smallest_gap', self%smallest_gap)
+    memory%failed = memory%failed .or. .not. allocated(lines)
+    if (memory%packs .or. memory%failed) return
+    memory%failed = size(lines, 1) /= columns
+    self%lines = size(lines, 2)
+    call move_alloc(lines, self%values)
+  end subroutine remember_history
 
   !> Smallest and largest e_x and e_y in the lines of the turns between two numbers.
   pure function extent(self, from, to) result(box)

@@ -1,0 +1,142 @@
+#include "gfb_petsc.h"
+!> A march through time: its past, what drives it, and how long its next step is.
+module gfb_march_state
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_operating_point, only: operating_point_type
+  implicit none (type)
+  private
+  public :: allowed_step, first_step, usual_step, place_ahead, error_of
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+
+  !> What was before, on this rank, of a pad: now and one step ago.
+  type, public :: pad_history_type
+    real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
+    real(wp), allocatable :: deflection(:, :) !! (film nodes, 2) [m]
+  end type pad_history_type
+
+  !> How steps are chosen.
+  type, public :: march_settings_type
+    real(wp) :: steps_per_turn = 0.0_wp !! 0: by the error [1]
+    real(wp) :: least_steps = 60.0_wp   !! of a turn, then [1]
+    real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
+    real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
+    real(wp) :: end_time = 0.0_wp       !! [s]
+  end type march_settings_type
+
+  !> The march: what drives it, its past, the next step.
+  type, public :: march_type
+    type(shaft_drive_type) :: drive
+    type(march_settings_type) :: settings
+    real(wp) :: time = 0.0_wp           !! of the present state [s]
+    real(wp) :: step = 0.0_wp           !! that led there [s]
+    real(wp) :: next = 0.0_wp           !! that is tried next [s]
+    integer :: steps = 0                !! taken
+    integer :: rejections = 0           !! steps that were taken again, shorter
+    real(wp) :: velocity(2, 2) = 0.0_wp !! of the sleeve, now and one step ago [m/s]
+    real(wp) :: place(2, kept_times) = 0.0_wp !! of it, now and before [m]
+    real(wp) :: first_place(2) = 0.0_wp !! of it at the beginning [m]
+    real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
+    real(wp), allocatable :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
+    type(pad_history_type), allocatable :: pad(:)
+    type(operating_point_type) :: start !! whose tilt and fixed position stay
+    Vec :: state(2) !! scaled, now and one step ago, with all their digits
+  contains
+    procedure :: turns
+    procedure :: outer_load
+  end type march_type
+
+contains
+
+  !> The sleeve's place one step ahead, on the parabola through the last ones.
+  pure function place_ahead(march, step) result(place)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    real(wp) :: place(2)
+    place = matmul(march%place, extrapolation_weights([step, march%past_step(:2)]))
+  end function place_ahead
+
+  !> Error of a step in the sleeve's place [m].
+  pure function error_of(march, step, place) result(error)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: step !! [s]
+    real(wp), intent(in) :: place(2) !! that it led to [m]
+    real(wp) :: error
+    error = error_share([step, march%past_step(:2)])*norm2(place - place_ahead(march, step))
+  end function error_of
+
+  !> The next step, not beyond the end; one that the error chooses not beyond a jump of what drives the shaft either, and
+  !> with no short one left over before it.
+  pure function allowed_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp), parameter :: nearly = 0.999_wp !! over what is left [1]
+    real(wp) :: step, left
+
+    step = march%next
+    left = march%settings%end_time - march%time
+    if (march%settings%steps_per_turn > 0.0_wp) then
+      if (step > nearly*left) step = left
+      return
+    end if
+    step = min(step, longest_step(march))
+    left = min(left, march%drive%jumps(march%time) - march%time)
+    if (step > nearly*left) then
+      step = left
+    else if (step > 0.5_wp*left) then
+      step = 0.5_wp*left
+    end if
+  end function allowed_step
+
+  !> Steps of a turn that are asked for, or to begin with where the error chooses them.
+  pure function first_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    real(wp), parameter :: short = 0.02_wp !! over the longest one [1]
+
+    step = short*longest_step(march)
+    if (march%settings%steps_per_turn > 0.0_wp) step = usual_step(march)
+  end function first_step
+
+  !> A step where their number is given.
+  pure function usual_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    step = 2.0_wp*pi/(march%settings%steps_per_turn*fastest(march))
+  end function usual_step
+
+  !> The longest step.
+  pure function longest_step(march) result(step)
+    type(march_type), intent(in) :: march
+    real(wp) :: step
+    step = 2.0_wp*pi/(march%settings%least_steps*fastest(march))
+  end function longest_step
+
+  !> The speed whose turns are divided: the present one, a tenth of the largest one at least; that of one turn in the whole
+  !> time where nothing turns.
+  pure function fastest(march) result(speed)
+    type(march_type), intent(in) :: march
+    real(wp) :: speed
+    associate (drive => march%drive, end_time => march%settings%end_time)
+      speed = max(abs(drive%speed_at(march%time)), abs(drive%orbit_frequency), &
+                  0.1_wp*max(abs(drive%speed), abs(drive%speed_at(end_time))))
+      if (.not. speed > 0.0_wp) speed = 2.0_wp*pi/end_time
+    end associate
+  end function fastest
+
+  !> Turns of the shaft so far.
+  pure function turns(self) result(number)
+    class(march_type), intent(in) :: self !! the march
+    real(wp) :: number !! [1]
+    number = self%drive%angle_at(self%time)/(2.0_wp*pi)
+  end function turns
+
+  !> The outer forces at the present time [N].
+  pure function outer_load(self) result(load)
+    class(march_type), intent(in) :: self !! the march
+    real(wp) :: load(2)
+    load = self%drive%load_at(self%time)
+  end function outer_load
+end module gfb_march_state
