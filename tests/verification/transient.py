@@ -268,6 +268,38 @@ def check_touch_down(checks, folder):
     checks.below("touch-down: the same with few lines", ends[1] - ends[0], 1.0e-12)
 
 
+def friction_loop(folder, turns):
+    """Loads and positions while a load doubles and goes back, over so many turns in as many steps, and the same in load steps
+    of a sweep [N], [m]."""
+    beam = beams(0.1)
+    groups = {group: dict(keys) for group, keys in beam["groups"].items() if group != "model"}
+    steady = case_groups(FOIL_BEARING, beam["mesh"], "beam", load=(-40.0, 0.0), speed_rpm=beam["speed_rpm"], groups=groups)
+    steady["solver"] = TIGHT
+    length = 2.0*math.pi/speed_of(steady)*turns
+    content = {group: dict(keys) for group, keys in steady.items()}
+    content["scene"]["analysis"] = "transient"
+    content["rotor"] = {"mass": 0.01}
+    content["transient"] = {"turns": turns, "steps_per_turn": 1, "pulse": (-20.0*length, 0.0), "pulse_length": length}
+    rows = history(solve(folder, "slow", content))
+    steady["sweep"] = {"parameter": "load", "values": tuple(float(-load) for load in rows["load_x"]), "friction_memory": True}
+    return -rows["load_x"], rows["eccentricity_x"], solve(folder, "sweep", steady).history()["eccentricity_x"]
+
+
+def check_friction(checks, folder):
+    """Crests and corners that rub: the loop of a slow load tends to that of load steps, as the film's damping vanishes."""
+    off, lost = [], []
+    for turns in (40, 80):
+        load, slow, steady = friction_loop(folder, turns)
+        width = numpy.abs(steady - steady[::-1]).max()
+        work = [numpy.trapz(load, path) for path in (slow, steady)]
+        off.append(numpy.abs(slow - steady).max()/width)
+        lost.append(work[0]/work[1] - 1.0)
+    checks.that(f"friction: the loop is {width*1.0e6:.2f} um wide", width > 1.0e-6)
+    checks.below("friction: position of 80 turns, over the loop's width", off[1], 0.02)
+    checks.within("friction: order in the duration", observed_order(*off), 0.8, 1.2)
+    checks.below("friction: energy of a loop that takes for ever", 2.0*lost[1] - lost[0], 1.0e-2)
+
+
 def check_start(checks, folder):
     """An unbalance is there at once: equal steps are of order 2 from such a start, too."""
     ends = []
@@ -319,6 +351,7 @@ def main():
             check_same(checks, folder)
             check_steps(checks, folder)
             check_touch_down(checks, folder)
+            check_friction(checks, folder)
             check_start(checks, folder)
     checks.close()
 
