@@ -19,11 +19,11 @@ module gfb_result_table
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
                                 load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
-                                origin = 512, sample = 1024, transient = 2048
+                                origin = 512, sample = 1024, transient = 2048, periodic = 4096
   character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
     'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
     'history of a strip', 'modes', '`&accuracy`', 'table of cases', &
-    '`/provenance`', '`&sample`', '`&transient`']
+    '`/provenance`', '`&sample`', '`&transient`', '`&periodic`']
 
   !> A row of the table.
   type, public :: result_type
@@ -159,9 +159,17 @@ module gfb_result_table
     result_type('time', 's', number, transient, 'computed; what stands above is of its end'), &
     result_type('turns', '1', number, transient, 'of the shaft in that time'), &
     result_type('time_steps', '1', total, transient, 'that were taken'), &
-    result_type('orbit_<a>', 'm', number, transient, 'extent of e_<a> in the last turn'), &
-    result_type('minimum_gap_over_time', 'm', number, transient, 'smallest film of all steps'), &
-    result_type('ending', '', word, transient, 'why it ended before its time, where it did')]
+    result_type('orbit_<a>', 'm', number, transient + periodic, 'extent of e_<a> in the last turn, or in a period'), &
+    result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest film of all steps'), &
+    result_type('ending', '', word, transient + periodic, 'why it ended before its time, where it did'), &
+    result_type('period', 's', number, periodic, 'of the last orbit; what stands above is of its end'), &
+    result_type('frequency_ratio', '1', number, periodic, 'frequency of the last orbit over the speed'), &
+    result_type('largest_multiplier', '1', number, periodic, 'size of the multiplier that judges it'), &
+    result_type('orbit_stable', '1', truth, periodic, 'whether disturbances of that orbit die out'), &
+    result_type('stability_loss', '', word, periodic, 'how they grow, where they do'), &
+    result_type('orbits', '1', total, periodic, 'of the branch'), &
+    result_type('folds', '1', total, periodic, 'where the parameter of the branch turns back'), &
+    result_type('subcritical', '1', truth, periodic, 'limit cycles begin where the equilibrium is stable')]
 
   type(result_type), parameter :: tilts(*) = [ &
     result_type('angular_stiffness_<a><b>', 'N m/rad', number, tilting, &

@@ -76,6 +76,10 @@ contains
       call fail(error, scene%file//": --branches has no use with analysis = 'transient'")
       return
     end if
+    if (scene%periodic%present) then
+      call fail(error, scene%file//": --branches has no use with analysis = 'periodic'")
+      return
+    end if
     if (scene%capacity%question > 0) then
       call fail(error, scene%file//": --branches needs analysis = 'equilibrium': a limit is "// &
                 'looked for on one branch')

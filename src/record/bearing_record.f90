@@ -83,6 +83,7 @@ contains
     if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
     if (scene%dynamics%present) name = 'linear_dynamics'
     if (scene%transient%present) name = 'transient'
+    if (scene%periodic%present) name = 'periodic'
     if (scene%capacity%question > 0) name = trim(analysis_words(scene%capacity%question))
   end function analysis_name
 

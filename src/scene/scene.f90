@@ -10,6 +10,7 @@ module gfb_scene
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type
   use gfb_modes_case, only: modes_case_type
+  use gfb_motion_cases, only: periodic_case_type, transient_case_type
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
   use gfb_rotor_case, only: rotor_case_type
@@ -21,7 +22,6 @@ module gfb_scene
   use gfb_strip_load_case, only: strip_load_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_top_foil_case, only: top_foil_case_type
-  use gfb_transient_case, only: transient_case_type
   implicit none (type, external)
   private
 
@@ -41,6 +41,7 @@ module gfb_scene
     type(dynamics_case_type) :: dynamics
     type(rotor_case_type) :: rotor
     type(transient_case_type) :: transient
+    type(periodic_case_type) :: periodic
     type(capacity_case_type) :: capacity
     type(sensitivity_case_type) :: sensitivity
     type(accuracy_case_type) :: accuracy

@@ -9,6 +9,7 @@ module gfb_scene_checks
   use gfb_own_strip_rules, only: check_own_strips
   use gfb_pads_rules, only: check_pads
   use gfb_foil_mass_case, only: check_foil_mass
+  use gfb_periodic_rules, only: check_periodic
   use gfb_plausible_values, only: check_plausible
   use gfb_rotor_case, only: check_rotor
   use gfb_sample_rules, only: check_sample
@@ -67,6 +68,8 @@ contains
     call check_sample(keys, scene)
     call check_transient(keys, scene%transient, scene%operation, scene%rotor, scene%model, &
                          scene%general%analysis)
+    call check_periodic(keys, scene%periodic, scene%operation, scene%rotor, scene%model, &
+                        scene%contact%may_rub)
     call check_shape(keys, scene)
     call check_plausible(keys, scene)
   end subroutine check_groups

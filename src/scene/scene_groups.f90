@@ -13,6 +13,7 @@ module gfb_scene_groups
                             part_strip, part_top_foil
   use gfb_operation_case, only: read_operation_case
   use gfb_pads_case, only: read_pads_case
+  use gfb_periodic_case, only: read_periodic_case
   use gfb_rotor_case, only: read_rotor_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, &
@@ -60,6 +61,7 @@ contains
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, analysis)
       call read_transient_case(keys, scene%transient, scene%operation, analysis)
+      call read_periodic_case(keys, scene%periodic, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis == analysis_misalignment
       call read_sweep_case(keys, scene%sweep, analysis)

@@ -134,6 +134,7 @@ contains
     there%dynamics = changed%dynamics
     there%rotor = changed%rotor
     there%transient = changed%transient
+    there%periodic = changed%periodic
     there%capacity = changed%capacity
     there%gas = changed%gas
     there%operation = changed%operation

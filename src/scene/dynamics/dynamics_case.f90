@@ -7,7 +7,7 @@ module gfb_dynamics_case
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
-                            analysis_fixed_position, analysis_transient, asks_limit, &
+                            analysis_fixed_position, analysis_transient, analysis_periodic, asks_limit, &
                             misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
   use gfb_value_rules, only: positive, not_negative
@@ -49,7 +49,7 @@ contains
     integer :: state
 
     state = analysis
-    if (asks_limit(analysis)) state = analysis_equilibrium
+    if (asks_limit(analysis) .or. analysis == analysis_periodic) state = analysis_equilibrium
     if (analysis /= analysis_linear_dynamics .and. analysis /= analysis_transient) return
     state = analysis_equilibrium
     if (has_position .and. .not. has_load) state = analysis_fixed_position

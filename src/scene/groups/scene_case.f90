@@ -15,10 +15,12 @@ module gfb_scene_case
   integer, parameter, public :: analysis_lift_off = 7      !! speed that lifts the asperities off
   integer, parameter, public :: analysis_misalignment = 8  !! tilt that leaves the least film
   integer, parameter, public :: analysis_transient = 9     !! the shaft over time, from 1 or 2
+  integer, parameter, public :: analysis_periodic = 10     !! orbits that close, about 1
 
   character(len=*), parameter, public :: analysis_words(*) = &
     [character(len=22) :: 'equilibrium', 'fixed_position', 'strip', 'modes', 'linear_dynamics', &
-                          'load_capacity', 'lift_off', 'misalignment_allowance', 'transient']
+                          'load_capacity', 'lift_off', 'misalignment_allowance', 'transient', &
+                          'periodic']
 
   !> What is asked for.
   type :: scene_case_type
@@ -42,7 +44,7 @@ contains
                          'position that carries the load, film of a given position, bump '// &
                          'strip under loads, natural modes, small vibrations of the shaft '// &
                          'about one of the first two; load, speed or tilt up to a limit: '// &
-                         'see `&capacity`; the shaft over time: see `&transient`')
+                         'see `&capacity`; the shaft over time: see `&transient`; orbits that close: see `&periodic`')
     call keys%finish_group()
   end subroutine read_scene_case
 
@@ -52,7 +54,7 @@ contains
     logical :: bearing
     bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position .or. &
               analysis == analysis_linear_dynamics .or. analysis == analysis_transient .or. &
-              asks_limit(analysis)
+              analysis == analysis_periodic .or. asks_limit(analysis)
   end function is_bearing
 
   !> Whether an analysis looks for a limit of equilibria.

@@ -21,7 +21,7 @@ module gfb_time_march
   use gfb_newton, only: newton_type, newton_report_type, solve_newton, keep_factors
   implicit none (type)
   private
-  public :: march_type, march_settings_type, begin_march, rebuild_past, take_step, end_march
+  public :: march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
@@ -60,6 +60,26 @@ contains
     end do
     if (bearing%floats .and. .not. bearing%shaft_fixed) call begin_falling(bearing, march)
   end subroutine begin_march
+
+  !> Begins with a given past instead, in equal steps.
+  subroutine resume_march(unknown, velocity, bearing, march)
+    real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
+    real(wp), intent(in) :: velocity(2, 2) !! of the sleeve, now and one step ago [m/s]
+    type(bearing_system_type), intent(inout) :: bearing !! gets the newest state; its shaft is free
+    type(march_type), intent(inout) :: march !! that has begun; gets the past
+    real(wp) :: weight(0:2)
+    PetscErrorCode :: ierr
+
+    call bearing%set_unknowns(unknown(:, 2))
+    PetscCallA(VecCopy(bearing%state, march%state(2), ierr))
+    call bearing%set_unknowns(unknown(:, 1))
+    march%velocity = velocity
+    march%place(:, :2) = unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, :)
+    weight = difference_weights(march%next, march%next)
+    march%place(:, 3) = march%place(:, 2) &
+      + (velocity(:, 1) - weight(0)*(march%place(:, 1) - march%place(:, 2)))/weight(2)
+    call rebuild_past(bearing, march)
+  end subroutine resume_march
 
   !> A load that is there at once moves a free shaft from the first moment on: its past is the parabola of that
   !> acceleration a, \( \mathbf v(-\Delta) = -\mathbf a \Delta \). With a past at rest it would start late by half a step, of order 1.

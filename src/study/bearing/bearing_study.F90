@@ -19,7 +19,7 @@ module gfb_bearing_study
   use gfb_bearing_summary, only: cost_type, answer_quantities
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
-  use gfb_transient, only: transient_type
+  use gfb_motions, only: motion_type, moves
   use gfb_sweep, only: sweep_type
   use gfb_bearing_solution, only: solve_bearing
   use gfb_dynamics_writing, only: record_arrays, write_coefficients
@@ -31,7 +31,7 @@ module gfb_bearing_study
   type, extends(study_type), public :: bearing_study_type
     type(bearing_plan_type) :: plan
     type(sweep_type) :: sweep
-    type(transient_type), allocatable :: transient !! the way of the shaft over time, where that is asked for
+    type(motion_type), allocatable :: motion !! of the shaft, where that is asked for
   contains
     procedure :: prepare => prepare_bearing
     procedure :: solve => solve_study
@@ -85,7 +85,7 @@ contains
     end associate
   end subroutine solve_study
 
-  !> Finds the answer, or the answers of a sweep; with `&transient` where the shaft begins, and its way from there.
+  !> Finds the answer, or the answers of a sweep; with `&transient` or `&periodic` where the shaft begins, and its motion from there.
   !>
   !> Fails when the mesh cannot be cut or a restart file cannot be read.
   subroutine find_first(self, scene, context, error)
@@ -98,11 +98,11 @@ contains
     first = scene
     if (scene%transient%present) first%operation%load = scene%transient%start_load
     call solve_bearing(first, self%plan, context, self%sweep, self%reason, error)
-    if (allocated(error) .or. self%reason%is_given() .or. .not. scene%transient%present) return
-    allocate (self%transient)
-    call self%transient%run(scene, context, self%sweep%bearing, self%sweep%newton, self%sweep%record, self%reason, error)
+    if (allocated(error) .or. self%reason%is_given() .or. .not. moves(scene)) return
+    allocate (self%motion)
+    call self%motion%run(scene, context, self%sweep%bearing, self%sweep%newton, self%sweep%record, self%reason, error)
     if (allocated(error)) return
-    self%sweep%record%judged = self%transient%results() ! what was known of the first state is not of the last one
+    self%sweep%record%judged = self%motion%results() ! what was known of the first state is not of the last one
   end subroutine find_first
 
   !> Writes the result files.
@@ -127,7 +127,7 @@ contains
     associate (record => self%sweep%record)
       if (allocated(self%coefficient_errors)) record%dynamics%point(1)%error = self%coefficient_errors
       result%contacts = record_arrays(scene, self%sweep%bearing, record, size(record%history))
-      if (allocated(self%transient)) call self%transient%add_arrays(result%contacts)
+      if (allocated(self%motion)) call self%motion%add_arrays(result%contacts)
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
       call write_bearing(scene, context, self%sweep, result, summary, error)
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)

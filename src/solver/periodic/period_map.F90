@@ -1,0 +1,233 @@
+#include "gfb_petsc.h"
+!> The map of a bearing and its shaft over one period: where a state is after a number of equal steps of time.
+!>
+!> A state is all that the march remembers: film, foil and sleeve now and one step ago, and the sleeve's velocity then and
+!> now. As the past is part of it, a state that the map leads back to itself is an orbit whose steps wrap round: it has no
+!> first step that differs from the others. Contacts with friction remember more, and have no such state.
+!>
+!> A point x holds the state, the period and one parameter, all over their sizes; every rank has its own unknowns and all of
+!> the rest.
+module gfb_period_map
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type
+  use gfb_time_march, only: march_type, march_settings_type, begin_march, resume_march, take_step, end_march
+  implicit none (type)
+  private
+  public :: create_map, rest_of, apply_map, dots, parameter_of, period_of, drive_at
+
+  integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3 !! what the parameter is
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  integer, parameter :: planar = 2                      !! components of a place
+  integer, parameter, public :: shaft_entries = 4*planar !! of a point: places, then velocities, now and one step ago
+  integer, parameter, public :: tail = shaft_entries + 2 !! entries that every rank has; the last: period, parameter
+
+  !> The map.
+  type, public :: period_map_type
+    type(shaft_drive_type) :: drive  !! but for the parameter
+    integer :: parameter = 0         !! `moved_speed`, ...; 0: none
+    logical :: free = .false.        !! the period is an unknown; else it is that of turns
+    integer :: turns = 1             !! of the shaft in a period, where it is not free
+    integer :: steps = 0             !! of a period
+    real(wp) :: damping = 0.0_wp     !! of an elastic foundation [N s/m^3]
+    real(wp) :: period_scale = 1.0_wp    !! [s]
+    real(wp) :: parameter_scale = 1.0_wp !! [its unit]
+    real(wp) :: length = 1.0_wp      !! of places [m]
+    real(wp) :: clock = 1.0_wp       !! velocities over places [1/s]
+    real(wp) :: share = 1.0_wp       !! weight of one unknown of film and foil [1]
+    integer :: owned = 0             !! unknowns of this rank
+    integer :: periods = 0           !! marched so far
+    real(wp), allocatable :: orbit(:, :) !! (2, steps + 1) the sleeve's places in the last of them [m]
+    real(wp) :: smallest_gap = 0.0_wp    !! in it, where the orbit was kept [m]
+    character(len=:), allocatable :: problem !! why it had no end
+  end type period_map_type
+
+contains
+
+  !> Sizes of the map's entries; the rest is given.
+  subroutine create_map(bearing, map)
+    type(bearing_system_type), intent(in) :: bearing !! whose shaft is free
+    type(period_map_type), intent(inout) :: map !! with drive, steps and scales
+    PetscInt :: owned, all
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
+    PetscCallA(VecGetSize(bearing%state, all, ierr))
+    map%owned = int(owned)
+    map%share = 1.0_wp/sqrt(real(all, wp))
+    map%length = bearing%pad(1)%film%clearance
+    map%clock = map%drive%speed
+  end subroutine create_map
+
+  !> The point at which the bearing rests in its present state.
+  function rest_of(map, bearing) result(x)
+    type(period_map_type), intent(in) :: map !! created
+    type(bearing_system_type), intent(in) :: bearing !! in equilibrium
+    real(wp) :: x(2*map%owned + tail) !! with the drive's parameter and the map's own period [1]
+    real(wp) :: unknown(bearing%local_size(), 2), speed
+
+    call bearing%get_unknowns(unknown(:, 1))
+    unknown(:, 2) = unknown(:, 1)
+    call pack_point(map, bearing, unknown, spread([0.0_wp, 0.0_wp], 2, 2), x)
+    speed = map%drive%speed
+    x(size(x) - 1) = 2.0_wp*pi*map%turns/speed/map%period_scale
+    select case (map%parameter)
+    case (moved_speed)
+      x(size(x)) = speed/map%parameter_scale
+    case (moved_unbalance)
+      x(size(x)) = map%drive%unbalance/map%parameter_scale
+    case (moved_mass)
+      x(size(x)) = map%drive%mass/map%parameter_scale
+    case default
+      x(size(x)) = 0.0_wp
+    end select
+  end function rest_of
+
+  !> The parameter of a point.
+  pure function parameter_of(map, x) result(value)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! the point [1]
+    real(wp) :: value !! [its unit]
+    value = x(size(x))*map%parameter_scale
+  end function parameter_of
+
+  !> What drives the shaft at a point.
+  pure function drive_at(map, x) result(drive)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! the point [1]
+    type(shaft_drive_type) :: drive
+
+    drive = map%drive
+    if (map%parameter == moved_speed) drive%speed = parameter_of(map, x)
+    if (map%parameter == moved_unbalance) drive%unbalance = parameter_of(map, x)
+    if (map%parameter == moved_mass) drive%mass = parameter_of(map, x)
+  end function drive_at
+
+  !> The period of a point.
+  pure function period_of(map, x) result(period)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! the point [1]
+    real(wp) :: period !! [s]
+    type(shaft_drive_type) :: drive
+
+    period = x(size(x) - 1)*map%period_scale
+    if (map%free) return
+    drive = drive_at(map, x)
+    period = 2.0_wp*pi*map%turns/drive%speed
+  end function period_of
+
+  !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
+  !>
+  !> A step that would have to be shortened has none: all steps are equal.
+  function apply_map(map, bearing, newton, x, y, keep) result(done)
+    type(period_map_type), intent(inout) :: map !! counts periods; gets the orbit
+    type(bearing_system_type), target, intent(inout) :: bearing !! left at the end of the period
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    real(wp), intent(in) :: x(:)  !! the point [1]
+    real(wp), intent(out) :: y(:) !! one period later [1]
+    logical, intent(in) :: keep   !! the smallest gap of the orbit is wanted
+    logical :: done
+    type(march_type) :: march
+    type(march_settings_type) :: settings
+    type(newton_report_type) :: report
+    type(shaft_drive_type) :: drive
+    real(wp) :: unknown(bearing%local_size(), 2), velocity(2, 2)
+    integer :: i
+
+    y = x
+    drive = drive_at(map, x)
+    done = drive%speed > 0.0_wp .and. drive%mass > 0.0_wp .and. period_of(map, x) > 0.0_wp
+    map%problem = 'speed, mass and period must be positive'
+    if (.not. done) return
+    settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
+    settings%damping = map%damping
+    settings%end_time = huge(1.0_wp)
+    call unpack_point(map, bearing, x, unknown, velocity)
+    bearing%point%speed = drive%speed
+    call bearing%set_unknowns(unknown(:, 1))
+    call begin_march(drive, settings, bearing, march)
+    call resume_march(unknown, velocity, bearing, march)
+    map%periods = map%periods + 1
+    map%smallest_gap = huge(1.0_wp)
+    if (allocated(map%orbit)) deallocate (map%orbit)
+    allocate (map%orbit(planar, map%steps + 1))
+    map%orbit(:, 1) = march%place(:, 1)
+    do i = 1, map%steps
+      call take_step(march, bearing, newton, report)
+      done = report%converged .and. march%rejections == 0
+      if (.not. done) exit
+      map%orbit(:, i + 1) = march%place(:, 1)
+      if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
+    end do
+    if (done) then
+      call pack_point(map, bearing, march%unknown, march%velocity, y)
+    else
+      map%problem = 'step '//text(i)//' of '//text(map%steps)//': '//report%reason
+    end if
+    call end_march(march, bearing)
+  end function apply_map
+
+  !> Inner products of columns with a point, over all ranks.
+  function dots(map, columns, x) result(product)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: columns(:, :) !! (entries, columns) [1]
+    real(wp), intent(in) :: x(:) !! (entries) [1]
+    real(wp) :: product(size(columns, 2))
+    integer :: many
+
+    many = 2*map%owned
+    product = matmul(x(:many), columns(:many, :))
+    if (size(product) > 0) product = sum_over_ranks(product)
+    product = product + matmul(x(many + 1:), columns(many + 1:, :))
+  end function dots
+
+  !> Unknowns and velocities, now and one step ago, as entries of a point; period and parameter stay.
+  subroutine pack_point(map, bearing, unknown, velocity, x)
+    type(period_map_type), intent(in) :: map
+    type(bearing_system_type), intent(in) :: bearing !! left at the newest state
+    real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) [SI]
+    real(wp), intent(in) :: velocity(:, :) !! (2, 2) [m/s]
+    real(wp), intent(inout) :: x(:)
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: k
+
+    associate (shaft => 2*map%owned)
+      do k = 2, 1, -1
+        call bearing%set_unknowns(unknown(:, k))
+        PetscCallA(GFB_VecGetArrayRead(bearing%state, values, ierr))
+        x((k - 1)*map%owned + 1:k*map%owned) = map%share*values(:map%owned)
+        PetscCallA(GFB_VecRestoreArrayRead(bearing%state, values, ierr))
+        x(shaft + 2*k - 1:shaft + 2*k) = unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, k)/map%length
+        x(shaft + 2*k + 3:shaft + 2*k + 4) = velocity(:, k)/(map%length*map%clock)
+      end do
+    end associate
+  end subroutine pack_point
+
+  !> The reverse. The sleeve's place is that of the last entries.
+  subroutine unpack_point(map, bearing, x, unknown, velocity)
+    type(period_map_type), intent(in) :: map
+    type(bearing_system_type), intent(in) :: bearing !! its state is overwritten
+    real(wp), intent(in) :: x(:)
+    real(wp), intent(out) :: unknown(:, :) !! (local unknowns, 2) [SI]
+    real(wp), intent(out) :: velocity(:, :) !! (2, 2) [m/s]
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: k
+
+    associate (shaft => 2*map%owned)
+      do k = 1, 2
+        PetscCallA(GFB_VecGetArray(bearing%state, values, ierr))
+        values(:map%owned) = x((k - 1)*map%owned + 1:k*map%owned)/map%share
+        PetscCallA(GFB_VecRestoreArray(bearing%state, values, ierr))
+        call bearing%get_unknowns(unknown(:, k))
+        unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, k) = x(shaft + 2*k - 1:shaft + 2*k)*map%length
+        velocity(:, k) = x(shaft + 2*k + 3:shaft + 2*k + 4)*map%length*map%clock
+      end do
+    end associate
+  end subroutine unpack_point
+end module gfb_period_map

@@ -1,0 +1,278 @@
+#include "gfb_petsc.h"
+!> Orbits that close after a period: Newton's method on \( G(x) - x \), and the Floquet multipliers.
+!>
+!> The film forgets most of a state within a turn, so the map's derivative M has few directions that count. Arnoldi's method
+!> finds them from differences of the map: an orthonormal basis V with \( M V = W \). Outside of it M is taken as nothing, and
+!> the steps taken since are learnt by Broyden's formula (Newton-Picard). The eigenvalues of \( V^T W \) are the multipliers.
+!>
+!> Period and parameter are entries of x like all others, and two linear equations close the system: a given value, a phase,
+!> an arc length.
+module gfb_shooting
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_linear_solve, only: solve_general
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_period_map, only: period_map_type, apply_map, dots, tail
+  use gfb_eigenvalues, only: find_eigenvalues
+  implicit none (type)
+  private
+  public :: shoot, learn_map, model_step
+
+  real(wp), parameter :: tolerance = 1.0e-9_wp   !! of an orbit that closes, and of its conditions [1]
+  real(wp), parameter :: difference = 2.0e-6_wp  !! of points whose maps are subtracted [1]
+  real(wp), parameter :: settled = 1.0e-6_wp     !! residual of a multiplier that is found [1]
+  real(wp), parameter :: counted = 0.3_wp        !! multipliers of this size must be [1]
+  real(wp), parameter :: longest = 0.5_wp        !! step of a point [1]
+  integer, parameter :: least_basis = 6, most_basis = 24 !! columns of Arnoldi's method
+  integer, parameter :: most_iterations = 20
+  integer, parameter :: most_halvings = 4        !! of a step whose orbit does not get round
+  integer, parameter, public :: conditions = 2
+
+  !> What is known of the map's derivative: W = M V.
+  type, public :: derivative_type
+    real(wp), allocatable :: basis(:, :) !! V, (entries, columns), orthonormal [1]
+    real(wp), allocatable :: image(:, :) !! W, (entries, columns) [1]
+  end type derivative_type
+
+  !> The two equations that close the system: row(:, i) times x is value(i).
+  type, public :: condition_type
+    real(wp), allocatable :: row(:, :) !! (entries, conditions) [1]
+    real(wp) :: value(conditions) = 0.0_wp !! [1]
+  end type condition_type
+
+  !> Floquet multipliers, the largest first.
+  type, public :: floquet_type
+    complex(wp), allocatable :: value(:)     !! [1]
+    complex(wp), allocatable :: vector(:, :) !! (entries, values), of length 1 [1]
+  end type floquet_type
+
+contains
+
+  !> From a point near an orbit to the orbit; `.false.` where none is found.
+  function shoot(map, bearing, newton, condition, derivative, x, y, iterations) result(found)
+    type(period_map_type), intent(inout) :: map !! the map
+    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(condition_type), intent(in) :: condition !! that close the system
+    type(derivative_type), intent(inout) :: derivative !! learns from each iteration
+    real(wp), intent(inout) :: x(:) !! the point, then the orbit [1]
+    real(wp), intent(out) :: y(:)   !! what it is mapped to [1]
+    integer, intent(out) :: iterations !! periods marched
+    logical :: found
+    real(wp) :: step(size(x)), before(size(x)), size_of_step
+    integer :: halvings
+
+    found = .false.
+    step = 0.0_wp
+    before = 0.0_wp
+    halvings = 0
+    do iterations = 1, most_iterations
+      if (apply_map(map, bearing, newton, x, y, .true.)) then
+        if (iterations > 1) call learn_step(map, step, y - step_free(before, x, y), derivative)
+        if (is_closed(map, condition, x, y)) then
+          found = .true.
+          return
+        end if
+        call model_step(map, derivative, y - x, condition%row, condition%value - dots(map, condition%row, x), step)
+        size_of_step = sqrt(sum(dots(map, reshape(step, [size(step), 1]), step)))
+        if (.not. size_of_step < huge(1.0_wp)) return
+        if (size_of_step > longest) step = step*longest/size_of_step
+        before = y
+        halvings = 0
+      else
+        halvings = halvings + 1
+        if (iterations == 1 .or. halvings > most_halvings) return
+        x = x - step
+        step = 0.5_wp*step
+      end if
+      x = x + step
+    end do
+    map%problem = 'the orbit does not close in '//text(most_iterations)//' periods'
+  end function shoot
+
+  !> What the map of the step before was: its period and parameter do not count.
+  pure function step_free(before, x, y) result(rest)
+    real(wp), intent(in) :: before(:), x(:), y(:)
+    real(wp) :: rest(size(before))
+
+    rest = before
+    rest(size(x) - 1:) = y(size(x) - 1:)
+  end function step_free
+
+  !> Whether a point is an orbit.
+  function is_closed(map, condition, x, y) result(closed)
+    type(period_map_type), intent(in) :: map
+    type(condition_type), intent(in) :: condition
+    real(wp), intent(in) :: x(:), y(:)
+    logical :: closed
+    real(wp) :: open, missing(conditions)
+
+    open = sum(dots(map, reshape(y - x, [size(x), 1]), y - x))
+    missing = condition%value - dots(map, condition%row, x)
+    closed = open < tolerance**2 .and. all(abs(missing) < tolerance)
+  end function is_closed
+
+  !> Broyden's formula: the derivative that is nearest to the one before and maps the last step as it was.
+  subroutine learn_step(map, step, change, derivative)
+    type(period_map_type), intent(in) :: map
+    real(wp), intent(in) :: step(:)   !! of the point
+    real(wp), intent(in) :: change(:) !! of what it is mapped to
+    type(derivative_type), intent(inout) :: derivative
+    real(wp), parameter :: new = 1.0e-6_wp !! part of a step outside of the basis
+    real(wp) :: outside(size(step)), length, all, missing(size(step))
+    real(wp), allocatable :: share(:)
+    integer :: i
+
+    all = sqrt(sum(dots(map, column(step), step)))
+    if (.not. all > 0.0_wp) return
+    outside = step
+    do i = 1, 2
+      outside = outside - matmul(derivative%basis, dots(map, derivative%basis, outside))
+    end do
+    length = sqrt(sum(dots(map, column(outside), outside)))
+    if (length > new*all) call add_column(outside/length, 0.0_wp*outside, derivative)
+    share = dots(map, derivative%basis, step)/all
+    missing = change/all - matmul(derivative%image, share)
+    do i = 1, size(share)
+      derivative%image(:, i) = derivative%image(:, i) + missing*share(i)
+    end do
+  end subroutine learn_step
+
+  !> A point as a matrix of one column.
+  pure function column(x)
+    real(wp), intent(in) :: x(:)
+    real(wp) :: column(size(x), 1)
+    column(:, 1) = x
+  end function column
+
+  !> One more direction and what it is mapped to.
+  subroutine add_column(direction, image, derivative)
+    real(wp), intent(in) :: direction(:), image(:)
+    type(derivative_type), intent(inout) :: derivative
+    real(wp), allocatable :: grown(:, :)
+    integer :: many
+
+    many = size(derivative%basis, 2)
+    allocate (grown(size(direction), many + 1))
+    grown(:, :many) = derivative%basis
+    grown(:, many + 1) = direction
+    call move_alloc(grown, derivative%basis)
+    allocate (grown(size(direction), many + 1))
+    grown(:, :many) = derivative%image
+    grown(:, many + 1) = image
+    call move_alloc(grown, derivative%image)
+  end subroutine add_column
+
+  !> The step that closes an orbit by what is known of the map:
+  !>
+  !> $$ \delta = f + W z + \delta_T + \delta_p, \quad z = V^T \delta, \quad c_i^T \delta = r_i $$
+  subroutine model_step(map, derivative, open, row, rest, step)
+    type(period_map_type), intent(in) :: map !! the map
+    type(derivative_type), intent(in) :: derivative !! what is known of it
+    real(wp), intent(in) :: open(:)   !! f, by which the orbit does not close [1]
+    real(wp), intent(in) :: row(:, :) !! c, (entries, conditions) [1]
+    real(wp), intent(in) :: rest(:)   !! r, what is missing of the conditions [1]
+    real(wp), intent(out) :: step(:)  !! delta; huge where there is none [1]
+    real(wp), allocatable :: matrix(:, :), right(:)
+    integer :: many, i, last
+    logical :: solved
+
+    many = size(derivative%basis, 2)
+    last = size(open)
+    allocate (matrix(many + conditions, many + conditions), right(many + conditions))
+    do i = 1, many
+      matrix(:many, i) = -dots(map, derivative%basis, derivative%image(:, i))
+      matrix(many + 1:, i) = dots(map, row, derivative%image(:, i))
+      matrix(i, i) = matrix(i, i) + 1.0_wp
+    end do
+    matrix(:many, many + 1:) = -transpose(derivative%basis(last - 1:, :))
+    matrix(many + 1:, many + 1:) = transpose(row(last - 1:, :))
+    right(:many) = dots(map, derivative%basis, open)
+    right(many + 1:) = rest - dots(map, row, open)
+    call solve_general(matrix, right, solved)
+    step = huge(1.0_wp)
+    if (.not. solved) return
+    step = open + matmul(derivative%image, right(:many))
+    step(last - 1:) = right(many + 1:)
+  end subroutine model_step
+
+  !> Learns the map's derivative at an orbit, and its multipliers; `.false.` where the map fails beside it.
+  function learn_map(map, bearing, newton, x, y, derivative, floquet) result(done)
+    type(period_map_type), intent(inout) :: map !! the map
+    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    real(wp), intent(in) :: x(:) !! the orbit [1]
+    real(wp), intent(in) :: y(:) !! what it is mapped to [1]
+    type(derivative_type), intent(out) :: derivative !! from nothing
+    type(floquet_type), intent(out) :: floquet !! of the orbit
+    logical :: done
+    real(wp) :: direction(size(x)), image(size(x)), length, beside
+    real(wp), allocatable :: inner(:, :), share(:)
+    integer :: k, i, entry
+
+    allocate (derivative%basis(size(x), 0), derivative%image(size(x), 0), inner(most_basis, most_basis))
+    inner = 0.0_wp
+    direction = 0.0_wp
+    direction(size(x) - tail + 1:size(x) - 2) = [1.0_wp, 0.5_wp, 1.0_wp, 0.5_wp, 0.3_wp, -0.4_wp, 0.3_wp, -0.4_wp]
+    direction = direction/norm2(direction)
+    do k = 1, most_basis
+      done = image_of(map, bearing, newton, x, y, direction, image)
+      if (.not. done) return
+      call add_column(direction, image, derivative)
+      direction = image
+      do i = 1, 2 ! once more for what rounding has left
+        share = dots(map, derivative%basis, direction)
+        inner(:k, k) = inner(:k, k) + share
+        direction = direction - matmul(derivative%basis, share)
+      end do
+      length = sqrt(sum(dots(map, column(direction), direction)))
+      call find_multipliers(derivative, inner(:k, :k), length, floquet, beside)
+      if (k >= least_basis .and. beside < settled .or. .not. length > difference) exit
+      if (k == most_basis) exit
+      inner(k + 1, k) = length
+      direction = direction/length
+    end do
+    do entry = size(x) - 1, size(x)
+      if (entry < size(x) .and. .not. map%free) cycle
+      if (entry == size(x) .and. map%parameter == 0) cycle
+      direction = 0.0_wp
+      direction(entry) = 1.0_wp
+      done = image_of(map, bearing, newton, x, y, direction, image)
+      if (.not. done) return
+      call add_column(direction, image, derivative)
+    end do
+  end function learn_map
+
+  !> What a direction is mapped to, by a difference of the map.
+  function image_of(map, bearing, newton, x, y, direction, image) result(done)
+    type(period_map_type), intent(inout) :: map
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    real(wp), intent(in) :: x(:), y(:), direction(:)
+    real(wp), intent(out) :: image(:)
+    logical :: done
+
+    done = apply_map(map, bearing, newton, x + difference*direction, image, .false.)
+    image = (image - y)/difference
+    image(size(x) - 1:) = 0.0_wp
+  end function image_of
+
+  !> Multipliers by Arnoldi's matrix, and the largest residual of those that count.
+  subroutine find_multipliers(derivative, inner, length, floquet, beside)
+    type(derivative_type), intent(in) :: derivative
+    real(wp), intent(in) :: inner(:, :) !! V^T W
+    real(wp), intent(in) :: length      !! of what leads out of the basis
+    type(floquet_type), intent(inout) :: floquet
+    real(wp), intent(out) :: beside
+    complex(wp) :: value(size(inner, 1)), vector(size(inner, 1), size(inner, 1))
+    integer :: many
+
+    many = size(inner, 1)
+    call find_eigenvalues(inner, value, vector)
+    beside = maxval(length*abs(vector(many, :)), abs(value) > counted)
+    if (.not. any(abs(value) > counted)) beside = length*abs(vector(many, 1))
+    floquet%value = value
+    floquet%vector = matmul(derivative%basis, vector)
+  end subroutine find_multipliers
+end module gfb_shooting

@@ -1,0 +1,441 @@
+#include "gfb_petsc.h"
+!> Orbits of a shaft that close after a period, at one point or along a branch.
+module gfb_periodic
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type
+  use gfb_results, only: add_result
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_text, only: text
+  use gfb_scene, only: scene_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_periodic_case, only: motion_free, follow_speed, follow_unbalance, follow_mass
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_period_map, only: period_map_type, create_map, rest_of, apply_map, dots, parameter_of, period_of, drive_at, &
+                            moved_speed, moved_unbalance, moved_mass, tail
+  use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
+  use gfb_whirl_onset, only: whirl_type, find_onset, fixed_parameter
+  use gfb_case_file, only: case_array_type, add_arrays
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
+  use gfb_run_context, only: run_context_type
+  use gfb_orbit_judgement, only: judge_orbit, words_of
+  use gfb_orbit_table, only: orbit_table_type, orbit_type, extent_of
+  implicit none (type)
+  private
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
+  real(wp), parameter :: shortest = 1.0e-3_wp !! step of the branch over the longest one [1]
+  integer, parameter :: easy = 5, hard = 9    !! iterations after which steps grow, or shrink
+
+  !> The orbits, and where they stand.
+  type, public :: periodic_type
+    type(period_map_type) :: map
+    type(orbit_table_type) :: table
+    type(whirl_type) :: onset                 !! of free ones
+    character(len=:), allocatable :: ending   !! why the branch ends before its end
+    character(len=:), allocatable :: loss     !! how the last orbit is unstable; empty: it is not
+    real(wp), allocatable, private :: x(:)    !! the last orbit [1]
+    real(wp), allocatable, private :: way(:)  !! where the branch goes from there, of length 1 [1]
+    type(derivative_type), private :: derivative !! of the map at it
+    real(wp), private :: bounds(2) = 0.0_wp   !! of the parameter of a point: begin, end [1]
+    real(wp), private :: first_extent = 0.0_wp !! of the first limit cycle [m]
+    integer, private :: folds = 0
+    logical, private :: subcritical = .false. !! limit cycles begin where the equilibrium is stable
+  contains
+    procedure :: run => run_periodic
+    procedure :: results
+    procedure :: add_arrays => add_periodic_arrays
+    procedure, private :: begin_forced
+    procedure, private :: begin_free
+    procedure, private :: follow
+    procedure, private :: keep_orbit
+    procedure, private :: phase
+    procedure, private :: turn_way
+    procedure, private :: value_words
+  end type periodic_type
+
+contains
+
+  !> Finds the orbits, from an equilibrium on.
+  subroutine run_periodic(self, scene, context, bearing, newton, reason)
+    class(periodic_type), intent(inout) :: self !! gets them
+    type(scene_type), intent(in) :: scene !! with `&periodic`
+    type(run_context_type), intent(in) :: context !! of the run
+    type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium; left at the end of the last orbit
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(reason_type), intent(inout) :: reason !! why there is none
+    real(wp), allocatable :: y(:)
+    logical :: found
+
+    call context%log%heading('orbits')
+    newton%log%verbose = .false.
+    newton%settings%residual_tolerance = min(newton%settings%residual_tolerance, tight(1))
+    newton%settings%step_tolerance = min(newton%settings%step_tolerance, tight(2))
+    self%ending = ''
+    self%loss = ''
+    call set_map(scene, bearing, self%map, self%bounds)
+    self%x = rest_of(self%map, bearing)
+    if (scene%periodic%motion == motion_free) then
+      found = self%begin_free(scene, context, bearing, newton)
+    else
+      found = self%begin_forced(scene, context, bearing, newton)
+    end if
+    if (found .and. self%map%parameter > 0) call self%follow(scene, context, bearing, newton)
+    if (stop_agreed()) then
+      reason%code = reason_stopped
+      reason%detail = stop_words()//' after '//text(self%map%periods)//' periods'
+    else if (.not. found) then
+      reason%code = reason_no_answer
+      reason%detail = 'no orbit: '//self%map%problem
+      call context%log%tell(reason%words())
+    else
+      allocate (y(size(self%x)))
+      found = apply_map(self%map, bearing, newton, self%x, y, .true.) ! the bearing's state is of the orbit again
+      if (self%ending /= '') call context%log%line(self%ending)
+      call context%log%line(text(self%map%periods)//' periods marched, each in '//text(self%map%steps)//' steps')
+    end if
+  end subroutine run_periodic
+
+  !> The map of a scene, and the bounds of its parameter.
+  subroutine set_map(scene, bearing, map, bounds)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(in) :: bearing
+    type(period_map_type), intent(out) :: map
+    real(wp), intent(out) :: bounds(2)
+    real(wp) :: final
+
+    associate (periodic => scene%periodic)
+      map%drive%mass = scene%rotor%mass
+      map%drive%load = scene%operation%load
+      map%drive%speed = angular_speed(scene%operation%speed_rpm)
+      map%drive%unbalance = periodic%unbalance
+      map%drive%unbalance_angle = periodic%unbalance_angle
+      map%damping = periodic%foundation_damping
+      map%turns = 1
+      if (periodic%motion /= motion_free) map%turns = periodic%period_turns
+      map%steps = periodic%steps_per_turn*map%turns
+      map%period_scale = 2.0_wp*pi*map%turns/map%drive%speed
+      final = periodic%final_value
+      select case (periodic%parameter)
+      case (follow_speed)
+        map%parameter = moved_speed
+        final = angular_speed(final)
+        bounds = [map%drive%speed, final]
+      case (follow_unbalance)
+        map%parameter = moved_unbalance
+        bounds = [map%drive%unbalance, final]
+      case (follow_mass)
+        map%parameter = moved_mass
+        bounds = [map%drive%mass, final]
+      case default
+        map%parameter = 0
+        bounds = [0.0_wp, 1.0_wp]
+      end select
+    end associate
+    map%parameter_scale = abs(bounds(2) - bounds(1))
+    bounds = bounds/map%parameter_scale
+    call create_map(bearing, map)
+  end subroutine set_map
+
+  !> The first forced orbit: some periods from rest, then Newton's method.
+  function begin_forced(self, scene, context, bearing, newton) result(found)
+    class(periodic_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    logical :: found
+    type(floquet_type) :: floquet
+    type(condition_type) :: condition
+    real(wp) :: y(size(self%x)), none(size(self%x))
+    integer :: i, iterations
+
+    condition = fixed_parameter(self%x)
+    found = .true.
+    do i = 1, scene%periodic%start_turns
+      found = apply_map(self%map, bearing, newton, self%x, y, .false.)
+      if (.not. found) return
+      self%x = y
+    end do
+    found = apply_map(self%map, bearing, newton, self%x, y, .false.)
+    if (found) found = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+    if (found) found = shoot(self%map, bearing, newton, condition, self%derivative, self%x, y, iterations)
+    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+    if (.not. found .or. self%map%parameter == 0) return
+    none = 0.0_wp
+    allocate (self%way(size(self%x)))
+    call model_step(self%map, self%derivative, none, condition%row, [0.0_wp, self%bounds(2) - self%bounds(1)], self%way)
+    self%way = self%way/sqrt(sum(dots(self%map, reshape(self%way, [size(self%way), 1]), self%way)))
+  end function begin_forced
+
+  !> The first limit cycle: a small one along the mode at the onset of whirl.
+  function begin_free(self, scene, context, bearing, newton) result(found)
+    class(periodic_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    logical :: found
+    type(shaft_drive_type) :: drive
+    type(floquet_type) :: floquet
+    type(condition_type) :: condition
+    real(wp) :: y(size(self%x))
+    integer :: iterations
+
+    found = find_onset(self%map, bearing, newton, self%x, self%bounds(2)*self%map%parameter_scale, self%onset)
+    if (.not. found) return
+    self%x = self%onset%x
+    drive = drive_at(self%map, self%x)
+    call context%log%line('onset of whirl at '//self%value_words()//', frequency over the speed ' &
+                          //text(self%onset%frequency/drive%speed, 6))
+    self%map%free = .true.
+    self%map%steps = nint(scene%periodic%steps_per_turn*drive%speed/self%onset%frequency)
+    self%map%period_scale = 2.0_wp*pi/self%onset%frequency
+    self%x(size(self%x) - 1) = 1.0_wp
+    found = apply_map(self%map, bearing, newton, self%x, y, .true.)
+    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, 0)
+    if (.not. found) return
+    allocate (condition%row(size(self%x), conditions))
+    condition%row(:, 1) = aimag(self%onset%mode)
+    condition%row(:, 2) = real(self%onset%mode)
+    self%way = real(self%onset%mode)/sqrt(sum(dots(self%map, condition%row(:, 2:), condition%row(:, 2))))
+    self%x = self%x + scene%periodic%first_amplitude*real(self%onset%mode)
+    condition%value = dots(self%map, condition%row, self%x)
+    found = apply_map(self%map, bearing, newton, self%x, y, .false.)
+    if (found) found = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+    if (found) found = shoot(self%map, bearing, newton, condition, self%derivative, self%x, y, iterations)
+    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+    if (.not. found) return
+    associate (first => self%table%orbit(2))
+      self%first_extent = extent_of(first%place(1, :)) + extent_of(first%place(2, :))
+    end associate
+    self%subcritical = self%onset%slope*(self%x(size(self%x)) - self%onset%x(size(self%x))) < 0.0_wp
+    call self%turn_way()
+  end function begin_free
+
+  !> The direction of the branch at the last orbit, on from the one before.
+  subroutine turn_way(self)
+    class(periodic_type), intent(inout) :: self
+    real(wp) :: row(size(self%x), conditions), next(size(self%x)), none(size(self%x))
+
+    row(:, 1) = self%phase(self%x)
+    row(:, 2) = self%way
+    none = 0.0_wp
+    call model_step(self%map, self%derivative, none, row, [0.0_wp, 1.0_wp], next)
+    next = next/sqrt(sum(dots(self%map, reshape(next, [size(next), 1]), next)))
+    if (next(size(next))*self%way(size(next)) < 0.0_wp .and. size(self%table%orbit) > 2) self%folds = self%folds + 1
+    self%way = next
+  end subroutine turn_way
+
+  !> What must not change from orbit to orbit: the period of a forced one; of a free one its shift along itself.
+  function phase(self, x) result(row)
+    class(periodic_type), intent(in) :: self
+    real(wp), intent(in) :: x(:)
+    real(wp) :: row(size(x))
+
+    row = 0.0_wp
+    if (.not. self%map%free) then
+      row(size(x) - 1) = 1.0_wp
+      return
+    end if
+    associate (many => self%map%owned, shaft => size(x) - tail)
+      row(:many) = x(:many) - x(many + 1:2*many)
+      row(shaft + 1:shaft + 2) = x(shaft + 1:shaft + 2) - x(shaft + 3:shaft + 4)
+      row(shaft + 5:shaft + 6) = x(shaft + 5:shaft + 6) - x(shaft + 7:shaft + 8)
+    end associate
+    row = row/sqrt(sum(dots(self%map, reshape(row, [size(row), 1]), row)))
+  end function phase
+
+  !> From orbit to orbit by arc length, until the parameter has come to one of its bounds.
+  subroutine follow(self, scene, context, bearing, newton)
+    class(periodic_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(condition_type) :: condition
+    type(derivative_type) :: learnt
+    real(wp) :: x(size(self%x)), y(size(self%x)), step, taken
+    integer :: iterations, last
+    logical :: at_bound, found
+
+    step = 0.3_wp*scene%periodic%step
+    last = size(x)
+    allocate (condition%row(last, conditions))
+    do while (size(self%table%orbit) < scene%periodic%points)
+      taken = to_bound(self, step, at_bound)
+      x = self%x + taken*self%way
+      condition%row(:, 1) = self%phase(self%x)
+      condition%row(:, 2) = self%way
+      if (at_bound) condition%row(:, 2) = 0.0_wp
+      if (at_bound) condition%row(last, 2) = 1.0_wp
+      condition%value = dots(self%map, condition%row, x)
+      learnt = self%derivative
+      found = shoot(self%map, bearing, newton, condition, learnt, x, y, iterations)
+      if (stop_agreed()) return
+      if (found) then
+        if (self%map%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
+          self%ending = 'the shaft touches down'
+          return
+        end if
+        found = is_near(self, x, taken)
+      end if
+      if (found) then
+        call swap(self%x, x)
+        found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+        if (.not. found) call swap(self%x, x)
+      end if
+      if (found) then
+        if (at_bound) return
+        if (is_small(self)) then
+          self%ending = 'the limit cycle has shrunk to an equilibrium'
+          return
+        end if
+        call self%turn_way()
+        if (iterations <= easy) step = min(1.5_wp*step, scene%periodic%step)
+        if (iterations >= hard) step = 0.7_wp*step
+      else
+        step = 0.5_wp*taken
+        if (step < shortest*scene%periodic%step) then
+          self%ending = 'no orbit leads on from '//self%value_words()//': '//self%map%problem
+          return
+        end if
+      end if
+    end do
+    self%ending = 'the branch has as many points as were asked for'
+  end subroutine follow
+
+  !> A step along the branch, not beyond the bounds of the parameter.
+  function to_bound(self, step, at_bound) result(taken)
+    class(periodic_type), intent(in) :: self
+    real(wp), intent(in) :: step
+    logical, intent(out) :: at_bound
+    real(wp) :: taken, low, high, now, rate
+
+    low = minval(self%bounds)
+    high = maxval(self%bounds)
+    now = self%x(size(self%x))
+    rate = self%way(size(self%way))
+    taken = step
+    if (now + rate*step > high) taken = (high - now)/rate
+    if (now + rate*step < low) taken = (low - now)/rate
+    at_bound = now + rate*step > high .or. now + rate*step < low
+  end function to_bound
+
+  !> Whether an orbit that was found is that of the branch: near to where it was looked for.
+  function is_near(self, x, taken) result(near)
+    class(periodic_type), intent(inout) :: self
+    real(wp), intent(in) :: x(:), taken
+    logical :: near
+    real(wp) :: off(size(x))
+
+    off = x - self%x - taken*self%way
+    near = sqrt(sum(dots(self%map, reshape(off, [size(off), 1]), off))) < max(taken, 1.0e-3_wp)
+    if (.not. near) self%map%problem = 'the orbit found is on another branch'
+  end function is_near
+
+  !> Whether a limit cycle is next to an equilibrium again.
+  function is_small(self) result(small)
+    class(periodic_type), intent(in) :: self
+    logical :: small
+    real(wp), parameter :: share = 0.3_wp !! of the first one
+
+    small = .false.
+    if (.not. self%map%free) return
+    associate (orbit => self%table%orbit(size(self%table%orbit)))
+      small = extent_of(orbit%place(1, :)) + extent_of(orbit%place(2, :)) < share*self%first_extent
+    end associate
+  end function is_small
+
+  !> Learns the map at an orbit that was found, and keeps the orbit; `.false.` where the map fails beside it.
+  function keep_orbit(self, scene, context, bearing, newton, y, iterations) result(done)
+    class(periodic_type), intent(inout) :: self !! at the orbit
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    real(wp), intent(in) :: y(:) !! what the orbit is mapped to [1]
+    integer, intent(in) :: iterations !! that found it
+    logical :: done
+    type(orbit_type) :: orbit
+    type(floquet_type) :: floquet
+    real(wp) :: gap
+
+    call move_alloc(self%map%orbit, orbit%place)
+    gap = self%map%smallest_gap
+    done = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+    if (.not. done) return
+    call judge_orbit(self%map, self%x, gap, floquet, orbit, self%loss)
+    call self%table%add(orbit)
+    call context%log%line(self%value_words()//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
+                          ', '//text(iterations)//' iterations')
+  end function keep_orbit
+
+  !> The parameter at the last orbit, in words.
+  function value_words(self) result(words)
+    class(periodic_type), intent(in) :: self !! at the orbit
+    character(len=:), allocatable :: words
+    real(wp) :: value
+
+    value = parameter_of(self%map, self%x)
+    select case (self%map%parameter)
+    case (moved_speed)
+      words = text(value*30.0_wp/pi, 7)//' rpm'
+    case (moved_unbalance)
+      words = 'unbalance '//text(value, 6)//' kg m'
+    case (moved_mass)
+      words = 'mass '//text(value, 6)//' kg'
+    case default
+      words = text(self%map%drive%speed*30.0_wp/pi, 7)//' rpm'
+    end select
+  end function value_words
+
+  !> Exchanges two points.
+  pure subroutine swap(one, other)
+    real(wp), intent(inout) :: one(:), other(:)
+    real(wp) :: copy(size(one))
+
+    copy = one
+    one = other
+    other = copy
+  end subroutine swap
+
+  !> What the summary says of the last orbit, and of the branch.
+  function results(self) result(found)
+    class(periodic_type), intent(in) :: self !! the orbits
+    type(quantity_type), allocatable :: found(:)
+
+    allocate (found(0))
+    if (.not. allocated(self%table%orbit)) return
+    associate (last => self%table%orbit(size(self%table%orbit)))
+      call add_result(found, 'period', last%period())
+      call add_result(found, 'frequency_ratio', last%frequency_ratio())
+      call add_result(found, 'orbit_x', extent_of(last%place(1, :)))
+      call add_result(found, 'orbit_y', extent_of(last%place(2, :)))
+      call add_result(found, 'minimum_gap_over_time', last%smallest_gap())
+      call add_result(found, 'largest_multiplier', last%largest())
+    end associate
+    call add_result(found, 'orbit_stable', self%loss == '')
+    if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)
+    if (self%map%parameter > 0) then
+      call add_result(found, 'orbits', size(self%table%orbit))
+      call add_result(found, 'folds', self%folds)
+    end if
+    if (self%map%free .and. self%map%parameter == moved_speed) then
+      call add_result(found, 'onset_speed_rpm', parameter_of(self%map, self%onset%x)*30.0_wp/pi)
+    else if (self%map%free) then
+      call add_result(found, 'critical_mass', parameter_of(self%map, self%onset%x))
+    end if
+    if (self%map%free) call add_result(found, 'subcritical', self%subcritical)
+    if (self%ending /= '') call add_result(found, 'ending', self%ending)
+  end function results
+
+  !> Adds the table of orbits to what the result file gets.
+  subroutine add_periodic_arrays(self, arrays)
+    class(periodic_type), intent(in) :: self !! the orbits
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get a dataset a name
+    call add_arrays(arrays, self%table%arrays())
+  end subroutine add_periodic_arrays
+end module gfb_periodic
