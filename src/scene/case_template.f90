@@ -140,7 +140,7 @@ contains
       groups = ' pads bore shaft_contact sweep rotor '
     case ('lift_off') ! which needs asperities
       groups = ' pads bore sweep accuracy sample '
-    case ('transient')
+    case ('transient', 'periodic')
       groups = ' pads bore shaft_contact '
     case ('load_capacity', 'misalignment_allowance')
       groups = ' pads bore shaft_contact sweep accuracy sample '
@@ -164,6 +164,8 @@ contains
     case ('modes')
       words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' /"//next// &
               "&modes part='strip' count=6 /"//next
+    case ('periodic')
+      words = words//periodic_example()
     case default
       words = words//bearing_example(analysis)
     end select
@@ -221,6 +223,22 @@ contains
       words = words//'&sample count=100 /'//next
     end if
   end function bearing_example
+
+  !> The same where contacts must not rub.
+  pure function periodic_example() result(words)
+    character(len=:), allocatable :: words
+
+    words = '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//next// &
+            '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//next// &
+            '&pads preload=0.1 /'//next// &
+            '&bore waves=3 wave_amplitude=1.0e-6 /'//next// &
+            '&shaft_contact roughness=0.5e-6 pressure=10.0e6 /'//next// &
+            "&model foil='elastic_foundation' foundation_stiffness=4.8243e9 /"//next// &
+            '&mesh circumferential_elements=48 axial_elements=6 /'//next// &
+            '&operation speed_rpm=30000.0 load=-60.0, 0.0 /'//next// &
+            '&rotor mass=1.5 /'//next// &
+            '&periodic unbalance=1.5e-6 steps_per_turn=40 foundation_damping=3.0e5 /'//next
+  end function periodic_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
   pure function bumps(number) result(words)

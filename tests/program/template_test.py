@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification
 from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 
 ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
-            "misalignment_allowance", "transient")
+            "misalignment_allowance", "transient", "periodic")
 SECONDS = 120
 
 
@@ -45,7 +45,7 @@ def check_templates(checks, folder):
             checks.that(f"{analysis}: with &{group} {wrong}", status == 0)
     _, text, _ = call("--template=equilibrium", folder=folder)
     keys = {(group, key) for group, key in re.findall(r"^\| `&(\w+)` \| `(\w+)` ", call("--keys", folder=folder)[1], re.M)
-            if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient")}
+            if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient", "periodic")}
     named, group = set(), ""
     for line in text.splitlines():
         group = (re.findall(r"^!?&(\w+)$", line) or [group])[0]

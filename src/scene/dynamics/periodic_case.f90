@@ -21,7 +21,7 @@ module gfb_periodic_case
     integer :: parameter = follow_nothing   !! over which the orbits are followed
     real(wp) :: final_value = 0.0_wp        !! up or down to this one [rpm], [kg m], [kg]
     integer :: points = 40                  !! of the branch, at most
-    real(wp) :: step = 0.1_wp               !! from point to point, at most [1]
+    real(wp) :: step = 0.25_wp              !! from point to point, at most [1]
     real(wp) :: first_amplitude = 0.03_wp   !! of a limit cycle, over the clearance [1]
     integer :: steps_per_turn = 100
     integer :: period_turns = 1             !! of a forced motion

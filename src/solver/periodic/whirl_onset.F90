@@ -5,6 +5,7 @@
 !> are known from the place one step ago, which is part of its vector.
 module gfb_whirl_onset
   use gfb_kinds, only: wp
+  use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_period_map, only: period_map_type, period_of, drive_at, parameter_of, tail
@@ -116,14 +117,14 @@ contains
     type(period_map_type), intent(in) :: map
     type(floquet_type), intent(in) :: floquet
     type(whirl_type), intent(inout) :: whirl
+    type(shaft_drive_type) :: drive
     complex(wp) :: now(2), before(2)
     real(wp) :: period, speed, seen, frequency, growth, best
     integer :: i, shaft
 
     period = period_of(map, whirl%x)
-    associate (drive => drive_at(map, whirl%x))
-      speed = drive%speed
-    end associate
+    drive = drive_at(map, whirl%x)
+    speed = drive%speed
     shaft = size(whirl%x) - tail
     best = -huge(best)
     do i = 1, size(floquet%value)

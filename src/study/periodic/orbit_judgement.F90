@@ -13,6 +13,7 @@ module gfb_orbit_judgement
 
   real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: micro = 1.0e6_wp
+  real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
 
 contains
 
@@ -38,7 +39,7 @@ contains
     if (map%free) counts(minloc(abs(floquet%value - 1.0_wp), 1)) = .false.
     largest = floquet%value(maxloc(abs(floquet%value), 1, counts))
     loss = ''
-    if (abs(largest) > 1.0_wp) loss = kind_of(largest)
+    if (abs(largest) > 1.0_wp + known) loss = kind_of(largest)
     many = min(leading, size(floquet%value))
     orbit%multiplier(:many) = floquet%value(:many)
     associate (x_places => orbit%place(1, :map%steps), y_places => orbit%place(2, :map%steps))
@@ -56,7 +57,7 @@ contains
     if (abs(aimag(multiplier)) > 0.0_wp) then
       words = 'torus (Neimark-Sacker)'
     else if (real(multiplier) > 0.0_wp) then
-      words = 'fold'
+      words = 'real multiplier above 1'
     else
       words = 'period doubling'
     end if

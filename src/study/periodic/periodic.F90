@@ -25,9 +25,9 @@ module gfb_periodic
   private
 
   real(wp), parameter :: pi = acos(-1.0_wp)
-  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
+  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-11_wp] !! tolerances of a step of time: residual, step [1]
   real(wp), parameter :: shortest = 1.0e-3_wp !! step of the branch over the longest one [1]
-  integer, parameter :: easy = 5, hard = 9    !! iterations after which steps grow, or shrink
+  integer, parameter :: easy = 7, hard = 11    !! iterations after which steps grow, or shrink
 
   !> The orbits, and where they stand.
   type, public :: periodic_type
@@ -38,6 +38,7 @@ module gfb_periodic
     character(len=:), allocatable :: loss     !! how the last orbit is unstable; empty: it is not
     real(wp), allocatable, private :: x(:)    !! the last orbit [1]
     real(wp), allocatable, private :: way(:)  !! where the branch goes from there, of length 1 [1]
+    real(wp), allocatable, private :: bend(:) !! change of that over the length of the branch [1]
     type(derivative_type), private :: derivative !! of the map at it
     real(wp), private :: bounds(2) = 0.0_wp   !! of the parameter of a point: begin, end [1]
     real(wp), private :: first_extent = 0.0_wp !! of the first limit cycle [m]
@@ -168,6 +169,7 @@ contains
     allocate (self%way(size(self%x)))
     call model_step(self%map, self%derivative, none, condition%row, [0.0_wp, self%bounds(2) - self%bounds(1)], self%way)
     self%way = self%way/sqrt(sum(dots(self%map, reshape(self%way, [size(self%way), 1]), self%way)))
+    self%bend = 0.0_wp*self%way
   end function begin_forced
 
   !> The first limit cycle: a small one along the mode at the onset of whirl.
@@ -212,12 +214,14 @@ contains
       self%first_extent = extent_of(first%place(1, :)) + extent_of(first%place(2, :))
     end associate
     self%subcritical = self%onset%slope*(self%x(size(self%x)) - self%onset%x(size(self%x))) < 0.0_wp
-    call self%turn_way()
+    self%bend = 0.0_wp*self%way
+    call self%turn_way(0.0_wp)
   end function begin_free
 
   !> The direction of the branch at the last orbit, on from the one before.
-  subroutine turn_way(self)
+  subroutine turn_way(self, taken)
     class(periodic_type), intent(inout) :: self
+    real(wp), intent(in) :: taken !! length of the last step; 0: not known
     real(wp) :: row(size(self%x), conditions), next(size(self%x)), none(size(self%x))
 
     row(:, 1) = self%phase(self%x)
@@ -226,6 +230,7 @@ contains
     call model_step(self%map, self%derivative, none, row, [0.0_wp, 1.0_wp], next)
     next = next/sqrt(sum(dots(self%map, reshape(next, [size(next), 1]), next)))
     if (next(size(next))*self%way(size(next)) < 0.0_wp .and. size(self%table%orbit) > 2) self%folds = self%folds + 1
+    if (taken > 0.0_wp) self%bend = (next - self%way)/taken
     self%way = next
   end subroutine turn_way
 
@@ -272,6 +277,7 @@ contains
       if (at_bound) condition%row(:, 2) = 0.0_wp
       if (at_bound) condition%row(last, 2) = 1.0_wp
       condition%value = dots(self%map, condition%row, x)
+      if (.not. at_bound) x = x + 0.5_wp*taken**2*self%bend
       learnt = self%derivative
       found = shoot(self%map, bearing, newton, condition, learnt, x, y, iterations)
       if (stop_agreed()) return
@@ -293,7 +299,7 @@ contains
           self%ending = 'the limit cycle has shrunk to an equilibrium'
           return
         end if
-        call self%turn_way()
+        call self%turn_way(taken)
         if (iterations <= easy) step = min(1.5_wp*step, scene%periodic%step)
         if (iterations >= hard) step = 0.7_wp*step
       else
