@@ -48,7 +48,7 @@ def check_march(checks, folder):
     content, _ = periodic_case(0.3, (-60.0, 0.0), {"unbalance": 3.0e-6, "unbalance_angle": 0.3, "steps_per_turn": steps})
     answer = solve(folder, "closed", content)
     found = orbits(answer)
-    checks.that("forced orbit: stable", answer["orbit_stable"] == 1.0 and abs(found["multipliers"]).max() < 1.0)
+    checks.that("forced orbit: stable", answer["orbit_stable"] == "true" and abs(found["multipliers"]).max() < 1.0)
     march, _ = foil_case(0.3, (-60.0, 0.0), turns=turns, steps_per_turn=steps, unbalance=3.0e-6, unbalance_angle=0.3)
     march["solver"] = {"residual_tolerance": 1.0e-11, "step_tolerance": 1.0e-11}
     rows = history(solve(folder, "march", march))
@@ -62,7 +62,7 @@ def check_small(checks, folder):
     """A tiny orbit: first harmonic of the linear theory, multipliers of the rotor's modes."""
     for words, rigid in (("foundation", False), ("rigid pad", True)):
         harmonics = []
-        for steps in (40, 80):
+        for steps in (60, 120):
             content, linear = periodic_case(0.1, (-20.0, 0.0), {"unbalance": UNBALANCE, "steps_per_turn": steps}, rigid=rigid)
             found = orbits(solve(folder, "tiny", content))
             first = numpy.exp(-2j*math.pi*numpy.arange(steps)/steps)*2.0/steps
@@ -78,10 +78,10 @@ def check_small(checks, folder):
         errors = [numpy.linalg.norm(one - wanted)/size for one in harmonics]
         checks.within(f"{words}: order of the first harmonic", math.log2(errors[0]/errors[1]), 1.8, 2.2)
         checks.below(f"{words}: first harmonic of the linear theory",
-                     numpy.linalg.norm((4.0*harmonics[1] - harmonics[0])/3.0 - wanted)/size, 2.0e-4)
+                     numpy.linalg.norm((4.0*harmonics[1] - harmonics[0])/3.0 - wanted)/size, 1.0e-4)
         growth, frequency, *_ = modes_of(answer)
         slow = [rate for rate in growth + 1j*frequency if rate.imag >= 0.0 and rate.real > -0.25*omega]
-        step, period = found["period"][0]/80, found["period"][0]
+        step, period = found["period"][0]/120, found["period"][0]
         for rate in slow:
             multiplier = cmath.exp(stepped(rate, step)*period)
             checks.below(f"{words}: multiplier of the mode at {rate.imag/omega:.2f} of the speed",
@@ -91,7 +91,7 @@ def check_small(checks, folder):
 
 def check_onset(checks, folder):
     """Limit cycles begin where the linear theory's whirl neither grows nor decays; the square of their size is then linear."""
-    keys = {"motion": "free", "parameter": "mass", "final_value": 0.32, "steps_per_turn": 40, "points": 5, "step": 0.08}
+    keys = {"motion": "free", "parameter": "mass", "final_value": 0.32, "steps_per_turn": 40, "points": 5, "step": 0.06}
     content, linear = periodic_case(0.25, (-20.0, 0.0), keys)
     answer = solve(folder, "branch", content)
     found = orbits(answer)
@@ -108,11 +108,13 @@ def check_onset(checks, folder):
     wanted = critical + taken*0.02*critical/(rates[1] - rates[0]).real
     checks.below("onset: critical mass, with what the steps take", answer["critical_mass"]/wanted - 1.0, 2.0e-5)
     checks.below("onset: frequency", found["frequency_ratio"][0]*speed_of(content)/rates[0].imag - 1.0, 5.0e-3)
-    checks.below("onset: the whirl's multipliers are 1", numpy.abs(found["multipliers"][0, :2] - 1.0).max(), 1.0e-4)
-    squares = found["orbit_x"][1:]**2/(found["mass"][1:] - found["mass"][0])
-    checks.below("branch: square of the size over the way from the onset", numpy.ptp(squares[:3])/squares[0], 3.0e-2)
-    checks.that("branch: supercritical and stable", answer["subcritical"] == 0.0 and bool(found["stable"][1:].all()))
-    checks.below("branch: the multiplier of a shift is 1", numpy.abs(found["multipliers"] - 1.0).min(axis=1).max(), 1.0e-4)
+    checks.below("onset: the whirl's multipliers are 1", numpy.abs(found["multipliers"][0, :2] - 1.0).max(), 2.0e-5)
+    squares = (found["orbit_x"][1:4]/CLEARANCE)**2
+    begin = numpy.polyfit(squares, found["mass"][1:4], 2)
+    checks.below("branch: where its size goes to zero", begin[2]/wanted - 1.0, 1.0e-5)
+    checks.below("branch: the square of its size is linear there", begin[0]*squares[0]/begin[1], 2.0e-2)
+    checks.that("branch: supercritical and stable", answer["subcritical"] == "false" and bool(found["stable"][1:].all()))
+    checks.below("branch: the multiplier of a shift is 1", numpy.abs(found["multipliers"] - 1.0).min(axis=1).max(), 1.0e-5)
 
 
 def check_branch(checks, folder):
@@ -156,7 +158,7 @@ def check_threshold(checks, folder):
     answer = solve(folder, "unstable", content)
     cycle = orbits(answer)
     checks.that("limit cycles below the onset: subcritical and unstable",
-                answer["subcritical"] == 1.0 and not cycle["stable"][1:].any())
+                answer["subcritical"] == "true" and not cycle["stable"][1:].any())
     turns, low, high, plateau = 60, 0.0, 2.0, None
     omega = speed*math.pi/30.0
     for _ in range(9):

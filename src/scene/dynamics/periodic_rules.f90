@@ -25,9 +25,6 @@ contains
     logical, intent(in) :: may_rub !! a friction coefficient of `&contact` is positive
 
     if (.not. periodic%present) return
-    if (.not. keys%holds('operation', 'load')) then
-      call keys%complain('operation', 'load', "must be given with analysis = 'periodic': the shaft moves freely")
-    end if
     if (keys%meant('operation', 'speed_rpm') .and. .not. operation%speed_rpm > 0.0_wp) then
       call keys%complain('operation', 'speed_rpm', "must be positive with analysis = 'periodic'")
     end if

@@ -32,6 +32,7 @@ module gfb_period_map
     integer :: parameter = 0         !! `moved_speed`, ...; 0: none
     logical :: free = .false.        !! the period is an unknown; else it is that of turns
     integer :: turns = 1             !! of the shaft in a period, where it is not free
+    real(wp) :: stretch = 1.0_wp     !! of that period [1]
     integer :: steps = 0             !! of a period
     real(wp) :: damping = 0.0_wp     !! of an elastic foundation [N s/m^3]
     real(wp) :: period_scale = 1.0_wp    !! [s]
@@ -117,7 +118,7 @@ contains
     period = x(size(x) - 1)*map%period_scale
     if (map%free) return
     drive = drive_at(map, x)
-    period = 2.0_wp*pi*map%turns/drive%speed
+    period = map%stretch*2.0_wp*pi*map%turns/drive%speed
   end function period_of
 
   !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
@@ -166,7 +167,8 @@ contains
     if (done) then
       call pack_point(map, bearing, march%unknown, march%velocity, y)
     else
-      map%problem = 'step '//text(i)//' of '//text(map%steps)//': '//report%reason
+      map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
+      if (.not. report%converged) map%problem = map%problem//': '//report%reason
     end if
     call end_march(march, bearing)
   end function apply_map

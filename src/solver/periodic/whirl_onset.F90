@@ -81,8 +81,39 @@ contains
         high = trial
       end if
     end do
+    found = refine(map, bearing, newton, (high%growth - low%growth)/(parameter_of(map, high%x) - parameter_of(map, low%x)), trial)
     onset = trial
   end function find_onset
+
+  !> The onset again in steps of which whole ones are a period of the whirl: those of its limit cycles.
+  function refine(map, bearing, newton, slope, onset) result(found)
+    type(period_map_type), intent(inout) :: map !! gets the steps of that period
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    real(wp), intent(in) :: slope !! of the growth over the parameter
+    type(whirl_type), intent(inout) :: onset
+    logical :: found
+    integer, parameter :: times = 2
+    type(shaft_drive_type) :: drive
+    type(whirl_type) :: trial
+    real(wp) :: steps
+    integer :: i, steps_of_turn
+
+    steps_of_turn = map%steps
+    found = .true.
+    do i = 0, times
+      drive = drive_at(map, onset%x)
+      steps = steps_of_turn*drive%speed/onset%frequency
+      map%stretch = steps/nint(steps)
+      if (i == times) exit
+      found = look_at(map, bearing, newton, onset%x, parameter_of(map, onset%x) - merge(0.0_wp, onset%growth/slope, i == 0), trial)
+      if (.not. found) return
+      trial%slope = onset%slope
+      onset = trial
+    end do
+    onset%x(size(onset%x)) = onset%x(size(onset%x)) - onset%growth/slope/map%parameter_scale
+    map%steps = nint(steps)
+  end function refine
 
   !> The equilibrium at a value of the parameter, and its least damped mode.
   function look_at(map, bearing, newton, x, value, whirl) result(found)

@@ -19,24 +19,28 @@ contains
 
   !> Fills an orbit whose places are known, and says how it is unstable; empty where it is not.
   !>
-  !> A free orbit always has a multiplier of 1, that of a shift along itself; the one nearest to 1 is left out of the judgement.
-  subroutine judge_orbit(map, x, gap, floquet, orbit, loss)
+  !> A free orbit always has a multiplier of 1, that of a shift along itself, and the onset of whirl two: those nearest to 1 are
+  !> left out of the judgement.
+  subroutine judge_orbit(map, x, gap, floquet, neutral, orbit, loss)
     type(period_map_type), intent(in) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit's point [1]
     real(wp), intent(in) :: gap !! the smallest one of the orbit [m]
     type(floquet_type), intent(in) :: floquet !! its multipliers
+    integer, intent(in) :: neutral !! multipliers that are known to be 1
     type(orbit_type), intent(inout) :: orbit !! with its places
     character(len=:), allocatable, intent(out) :: loss !! of stability
     type(shaft_drive_type) :: drive
     complex(wp) :: largest
     logical :: counts(size(floquet%value))
     real(wp) :: period
-    integer :: many
+    integer :: many, i
 
     drive = drive_at(map, x)
     period = period_of(map, x)
     counts = .true.
-    if (map%free) counts(minloc(abs(floquet%value - 1.0_wp), 1)) = .false.
+    do i = 1, neutral
+      counts(minloc(abs(floquet%value - 1.0_wp), 1, counts)) = .false.
+    end do
     largest = floquet%value(maxloc(abs(floquet%value), 1, counts))
     loss = ''
     if (abs(largest) > 1.0_wp + known) loss = kind_of(largest)

@@ -25,7 +25,7 @@ module gfb_periodic
   private
 
   real(wp), parameter :: pi = acos(-1.0_wp)
-  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-11_wp] !! tolerances of a step of time: residual, step [1]
+  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
   real(wp), parameter :: shortest = 1.0e-3_wp !! step of the branch over the longest one [1]
   integer, parameter :: easy = 7, hard = 11    !! iterations after which steps grow, or shrink
 
@@ -193,7 +193,6 @@ contains
     call context%log%line('onset of whirl at '//self%value_words()//', frequency over the speed ' &
                           //text(self%onset%frequency/drive%speed, 6))
     self%map%free = .true.
-    self%map%steps = nint(scene%periodic%steps_per_turn*drive%speed/self%onset%frequency)
     self%map%period_scale = 2.0_wp*pi/self%onset%frequency
     self%x(size(self%x) - 1) = 1.0_wp
     found = apply_map(self%map, bearing, newton, self%x, y, .true.)
@@ -368,12 +367,20 @@ contains
     type(orbit_type) :: orbit
     type(floquet_type) :: floquet
     real(wp) :: gap
+    integer :: neutral
 
     call move_alloc(self%map%orbit, orbit%place)
     gap = self%map%smallest_gap
     done = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
     if (.not. done) return
-    call judge_orbit(self%map, self%x, gap, floquet, orbit, self%loss)
+    neutral = 0
+    if (self%map%free) neutral = merge(1, 2, allocated(self%table%orbit))
+    call judge_orbit(self%map, self%x, gap, floquet, neutral, orbit, self%loss)
+    if (neutral > 1) then ! Krylov's method cannot part a pair that is equal: by the map of a turn
+      associate (rate => cmplx(self%onset%growth*orbit%value(1), self%onset%frequency, wp))
+        orbit%multiplier(:2) = [exp(rate*orbit%period()), exp(conjg(rate)*orbit%period())]
+      end associate
+    end if
     call self%table%add(orbit)
     call context%log%line(self%value_words()//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
                           ', '//text(iterations)//' iterations')

@@ -22,6 +22,7 @@
   tools/plot --3d CASE.h5               film and foils rolled up on the shaft; beside the picture CASE.3d.vtkhdf for ParaView
   tools/plot --animate CASE.h5          moving picture of a sweep's film, or else of an orbit: a GIF, with -o NAME.mp4 an MP4
   tools/plot CASE.h5                    of analysis = 'transient': orbit and thinnest film over time
+  tools/plot CASE.h5                    of analysis = 'periodic': the branch over its parameter, and its orbits
       --show orbit, thinnest              each alone
       --show waterfall                    spectra over the speed of a run-up
       --show bifurcation                  the shaft's centre once a turn, over the speed
@@ -43,7 +44,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
-from gfb.plot import animation, dynamics, foil, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, periodic, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
@@ -149,6 +150,8 @@ def draw(options, paths, files):
         if len(files) > 1 or options.step or options.columns:
             stop("a shaft's motion is drawn of one file, without --step and columns")
         return transient.draw(path, file, options.show)
+    if periodic.is_periodic(file) and not (options.show or options.step or options.columns) and len(files) == 1:
+        return periodic.draw(path, file)
     of_strips = options.show or options.step or len(files) > 1
     if of_strips and options.columns:
         stop("columns are drawn of one file, without --show and --step")
