@@ -3,8 +3,7 @@
 !> A new name is a row here and a call of `add_result` (module gfb_results) where its value is
 !> known. `<a>`, `<b>` and `<state>` in a name stand for one name each of what `marker_words` has,
 !> `<n>` for a number, `<key>` for a key of the case file, `<quantity>` for a name that `&accuracy`
-!> may ask for. What stands in braces
-!> in a meaning is replaced where the assignment says so, by one of the phrases below.
+!> may ask for. What stands in braces in a meaning is replaced by one of the phrases below.
 !>
 !> The table lies in the lowest layer because the scene, which knows no bearing, needs the names
 !> that `&accuracy` may ask for, and the output, which knows no scene, writes units and meanings.
@@ -159,17 +158,15 @@ module gfb_result_table
     result_type('time', 's', number, transient, 'computed; what stands above is of its end'), &
     result_type('turns', '1', number, transient, 'of the shaft in that time'), &
     result_type('time_steps', '1', total, transient, 'that were taken'), &
-    result_type('orbit_<a>', 'm', number, transient + periodic, 'extent of e_<a> in the last turn, or in a period'), &
-    result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest film of all steps'), &
-    result_type('ending', '', word, transient + periodic, 'why it ended before its time, where it did'), &
-    result_type('period', 's', number, periodic, 'of the last orbit; what stands above is of its end'), &
-    result_type('frequency_ratio', '1', number, periodic, 'frequency of the last orbit over the speed'), &
-    result_type('largest_multiplier', '1', number, periodic, 'size of the multiplier that judges it'), &
-    result_type('orbit_stable', '1', truth, periodic, 'whether disturbances of that orbit die out'), &
+    result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
+    result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest one'), &
+    result_type('ending', '', word, transient + periodic, 'why it ended before its end'), &
+    result_type('frequency_ratio', '1', number, periodic, 'of the last orbit over the speed'), &
+    result_type('largest_multiplier', '1', number, periodic, 'of that orbit, which judges it'), &
+    result_type('orbit_stable', '1', truth, periodic, 'whether disturbances of it die out'), &
     result_type('stability_loss', '', word, periodic, 'how they grow, where they do'), &
-    result_type('orbits', '1', total, periodic, 'of the branch'), &
     result_type('folds', '1', total, periodic, 'where the parameter of the branch turns back'), &
-    result_type('subcritical', '1', truth, periodic, 'limit cycles begin where the equilibrium is stable')]
+    result_type('subcritical', '1', truth, periodic, 'cycles begin where rest is stable')]
 
   type(result_type), parameter :: tilts(*) = [ &
     result_type('angular_stiffness_<a><b>', 'N m/rad', number, tilting, &

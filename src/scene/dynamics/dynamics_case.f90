@@ -7,7 +7,8 @@ module gfb_dynamics_case
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
-                            analysis_fixed_position, analysis_transient, analysis_periodic, asks_limit, &
+                            analysis_fixed_position, analysis_transient, analysis_periodic, &
+                            asks_limit, &
                             misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
   use gfb_value_rules, only: positive, not_negative

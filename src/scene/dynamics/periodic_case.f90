@@ -11,8 +11,10 @@ module gfb_periodic_case
   integer, parameter, public :: motion_forced = 1 !! with the turns of the shaft
   integer, parameter, public :: motion_free = 2   !! by itself: a limit cycle
   character(len=*), parameter :: motion_words(*) = [character(len=6) :: 'forced', 'free']
-  integer, parameter, public :: follow_nothing = 1, follow_speed = 2, follow_unbalance = 3, follow_mass = 4
-  character(len=*), parameter :: parameter_words(*) = [character(len=9) :: 'none', 'speed_rpm', 'unbalance', 'mass']
+  integer, parameter, public :: follow_nothing = 1, follow_speed = 2, follow_unbalance = 3, &
+    follow_mass = 4
+  character(len=*), parameter :: parameter_words(*) = [character(len=9) :: 'none', 'speed_rpm', &
+    'unbalance', 'mass']
 
   !> What is asked for.
   type :: periodic_case_type
@@ -54,7 +56,8 @@ contains
                        default=no_default)
     call keys%integer_key('points', periodic%points, 'orbits of the branch, at most', positive)
     call keys%real_key('step', periodic%step, '1', &
-                       'longest step along the branch: in the shaft''s place over the clearance '// &
+                       'longest step along the branch: in the shaft''s place over the '// &
+                       'clearance '// &
                        'and the parameter over its way', positive)
     call keys%real_key('first_amplitude', periodic%first_amplitude, '1', &
                        'of the first limit cycle after the onset, over the clearance', positive)

@@ -2,9 +2,11 @@
 module gfb_periodic_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, meshes_foils
+  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
+    meshes_foils
   use gfb_operation_case, only: operation_case_type
-  use gfb_periodic_case, only: periodic_case_type, motion_free, follow_nothing, follow_speed, follow_unbalance, follow_mass
+  use gfb_periodic_case, only: periodic_case_type, motion_free, follow_nothing, follow_speed, &
+    follow_unbalance, follow_mass
   use gfb_rotor_case, only: rotor_case_type
   implicit none (type, external)
   private
@@ -50,8 +52,9 @@ contains
       call refuse(keys, 'period_turns', "has no use with motion = 'free'")
       call refuse(keys, 'start_turns', "has no use with motion = 'free'")
       if (periodic%parameter /= 0 .and. all(periodic%parameter /= [follow_speed, follow_mass])) then
-        call keys%complain(group, 'parameter', "must be 'speed_rpm' or 'mass' with motion = 'free': the limit "// &
-                           'cycles are followed from the onset of whirl on')
+        call keys%complain(group, 'parameter', "must be 'speed_rpm' or 'mass' with "// &
+                           "motion = 'free': the limit cycles are followed from the onset "// &
+                           'of whirl on')
       end if
     else
       call refuse(keys, 'first_amplitude', "needs motion = 'free'")
@@ -100,12 +103,13 @@ contains
       call keys%complain(group, 'foundation_damping', "needs foil = 'elastic_foundation' in &model")
     end if
     if (meshes_foils(model%foil) .and. may_rub) then
-      call keys%complain('model', 'foil', "needs friction_top and friction_sleeve of 0 with analysis = 'periodic': the "// &
-                         "slip of contacts that rub is remembered from period to period; 'transient' follows it")
+      call keys%complain('model', 'foil', 'needs friction_top and friction_sleeve of 0 with '// &
+                         "analysis = 'periodic': contacts that rub remember their slip from "// &
+                         "period to period; 'transient' follows it")
     end if
     if (model%coupling == coupling_partitioned) then
-      call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = 'periodic': film, foil and shaft "// &
-                         'take their steps together')
+      call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = "// &
+                         "'periodic': film, foil and shaft take their steps together")
     end if
   end subroutine check_foil
 
@@ -114,12 +118,17 @@ contains
     type(case_keys_type), intent(inout) :: keys
 
     if (keys%meant('sweep', 'parameter')) then
-      call keys%complain('sweep', 'parameter', useless//': parameter in &periodic follows the orbits')
+      call keys%complain('sweep', 'parameter', &
+        useless//': parameter in &periodic follows the orbits')
     end if
     if (keys%meant('accuracy', 'quantity')) call keys%complain('accuracy', 'quantity', useless)
     if (keys%meant('sample', 'count')) call keys%complain('sample', 'count', useless)
-    if (keys%meant('sensitivity', 'quantity')) call keys%complain('sensitivity', 'quantity', useless)
-    if (keys%meant('output', 'restart_every')) call keys%complain('output', 'restart_every', useless)
+    if (keys%meant('sensitivity', 'quantity')) then
+      call keys%complain('sensitivity', 'quantity', useless)
+    end if
+    if (keys%meant('output', 'restart_every')) then
+      call keys%complain('output', 'restart_every', useless)
+    end if
   end subroutine check_other_groups
 
   !> Complains about a key that is given.

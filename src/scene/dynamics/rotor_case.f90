@@ -3,7 +3,8 @@ module gfb_rotor_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_operation_case, only: operation_case_type
-  use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, misplaced_group
+  use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, &
+    misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)

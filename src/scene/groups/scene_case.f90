@@ -44,7 +44,8 @@ contains
                          'position that carries the load, film of a given position, bump '// &
                          'strip under loads, natural modes, small vibrations of the shaft '// &
                          'about one of the first two; load, speed or tilt up to a limit: '// &
-                         'see `&capacity`; the shaft over time: see `&transient`; orbits that close: see `&periodic`')
+                         'see `&capacity`; the shaft over time: see `&transient`; orbits '// &
+                         'that close: see `&periodic`')
     call keys%finish_group()
   end subroutine read_scene_case
 

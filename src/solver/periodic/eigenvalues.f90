@@ -25,7 +25,8 @@ contains
     real(wp), intent(in) :: matrix(:, :)      !! (n, n) [1]
     complex(wp), intent(out) :: value(:)      !! (n) [1]
     complex(wp), intent(out) :: vector(:, :)  !! (n, n) a column a value [1]
-    real(wp) :: copy(size(matrix, 1), size(matrix, 1)), right(size(matrix, 1), size(matrix, 1)), left(1, size(matrix, 1))
+    real(wp) :: copy(size(matrix, 1), size(matrix, 1)), right(size(matrix, 1), size(matrix, 1)), &
+      left(1, size(matrix, 1))
     real(wp) :: real_part(size(matrix, 1)), imaginary_part(size(matrix, 1)), work(8*size(matrix, 1))
     complex(wp) :: found(size(matrix, 1)), column(size(matrix, 1), size(matrix, 1))
     logical :: left_over(size(matrix, 1))
@@ -33,7 +34,8 @@ contains
 
     n = size(matrix, 1)
     copy = matrix
-    call dgeev('N', 'V', n, copy, n, real_part, imaginary_part, left, 1, right, n, work, size(work), info)
+    call dgeev('N', 'V', n, copy, n, real_part, imaginary_part, left, 1, right, n, work, &
+      size(work), info)
     if (info /= 0) error stop 'gfb_eigenvalues: LAPACK found no eigenvalues'
     found = cmplx(real_part, imaginary_part, wp)
     i = 1

@@ -9,13 +9,15 @@ module gfb_orbit_table
   integer, parameter :: columns = 13
   integer, parameter, public :: leading = 4 !! multipliers that are kept
   character(len=*), parameter :: names(columns) = [character(len=18) :: &
-    'speed', 'unbalance', 'mass', 'period', 'frequency_ratio', 'orbit_x', 'orbit_y', 'center_x', 'center_y', &
+    'speed', 'unbalance', 'mass', 'period', 'frequency_ratio', 'orbit_x', 'orbit_y', 'center_x', &
+    'center_y', &
     'minimum_gap', 'largest_multiplier', 'stable', 'periods']
   character(len=*), parameter :: units(columns) = [character(len=5) :: &
     'rad/s', 'kg m', 'kg', 's', '1', 'm', 'm', 'm', 'm', 'm', '1', '1', '1']
   character(len=*), parameter :: meanings(columns) = [character(len=88) :: &
     'speed of the shaft', 'unbalance', 'mass of the shaft', 'period of the orbit', &
-    'frequency of the orbit over the speed', 'extent of e_x in a period', 'extent of e_y in a period', &
+    'frequency of the orbit over the speed', 'extent of e_x in a period', &
+    'extent of e_y in a period', &
     'mean of e_x in a period', 'mean of e_y in a period', 'smallest film thickness in a period', &
     'size of the largest multiplier, without the one that a free orbit always has', &
     '1: disturbances of the orbit die out', 'periods marched so far']
@@ -96,7 +98,8 @@ contains
         rows(:, k) = self%orbit(k)%value
       end do
       do i = 1, columns
-        call fill_array('/periodic/'//trim(names(i)), trim(units(i)), trim(meanings(i)), rows(i:i, :), one(1))
+        call fill_array('/periodic/'//trim(names(i)), trim(units(i)), trim(meanings(i)), &
+          rows(i:i, :), one(1))
         call add_arrays(arrays, one)
       end do
       deallocate (rows)
@@ -104,12 +107,14 @@ contains
       do k = 1, many
         rows(:, k) = real(self%orbit(k)%multiplier)
       end do
-      call fill_array('/periodic/multipliers_real', '1', 'largest Floquet multipliers, real part', rows, one(1))
+      call fill_array('/periodic/multipliers_real', '1', &
+        'largest Floquet multipliers, real part', rows, one(1))
       call add_arrays(arrays, one)
       do k = 1, many
         rows(:, k) = aimag(self%orbit(k)%multiplier)
       end do
-      call fill_array('/periodic/multipliers_imaginary', '1', 'the same, imaginary part', rows, one(1))
+      call fill_array('/periodic/multipliers_imaginary', '1', 'the same, imaginary part', rows, &
+        one(1))
       call add_arrays(arrays, one)
       deallocate (rows)
       allocate (rows(steps, many))

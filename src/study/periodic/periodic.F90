@@ -7,14 +7,14 @@ module gfb_periodic
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_operation_case, only: angular_speed
-  use gfb_periodic_case, only: motion_free, follow_speed, follow_unbalance, follow_mass
+  use gfb_periodic_case, only: motion_free
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
-  use gfb_period_map, only: period_map_type, create_map, rest_of, apply_map, dots, parameter_of, period_of, drive_at, &
-                            moved_speed, moved_unbalance, moved_mass, tail
+  use gfb_period_map, only: period_map_type, rest_of, apply_map, dots, parameter_of, period_of, drive_at, &
+                            moved_speed, tail
   use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
+  use gfb_scene_map, only: set_map, value_words
   use gfb_whirl_onset, only: whirl_type, find_onset, fixed_parameter
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
@@ -54,7 +54,6 @@ module gfb_periodic
     procedure, private :: keep_orbit
     procedure, private :: phase
     procedure, private :: turn_way
-    procedure, private :: value_words
   end type periodic_type
 
 contains
@@ -98,47 +97,6 @@ contains
       call context%log%line(text(self%map%periods)//' periods marched, each in '//text(self%map%steps)//' steps')
     end if
   end subroutine run_periodic
-
-  !> The map of a scene, and the bounds of its parameter.
-  subroutine set_map(scene, bearing, map, bounds)
-    type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(in) :: bearing
-    type(period_map_type), intent(out) :: map
-    real(wp), intent(out) :: bounds(2)
-    real(wp) :: final
-
-    associate (periodic => scene%periodic)
-      map%drive%mass = scene%rotor%mass
-      map%drive%load = scene%operation%load
-      map%drive%speed = angular_speed(scene%operation%speed_rpm)
-      map%drive%unbalance = periodic%unbalance
-      map%drive%unbalance_angle = periodic%unbalance_angle
-      map%damping = periodic%foundation_damping
-      map%turns = 1
-      if (periodic%motion /= motion_free) map%turns = periodic%period_turns
-      map%steps = periodic%steps_per_turn*map%turns
-      map%period_scale = 2.0_wp*pi*map%turns/map%drive%speed
-      final = periodic%final_value
-      select case (periodic%parameter)
-      case (follow_speed)
-        map%parameter = moved_speed
-        final = angular_speed(final)
-        bounds = [map%drive%speed, final]
-      case (follow_unbalance)
-        map%parameter = moved_unbalance
-        bounds = [map%drive%unbalance, final]
-      case (follow_mass)
-        map%parameter = moved_mass
-        bounds = [map%drive%mass, final]
-      case default
-        map%parameter = 0
-        bounds = [0.0_wp, 1.0_wp]
-      end select
-    end associate
-    map%parameter_scale = abs(bounds(2) - bounds(1))
-    bounds = bounds/map%parameter_scale
-    call create_map(bearing, map)
-  end subroutine set_map
 
   !> The first forced orbit: some periods from rest, then Newton's method.
   function begin_forced(self, scene, context, bearing, newton) result(found)
@@ -190,7 +148,7 @@ contains
     if (.not. found) return
     self%x = self%onset%x
     drive = drive_at(self%map, self%x)
-    call context%log%line('onset of whirl at '//self%value_words()//', frequency over the speed ' &
+    call context%log%line('onset of whirl at '//value_words(self%map, self%x)//', frequency over the speed ' &
                           //text(self%onset%frequency/drive%speed, 6))
     self%map%free = .true.
     self%map%period_scale = 2.0_wp*pi/self%onset%frequency
@@ -304,7 +262,7 @@ contains
       else
         step = 0.5_wp*taken
         if (step < shortest*scene%periodic%step) then
-          self%ending = 'no orbit leads on from '//self%value_words()//': '//self%map%problem
+          self%ending = 'no orbit leads on from '//value_words(self%map, self%x)//': '//self%map%problem
           return
         end if
       end if
@@ -382,28 +340,9 @@ contains
       end associate
     end if
     call self%table%add(orbit)
-    call context%log%line(self%value_words()//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
+    call context%log%line(value_words(self%map, self%x)//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
                           ', '//text(iterations)//' iterations')
   end function keep_orbit
-
-  !> The parameter at the last orbit, in words.
-  function value_words(self) result(words)
-    class(periodic_type), intent(in) :: self !! at the orbit
-    character(len=:), allocatable :: words
-    real(wp) :: value
-
-    value = parameter_of(self%map, self%x)
-    select case (self%map%parameter)
-    case (moved_speed)
-      words = text(value*30.0_wp/pi, 7)//' rpm'
-    case (moved_unbalance)
-      words = 'unbalance '//text(value, 6)//' kg m'
-    case (moved_mass)
-      words = 'mass '//text(value, 6)//' kg'
-    case default
-      words = text(self%map%drive%speed*30.0_wp/pi, 7)//' rpm'
-    end select
-  end function value_words
 
   !> Exchanges two points.
   pure subroutine swap(one, other)
@@ -423,7 +362,6 @@ contains
     allocate (found(0))
     if (.not. allocated(self%table%orbit)) return
     associate (last => self%table%orbit(size(self%table%orbit)))
-      call add_result(found, 'period', last%period())
       call add_result(found, 'frequency_ratio', last%frequency_ratio())
       call add_result(found, 'orbit_x', extent_of(last%place(1, :)))
       call add_result(found, 'orbit_y', extent_of(last%place(2, :)))
@@ -433,7 +371,6 @@ contains
     call add_result(found, 'orbit_stable', self%loss == '')
     if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)
     if (self%map%parameter > 0) then
-      call add_result(found, 'orbits', size(self%table%orbit))
       call add_result(found, 'folds', self%folds)
     end if
     if (self%map%free .and. self%map%parameter == moved_speed) then
