@@ -14,7 +14,6 @@ module gfb_result_table
   private
 
   integer, parameter, public :: name_length = 64
-
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
                                 load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
@@ -47,8 +46,7 @@ module gfb_result_table
   character(len=*), parameter, public :: &
     film_and_contact = 'film and solid contact', &
     film_and_contact_brake = 'film and solid contact brake', &
-    all_modes_found = 'all modes asked for were found', &
-    all_members = 'all members have an answer', &
+    all_modes_found = 'all modes asked for were found', all_members = 'all members have an answer', &
     seed_and_reason = 'seed of the member, and why it has no answer', &
     of_this_step = 'of this step', of_all_steps = 'of all load steps', &
     of_shifted_stiffness = 'of the shifted stiffness', of_whole_table = 'of the whole table', &
@@ -165,7 +163,6 @@ module gfb_result_table
     result_type('largest_multiplier', '1', number, periodic, 'of that orbit, which judges it'), &
     result_type('orbit_stable', '1', truth, periodic, 'whether disturbances of it die out'), &
     result_type('stability_loss', '', word, periodic, 'how they grow, where they do'), &
-    result_type('folds', '1', total, periodic, 'where the parameter of the branch turns back'), &
     result_type('subcritical', '1', truth, periodic, 'cycles begin where rest is stable')]
 
   type(result_type), parameter :: tilts(*) = [ &

@@ -94,6 +94,7 @@ contains
       allocate (y(size(self%x)))
       found = apply_map(self%map, bearing, newton, self%x, y, .true.) ! the bearing's state is of the orbit again
       if (self%ending /= '') call context%log%line(self%ending)
+      if (self%map%parameter > 0) call context%log%line(text(size(self%table%orbit))//' orbits, '//text(self%folds)//' fold(s)')
       call context%log%line(text(self%map%periods)//' periods marched, each in '//text(self%map%steps)//' steps')
     end if
   end subroutine run_periodic
@@ -370,9 +371,6 @@ contains
     end associate
     call add_result(found, 'orbit_stable', self%loss == '')
     if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)
-    if (self%map%parameter > 0) then
-      call add_result(found, 'folds', self%folds)
-    end if
     if (self%map%free .and. self%map%parameter == moved_speed) then
       call add_result(found, 'onset_speed_rpm', parameter_of(self%map, self%onset%x)*30.0_wp/pi)
     else if (self%map%free) then
