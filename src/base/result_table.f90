@@ -46,13 +46,13 @@ module gfb_result_table
   character(len=*), parameter, public :: &
     film_and_contact = 'film and solid contact', &
     film_and_contact_brake = 'film and solid contact brake', &
-    all_modes_found = 'all modes asked for were found', all_members = 'all members have an answer', &
+    all_modes_found = 'all modes asked for were found', &
+    all_members = 'all members have an answer', of_this_step = 'of this step', &
     seed_and_reason = 'seed of the member, and why it has no answer', &
-    of_this_step = 'of this step', of_all_steps = 'of all load steps', &
-    of_shifted_stiffness = 'of the shifted stiffness', of_whole_table = 'of the whole table', &
+    of_all_steps = 'of all load steps', of_shifted_stiffness = 'of the shifted stiffness', &
+    of_whole_table = 'of the whole table', travel_of_plate = 'travel of the plate', &
     with_stretches = 'of ranks, each with a stretch of the sweep', &
-    travel_of_plate = 'travel of the plate', at_this_point = 'at this point', &
-    at_first_point = 'at the sweep''s first point', &
+    at_this_point = 'at this point', at_first_point = 'at the sweep''s first point', &
     at_fixed_equilibrium = 'in the equilibrium at which the shaft is held', &
     load_kept = '; the load is kept', shaft_fixed = '; the shaft is held', &
     linearised_there = ', contact and friction linearised there'
