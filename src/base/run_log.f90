@@ -11,10 +11,21 @@ module gfb_run_log
   character(len=*), parameter :: clear_line = achar(13)//escape//'K'
   character(len=*), parameter :: bold = '1', yellow = '33', red = '31'
 
+  integer, parameter :: widest_waiting = 79       !! a longer line breaks, and could not be renewed
+  real(wp), parameter :: least_share = 0.02_wp    !! of a way that tells how long the rest takes [1]
+
+  !> How much of something long is behind.
+  type :: way_type
+    character(len=:), allocatable :: words  !! where on the way; empty: there is none
+    real(wp) :: share = 0.0_wp              !! that is behind [1]
+    integer(long) :: begun = 0, reached = 0 !! counts of the clock, at its begin and at this share
+  end type way_type
+
   !> What all copies of a run's log know together.
   type :: log_memory_type
     character(len=:), allocatable :: warnings !! told so far, each with its end
-    character(len=:), allocatable :: place    !! where a long computation is, for its waiting line
+    type(way_type) :: task !! of many points, members or times, for waiting lines
+    type(way_type) :: step !! the way from one of them to the next
     logical :: waits = .false.                !! a waiting line stands on the terminal
     integer(long) :: told = 0                 !! count of the clock when the last line was told
   end type log_memory_type
@@ -22,6 +33,7 @@ module gfb_run_log
   !> Where the lines of a run go; silent on all ranks but one.
   type :: run_log_type
     logical :: active = .true.   !! this rank prints
+    logical :: silent = .false.  !! tells what waits alone, such as a sample's member
     logical :: verbose = .false. !! iterations too, not only events
     logical :: quiet = .false.   !! stages alone, with the time so far
     integer :: unit = output_unit !! where to; what is no terminal takes the complaints too
@@ -38,6 +50,7 @@ module gfb_run_log
     procedure :: stage => run_log_stage
     procedure :: progress => run_log_progress
     procedure :: is_at => run_log_is_at
+    procedure :: is_within => run_log_is_within
     procedure :: waiting => run_log_waiting
     procedure :: detail => run_log_detail
     procedure :: heading => run_log_heading
@@ -69,7 +82,8 @@ contains
 
     allocate (self%memory)
     self%memory%warnings = ''
-    self%memory%place = ''
+    self%memory%task%words = ''
+    self%memory%step%words = ''
     call system_clock(self%memory%told)
   end subroutine run_log_remember
 
@@ -86,7 +100,7 @@ contains
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
-    if (.not. self%active) return
+    if (self%silent .or. .not. self%active) return
     call clear_waiting(self)
     call put(self%unit, words)
     if (associated(self%memory)) call system_clock(self%memory%told)
@@ -139,13 +153,38 @@ contains
     call self%tell(time(:14)//words)
   end subroutine run_log_progress
 
-  !> Where a long computation is, for the waiting lines to come; the next stage forgets it.
-  subroutine run_log_is_at(self, words)
+  !> Where the way from one answer to the next is, for the waiting lines to come.
+  !>
+  !> The next stage forgets it.
+  subroutine run_log_is_at(self, words, share)
     class(run_log_type), intent(in) :: self !! the log
-    character(len=*), intent(in) :: words !! the place, such as how much of the way is behind
+    character(len=*), intent(in) :: words !! the place; empty: there is none
+    real(wp), intent(in), optional :: share !! behind, 0 at the begin [1]; none: not known
 
-    if (associated(self%memory)) self%memory%place = words
+    if (associated(self%memory)) call go_on(self%memory%step, words, share)
   end subroutine run_log_is_at
+
+  !> Which of many answers is looked for, for the waiting lines to come.
+  subroutine run_log_is_within(self, words, share)
+    class(run_log_type), intent(in) :: self !! the log
+    character(len=*), intent(in) :: words !! which one; empty: there are none any more
+    real(wp), intent(in), optional :: share !! behind, 0 at the first [1]; none: not known
+
+    if (associated(self%memory)) call go_on(self%memory%task, words, share)
+  end subroutine run_log_is_within
+
+  !> A way at its begin, or further on.
+  subroutine go_on(way, words, share)
+    type(way_type), intent(inout) :: way
+    character(len=*), intent(in) :: words
+    real(wp), intent(in), optional :: share
+
+    way%words = words
+    way%share = 0.0_wp
+    if (present(share)) way%share = share
+    call system_clock(way%reached)
+    if (.not. way%share > 0.0_wp) way%begun = way%reached
+  end subroutine go_on
 
   !> The last step of a long computation: told where nothing else was for a while, with the time.
   !>
@@ -153,7 +192,7 @@ contains
   !> A verbose log tells every iteration, a quiet one its stages alone.
   subroutine run_log_waiting(self, words)
     class(run_log_type), intent(in) :: self !! the log
-    character(len=*), intent(in) :: words !! the step that is done
+    character(len=*), intent(in) :: words !! the step that is done; empty: where it is says all
     real(wp), parameter :: renewed = 1.0_wp !! [s]
     character(len=16) :: time
     character(len=:), allocatable :: line
@@ -167,18 +206,47 @@ contains
       silence = real(now - memory%told, wp)/real(rate, wp)
       if (silence < merge(renewed, self%patience, memory%waits)) return
       write (time, '(i0)') (now - self%begun)/rate
-      line = '... '//trim(time)//' s: '
-      if (len(memory%place) > 0) line = line//memory%place//', '
-      line = line//words
+      line = ''
+      call add_part(line, place_on(memory%task, now, rate, ' s left'))
+      call add_part(line, place_on(memory%step, now, rate, ' s to its end'))
+      call add_part(line, words)
+      line = '... '//trim(time)//' s: '//line
       if (self%terminal) then
-        call put(self%unit, clear_line//line, stays=.true.)
+        call put(self%unit, clear_line//line(:min(len(line), widest_waiting)), stays=.true.)
         memory%waits = .true.
-        memory%told = now
       else
-        call self%tell(line)
+        call put(self%unit, line)
       end if
+      memory%told = now
     end associate
   end subroutine run_log_waiting
+
+  !> Adds to a line what is not empty, after a comma.
+  pure subroutine add_part(line, part)
+    character(len=:), allocatable, intent(inout) :: line
+    character(len=*), intent(in) :: part
+
+    if (len(line) > 0 .and. len(part) > 0) line = line//', '
+    line = line//part
+  end subroutine add_part
+
+  !> Where on a way, and about how long the rest takes if it goes on as before.
+  function place_on(way, now, rate, ending) result(words)
+    type(way_type), intent(in) :: way
+    integer(long), intent(in) :: now, rate !! count of the clock, and counts a second
+    character(len=*), intent(in) :: ending !! of the time that is left
+    character(len=:), allocatable :: words
+    character(len=24) :: seconds
+    real(wp) :: left
+
+    words = way%words
+    if (words == '' .or. way%share < least_share) return
+    left = real(way%reached - way%begun, wp)*(1.0_wp/way%share - 1.0_wp)
+    left = (left - real(now - way%reached, wp))/real(rate, wp)
+    if (left < 1.0_wp) return
+    write (seconds, '(i0)') nint(left, long)
+    words = words//', about '//trim(seconds)//ending
+  end function place_on
 
   !> One line of a table of iterations.
   subroutine run_log_detail(self, words)
@@ -214,7 +282,7 @@ contains
     character(len=1), parameter :: next = new_line('a')
 
     call self%tell(coloured(self%colours, yellow, words))
-    if (.not. (self%active .and. associated(self%memory))) return
+    if (self%silent .or. .not. (self%active .and. associated(self%memory))) return
     if (index(self%memory%warnings, words//next) > 0) return
     self%memory%warnings = self%memory%warnings//words//next
   end subroutine run_log_warned
@@ -235,7 +303,7 @@ contains
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
 
-    if (.not. self%active) return
+    if (self%silent .or. .not. self%active) return
     call clear_waiting(self)
     if (self%unit /= output_unit) then
       call self%tell(words)

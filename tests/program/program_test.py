@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """gfb as a user meets it: options, folders, exit status, reruns, and results that survive a kill."""
 
+import concurrent.futures
+import contextlib
 import os
 import pathlib
 import re
@@ -9,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 import h5py
@@ -24,6 +27,15 @@ PLATE = """&scene analysis='modes' /
 &bearing radius=0.02 length=0.04 /
 &top_foil thickness=1e-4 youngs_modulus=2e11 poissons_ratio=0.3 density=8000.0 /
 &mesh circumferential_elements=20 axial_elements=6 /
+"""
+LONG = """&scene analysis='transient' /
+&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /
+&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /
+&operation speed_rpm=30000.0 load=-60.0, 0.0 /
+&rotor mass=1.5 /
+&transient duration=0.4 output_every=100 unbalance=1.5e-6 foundation_damping=3.0e5 /
+&model foil='elastic_foundation' foundation_stiffness=4.8243e9 /
+&mesh circumferential_elements=60 axial_elements=8 /
 """
 SECONDS = 120
 
@@ -135,25 +147,52 @@ def check_quiet(checks, folder):
                 and words.strip().splitlines()[-1].startswith("warning: "))
 
 
+def on_terminal(folder, *words, environment=None, seconds=None, terminal=True):
+    """What a terminal gets, or a pipe; seconds: when the program is asked to stop."""
+    ours, theirs = os.openpty() if terminal else os.pipe()
+    with subprocess.Popen([GFB, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=theirs, stderr=subprocess.DEVNULL,
+                          env={**os.environ, **(environment or {})}) as process:
+        os.close(theirs)
+        stop = threading.Timer(seconds or SECONDS, process.terminate)
+        stop.start()
+        told = b""
+        with contextlib.suppress(OSError):  # the other end is closed
+            while more := os.read(ours, 4096):
+                told += more
+        process.wait(timeout=SECONDS)
+        stop.cancel()
+    os.close(ours)
+    return told.decode()
+
+
+def check_waiting(checks, folder):
+    """A run of more than ten seconds: on a terminal one line that is written anew and is gone at the end, in a file plain lines
+    now and then, with --quiet none."""
+    (folder/"long.nml").write_text(LONG, encoding="utf-8")
+    runs = (("shown",), True), (("quiet", "--quiet"), True), (("filed",), False)
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        shown, quiet, filed = pool.map(lambda one: on_terminal(folder, "--output", *one[0], "long.nml", seconds=13.0, terminal=one[1]), runs)
+    lines = shown.split("\r\n")
+    waits = [line for line in lines if "..." in line]
+    renewed = [part for line in waits for part in line.split("\r\x1b[K") if part.startswith("... ")]
+    checks.that(f"terminal: renewed on one line {waits}", len(waits) == 1 and len(renewed) > 1)
+    checks.that(f"terminal: cleared before the next line {waits}", all("..." not in line.rpartition("\x1b[K")[2] for line in waits))
+    checks.that("terminal: fits", all(len(part) < 80 for part in renewed))
+    told = [line for line in filed.splitlines() if line.startswith("... ")]
+    checks.that(f"no terminal: plain lines, ten seconds apart {told}", 0 < len(told) <= len(renewed) and "\r" not in filed
+                and "\x1b" not in filed and int(told[0].split()[1]) >= 10)
+    for line in (renewed[0], told[0]):
+        checks.that(f"time, place and what is left: {line}", re.fullmatch(r"\.\.\. \d+ s: time .* s, turn .*, about \d+ s left, .*", line))
+    checks.that("--quiet: none", "..." not in quiet and "\x1b[K" not in quiet)
+
+
 def check_colours(checks, folder):
     """On a terminal alone, and not where NO_COLOR is set."""
     (folder/"good.nml").write_text(GOOD, encoding="utf-8")
     for environment, coloured in (({"NO_COLOR": ""}, True), ({"NO_COLOR": "1"}, False)):
-        ours, theirs = os.openpty()
-        with subprocess.Popen([GFB, "good.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=theirs,
-                              env={**os.environ, **environment}) as process:
-            os.close(theirs)
-            words = b""
-            while True:
-                try:
-                    more = os.read(ours, 4096)
-                except OSError:  # the other end is closed
-                    break
-                words += more
-            process.wait(timeout=SECONDS)
-        os.close(ours)
-        checks.that(f"on a terminal, {environment}: colours {coloured}", (b"\x1b[1manswer\x1b[0m" in words) == coloured
-                    and b"answer" in words)
+        words = on_terminal(folder, "good.nml", environment=environment)
+        checks.that(f"on a terminal, {environment}: colours {coloured}", ("\x1b[1manswer\x1b[0m" in words) == coloured
+                    and "answer" in words)
     checks.that("no terminal: no colours", "\x1b" not in call("good.nml", folder=folder)[1])
     launched = subprocess.run([os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", "1", GFB, "good.nml"], cwd=folder, capture_output=True,
                               stdin=subprocess.DEVNULL, text=True, check=True, timeout=SECONDS).stdout
@@ -306,7 +345,7 @@ def check_ranks(checks, folder):
 
 def main():
     checks = Checks()
-    for check in (check_options, check_folders, check_quiet, check_colours, check_warnings, check_petsc_options, check_rerun, check_kill,
+    for check in (check_options, check_folders, check_quiet, check_waiting, check_colours, check_warnings, check_petsc_options, check_rerun, check_kill,
                   check_hindrance, check_side_by_side, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())

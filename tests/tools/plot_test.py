@@ -23,6 +23,7 @@ sys.path.insert(0, str(PROJECT/"tools"))
 from gfb.plot import film as plot_film  # noqa: E402 (found only now)
 from gfb.plot import foil as plot_foil  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
+from gfb.plot import polar as plot_polar  # noqa: E402
 from gfb.plot import rotor as plot_rotor  # noqa: E402
 from gfb.plot import sample as plot_sample  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
@@ -211,7 +212,30 @@ class BearingTest(unittest.TestCase):
         self.assertLess(abs(found[:13]).max(), 0.01)  # in contact, to the penetration
         self.assertGreater(found[-3], 0.1)            # lifted off
         self.assertEqual(call(self.folder, "beams.h5", "--show", "contact")[1], "drawn: beams.h5.contact.png\n")
+        self.see_film_around_the_shaft()
         self.see_scene_and_edges()
+
+    def see_film_around_the_shaft(self):
+        """Lines, load, pad edges and thinnest film of --show polar."""
+        path = self.folder/"beams.film.vtkhdf"
+        with h5py.File(path, "r") as file:
+            pressure, gap = plot_polar.draw(path, file).axes
+        with h5py.File(self.folder/"beams.h5", "r") as file:
+            force = [file[f"summary/force_{axis}"][()] for axis in "xy"]
+            thinnest = 1.0e6*file["summary/minimum_gap"][()]
+            highest, ambient = (1.0e-3*number for number in (file["summary/maximum_pressure"][()], 1.0135e5))
+        (arrow,) = pressure.texts
+        self.assertAlmostEqual(arrow.xy[0] % (2.0*numpy.pi), numpy.arctan2(*reversed(force)) % (2.0*numpy.pi), places=9)
+        lines = {line.get_label(): line for line in pressure.lines}
+        self.assertAlmostEqual(lines["midplane"].get_ydata().max(), highest, places=9)
+        numpy.testing.assert_allclose(lines["edges"].get_ydata(), ambient)
+        numpy.testing.assert_allclose(numpy.cos(lines["pad edges"].get_xdata()), 1.0)
+        (ring,) = [line for line in gap.lines if line.get_label().startswith("thinnest")]
+        along = numpy.argmin(gap.lines[0].get_ydata())
+        self.assertAlmostEqual(ring.get_ydata()[0], thinnest, places=9)
+        self.assertAlmostEqual(ring.get_xdata()[0], gap.lines[0].get_xdata()[along])
+        self.assertIn("is of one CASE.film.vtkhdf", call(self.folder, "beams.top_foil.vtkhdf", "--show", "polar")[1])
+        self.assertEqual(call(self.folder, "beams.film.vtkhdf", "--show", "polar")[1], "drawn: beams.film.vtkhdf.polar.png\n")
 
     def see_scene_and_edges(self):
         """What the pictures take from beams.h5, and how they show it."""

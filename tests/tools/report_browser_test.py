@@ -50,7 +50,7 @@ class BrowserTest(unittest.TestCase):
             self.assertIsNotNone(seen, "the page did not load")
             wide, pictures, narrowest = map(int, seen.groups())
             self.assertLessEqual(wide, WIDTH)
-            self.assertEqual(pictures, 3)  # a film each, and the points of the sweep
+            self.assertEqual(pictures, 7)  # of each the film, around and on the shaft, and the points of the sweep
             self.assertGreater(narrowest, 400)
             self.assertRegex(shown, r'<th class="n">load \[N\]</th><th class="n">converged')
             shot = folder/"page.png"

@@ -80,7 +80,7 @@ class ReportTest(unittest.TestCase):
         self.assertRegex(words, r"minimum_gap [0-9.e-]+ [0-9.e-]+ ± [0-9.e-]+ m smallest film thickness")
         self.assertIn("48 x 8", words)
         self.assertIn("program_version", words)
-        self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 2)
+        self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 6)  # three of each
 
     def test_a_sweep_without_an_answer(self):
         _, words = self.page(self.folder/"beyond.unconverged")

@@ -74,7 +74,7 @@ contains
         most_steps = most_steps + closing_steps
       end if
       trial = min(1.0_wp, report%fraction + step)
-      call newton%log%is_at(text(100.0_wp*report%fraction, 2)//' % of the way')
+      call newton%log%is_at(text(100.0_wp*report%fraction, 2)//' % of the way', report%fraction)
       bearing%point = point_between(start, target, trial)
       call predict(bearing, here, before, report%fraction, at_before, trial)
       call try_step(newton, step >= 2.0_wp*smallest, settings, solved)

@@ -131,7 +131,7 @@ contains
       trial = gone + step
       if (trial >= total .or. (change == releasing .and. trial >= enough .and. contacts%growth <= 1.0_wp)) trial = total
       call newton%log%is_at(text(100.0_wp*gone/total, 2)//' % of the '//trim(merge('release   ', 'stiffening', change == releasing))// &
-                            ' of contacts')
+                            ' of contacts', gone/total)
       call set_contacts(bearing, newton, change, trial, total)
       call solve_newton(newton, solved)
       if (solved%converged) then

@@ -70,7 +70,7 @@ contains
     call start_response(scene, bearing, build, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
-    call fill_coefficients(scene, bearing, response, point, record%problem)
+    call fill_coefficients(scene, log, bearing, response, point, record%problem)
     if (.not. scene%sweep%present .and. .not. allocated(record%problem)) then
       call show_coefficients(log, bearing%point%speed, point)
     end if
@@ -90,8 +90,9 @@ contains
   end subroutine find_dynamics
 
   !> Stiffness and damping at the frequencies of the scene.
-  subroutine fill_coefficients(scene, bearing, response, point, problem)
+  subroutine fill_coefficients(scene, log, bearing, response, point, problem)
     type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
     type(dynamics_point_type), intent(inout) :: point
@@ -102,11 +103,14 @@ contains
     point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
     allocate (point%coefficient(shaft_coordinates, shaft_coordinates, size(point%frequency)), source=(0.0_wp, 0.0_wp))
     do i = 1, size(point%frequency)
+      call log%is_at('frequency '//text(i)//' of '//text(size(point%frequency)), real(i - 1, wp)/real(size(point%frequency), wp))
+      call log%waiting('')
       call find_coefficients(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), point%coefficient(:, :, i), made)
       if (made) cycle
       problem = 'the vibration at '//text(point%frequency(i))//' rad/s: '//response_failure(response)
       return
     end do
+    call log%is_at('')
   end subroutine fill_coefficients
 
   !> Stiffness and damping at the amplitudes of the scene, each found from the one before.

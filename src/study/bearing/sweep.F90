@@ -242,5 +242,11 @@ contains
       line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'
     end if
     call context%log%stage(line)
+    if (left > 0) then
+      call context%log%is_within('point '//text(point + 1)//' of '//text(size(scene%sweep%values)), &
+                                 real(point - 1, wp)/real(point - 1 + left, wp))
+    else
+      call context%log%is_within('')
+    end if
   end subroutine show_progress
 end module gfb_sweep

@@ -71,8 +71,11 @@ contains
     integer :: number
 
     do number = 1, size(self%member)
+      call context%log%is_within('member '//text(number)//' of '//text(size(self%member)), &
+                                 real(number - 1, wp)/real(size(self%member), wp))
       call self%solve_member(scene, context, number)
     end do
+    call context%log%is_within('')
     call self%judge()
   end subroutine solve_all
 
@@ -89,7 +92,7 @@ contains
 
     there = sample_member(scene, number)
     quiet = context
-    quiet%log%active = .false.
+    quiet%log%silent = .true.
     nullify (quiet%listener)
     associate (member => self%member(number))
       member%name = 'seed '//text(there%bump_foil%random%seed)

@@ -6,7 +6,6 @@ module gfb_transient
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
-  use gfb_petsc_session, only: wall_time
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
@@ -83,13 +82,13 @@ contains
     type(reason_type), intent(inout) :: reason
     type(newton_report_type) :: report
     type(restart_type) :: restart
-    real(wp) :: begun, from
+    real(wp) :: from
     logical :: due
 
     self%ending = ''
     restart = context%restart
-    begun = wall_time()
     from = self%march%time
+    call context%log%is_within(place_in_time(self%march), 0.0_wp)
     associate (march => self%march, every => scene%transient%output_every, log => context%log)
       do while (march%time < march%settings%end_time)
         call take_step(march, bearing, newton, report)
@@ -120,9 +119,9 @@ contains
         if (due .and. march%time < march%settings%end_time) then
           call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
         end if
-        call log%is_at(place_in_time(march)//', about '// &
-                       text((wall_time() - begun)*(march%settings%end_time - march%time)/(march%time - from), 2)//' s left')
+        call log%is_within(place_in_time(march), (march%time - from)/(march%settings%end_time - from))
       end do
+      call log%is_within('')
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
                     text(self%history%smallest_gap*1.0e6_wp, 4)//' um')

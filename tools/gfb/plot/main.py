@@ -2,6 +2,7 @@
 
   tools/plot CASE.film.vtkhdf           maps of pressure, gap and deflection, and their lines along
                                         the midplane and the bearing's edge
+      --show polar                        pressure and gap around the shaft, with load, pad edges and thinnest film
   tools/plot CASE.bump_foil.vtkhdf      the bumps' deflected midline and their crests' deflections
   tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges
   tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
@@ -44,7 +45,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
-from gfb.plot import animation, dynamics, foil, periodic, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, periodic, polar, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
 from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
@@ -73,9 +74,10 @@ def main():
                         help="the picture; default: beside the file, its name with what is shown and .png")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, *rotor.KINDS, *transient.KINDS),
-                        help="what of a strip's or bearing's CASE.h5")
+    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, *rotor.KINDS, *transient.KINDS),
+                        help="what of a strip's or bearing's CASE.h5; polar: of CASE.film.vtkhdf")
     parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils rolled up on the shaft")
+    parser.add_argument("--picture-only", action="store_true", help="with --3d: no CASE.3d.vtkhdf")
     parser.add_argument("--animate", action="store_true", help="a moving picture of a sweep's film, or of an orbit")
     parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",
                         help="load steps of --show bumps and contact, or sweep points of a bearing; default: the one "
@@ -143,13 +145,15 @@ def draw(options, paths, files):
     if options.rolled:
         if options.show or options.step or options.columns or len(files) > 1:
             stop("--3d is of one case, without --show, --step and columns")
-        return rolled.draw(path)
+        return rolled.draw(path, grid=not options.picture_only)
     if steps.has_steps(file):
         return draw_step(options, path, file)
     if options.show in transient.KINDS or transient.is_transient(file) and not (options.show or options.columns):
         if len(files) > 1 or options.step or options.columns:
             stop("a shaft's motion is drawn of one file, without --step and columns")
         return transient.draw(path, file, options.show)
+    if options.show == polar.KIND:
+        return draw_polar(options, path, file)
     if periodic.is_periodic(file) and not (options.show or options.step or options.columns) and len(files) == 1:
         return periodic.draw(path, file)
     of_strips = options.show or options.step or len(files) > 1
@@ -179,20 +183,34 @@ def draw(options, paths, files):
 def draw_step(options, path, file):
     """The picture of a step: of the last one, where none is named."""
     many = steps.count(file)
-    if options.show or options.columns or len(options.step) > 1:
-        stop("of a file with steps one is drawn, --step N, without --show and columns")
+    if options.show not in (None, polar.KIND) or options.columns or len(options.step) > 1:
+        stop("of a file with steps one is drawn, --step N, without columns and --show but polar")
     number = options.step[0] if options.step else many
     if not 1 <= number <= many:
         stop(f"{path}: no step {number}; there are {many}")
     one = steps.at_step(file, number - 1)
     try:
-        drawing = foil.draw if foil.is_foil(one) else lambda path, file, _: draw_film(path, file)
+        if options.show and foil.is_foil(one):
+            stop(f"{path}: a foil; --show polar is of CASE.film.vtkhdf")
+        drawing = draw_polar_step if options.show else foil.draw if foil.is_foil(one) else lambda path, file, _: draw_film(path, file)
         figure = drawing(steps.alone(path), one, [])
     finally:
         one.close()
     what = steps.alone(path).name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
     figure.suptitle(f"{case_name(steps.alone(path))}: {step_words(file, number - 1)}, step {number} of {many}: {what}", fontsize=11)
     return figure
+
+
+def draw_polar(options, path, file):
+    """The film around the shaft."""
+    if options.columns or options.step or "VTKHDF" not in file or foil.is_foil(file):
+        stop(f"{path}: --show polar is of one CASE.film.vtkhdf, without columns")
+    return polar.draw(path, file)
+
+
+def draw_polar_step(path, file, _):
+    """The same of a step."""
+    return polar.draw(path, file)
 
 
 def list_names(path, file):

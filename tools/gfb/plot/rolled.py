@@ -115,8 +115,8 @@ def read_shaft(case, surfaces):
                  number(keys, "bearing", "clearance") or 0.0)
 
 
-def draw(path):
-    """The picture of a case; beside it CASE.3d.vtkhdf is written."""
+def draw(path, grid=True):
+    """The picture of a case; beside it CASE.3d.vtkhdf is written, where the grid is wanted."""
     case, paths = paths_of(path)
     surfaces = []
     for name, one in paths.items():
@@ -126,9 +126,10 @@ def draw(path):
     if not beside.exists():
         stop(f"{beside}: there is no such file; it has the shaft's radius")
     shaft = read_shaft(beside, surfaces)
-    written = path.with_name(case + ".3d.vtkhdf")
-    write(written, paths, surfaces, shaft)
-    print(f"for ParaView: {written}")
+    if grid:
+        written = path.with_name(case + ".3d.vtkhdf")
+        write(written, paths, surfaces, shaft)
+        print(f"for ParaView: {written}")
     return draw_surfaces(surfaces, shaft, scene_of(path.with_name(case + ".film.vtkhdf")), path.with_name(case + ".h5"))
 
 

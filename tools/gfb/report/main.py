@@ -26,6 +26,7 @@ PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).
                           trim_blocks=True, lstrip_blocks=True)
 ENDINGS = (".h5", ".summary")
 SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
+SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency"}
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
 
@@ -72,7 +73,7 @@ def read_run(stem, gfb):
         case_file = text_of(file["scene/case_file"][()])
         used = text_of(file["scene/used"][()])
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
-        shows = [name for name in ("contact", "dynamics") if name in file]
+        shows = [name for name in ("contact", "dynamics", "transient") if name in file]
     points = len(next(iter(history.values()))) if history else 0
     rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
     return {"name": stem.name, "title": Case.parse(used).groups.get("scene", {}).get("title", ""), "summary": summary,
@@ -119,9 +120,13 @@ def needs_of(case_file, gfb):
 def pictures_of(stem, points, shows):
     """Title and picture of everything that tools/plot draws of a result; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
-    if points > 1:
+    wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
+                   ("film and foils around the shaft, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"])]
+    if "transient" in shows:
+        wanted.append(("orbit and thinnest film", [f"{stem}.h5"]))
+    elif points > 1:
         wanted.append(("along the points or load steps", [f"{stem}.h5"]))
-    wanted += [(f"{show}", [f"{stem}.h5", "--show", show]) for show in shows]
+    wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
         found = [(words, drawn(arguments, picture)) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
