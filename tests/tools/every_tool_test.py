@@ -210,6 +210,15 @@ class Files(unittest.TestCase):
         with self.assertRaises(Unreadable):
             gallery_strip.timed(unittest.mock.Mock(folder=self.folder, reuse=True))
 
+    def test_every_group_of_a_result_file_stands_in_the_manual(self):
+        page = (PROJECT/"docs/manual/results.md").read_text(encoding="utf-8")
+        there = set()
+        for name in CASES:
+            with h5py.File(io.BytesIO(self.files[f"{name}.h5"]), "r") as file:
+                there.update(file)
+        self.assertLessEqual({"scene", "summary", "dynamics", "contact"}, there)
+        self.assertEqual([name for name in sorted(there) if f"| `/{name}` |" not in page], [])
+
     def test_pages_programs_and_sources(self):
         page = self.folder/"keys.md"
         for gfb, text, status, words in ((os.environ["GFB"], None, 3, "No such file"), (os.environ["GFB"], "no place", 1, "no lines"),

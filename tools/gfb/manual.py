@@ -3,6 +3,7 @@
   gfb --keys       every key of a case file    docs/manual/keys.md
   gfb --results    every name of a result      docs/manual/results.md
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
+                   exit statuses               docs/manual/results.md
 
   --html           all pages as HTML that reads offline   build/manual/index.html
 
@@ -59,6 +60,8 @@ def main():
         return make_pages(options.html.resolve())
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
+    if not renew(gfb, "exit statuses", options.folder/"results.md", options.check, statuses_of(gfb)):
+        differ.append("exit statuses")
     differ += [path for path, content in made_of_help(gfb).items() if not renew_file(options.share/path, content, options.check)]
     if differ:
         stop(f"these are not those of gfb: {', '.join(differ)}; call tools/manual")
@@ -84,9 +87,22 @@ def renew_file(path, content, only_check):
     return not only_check
 
 
-def renew(gfb, name, path, only_check):
+def statuses_of(gfb):
+    """Table of the exit statuses that gfb --help names, with a comma between two of them."""
+    done = call([gfb, "--help"])
+    listed = re.search(r"^exit status: (.*)\Z", done.log, re.MULTILINE | re.DOTALL)
+    rows = listed and re.findall(r"(\d+(?: \+ N)?) (\D.*?)(?=, \d|$)", " ".join(re.sub(r"\(.*?\)", "", listed[1]).split()))
+    if done.status != 0 or not rows:
+        stop(f"{gfb} --help: no exit statuses; is it gfb?")
+    examples = re.findall(r"(\d+) by ([^\s,)]+)", listed[1])
+    more = "; " + ", ".join(f"{number}: by {signal}" for number, signal in examples) if examples else ""
+    return "| exit status | meaning |\n| ---: | --- |\n" + "".join(
+        f"| {status} | {meaning.strip()}{more if 'N' in status else ''} |\n" for status, meaning in rows)
+
+
+def renew(gfb, name, path, only_check, table=None):
     """Brings a page up to date, or shows how it differs; whether it is as it should be."""
-    text, table = path.read_text(encoding="utf-8"), table_of(gfb, name)
+    text, table = path.read_text(encoding="utf-8"), table or table_of(gfb, name)
     found = place_of(text, name, path)
     if table == found[0]:
         return True
