@@ -1,6 +1,7 @@
 """The page of tools/bench population: outcomes, their cost, second ways, the worst."""
 
 import statistics
+import textwrap
 
 from gfb.bench.population.members import MODELS
 from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, FALLING, LIGHTER, OUTCOMES, REFUSALS, RISING,
@@ -140,11 +141,16 @@ def shown_table(members, rows):
     return SHOWN, ["model", "refusal", *SECOND_WAYS], table
 
 
+def shortened(words, width):
+    """Words of a table's cell, not longer than this."""
+    return textwrap.shorten(words.replace("|", "/").rstrip(": "), width, placeholder=" ...")
+
+
 def worst_table(members, rows):
     """The most expensive runs."""
     order = sorted(zip(members, rows), key=lambda one: -one[1]["cpu"])[:WORST]
     return DEAR, ["member", "how it ended", "CPU [s]", "factorizations"], [
-        [f"{member.model} {member.name}", (row["reason"] or row["outcome"]).replace("|", "/")[:160], f"{row['cpu']:.1f}",
+        [f"{member.model} {member.name}", shortened(row["reason"] or row["outcome"], 160), f"{row['cpu']:.1f}",
          median(factorizations([row]), "{:.0f}")] for member, row in order]
 
 
@@ -153,5 +159,5 @@ def nameless_table(members, rows):
     some = [(member, row) for member, row in zip(members, rows)
             if row["outcome"] not in (ANSWER, *REFUSALS) or row["shown"] == AGAINST]
     return NAMELESS, ["member", "how it ended", "CPU [s]"], [
-        [f"{member.model} {member.name}", f"{row['outcome']}: {row['reason']}".replace("|", "/")[:240].rstrip(": "),
+        [f"{member.model} {member.name}", shortened(f"{row['outcome']}: {row['reason']}", 240),
          f"{row['cpu']:.1f}"] for member, row in some]
