@@ -50,7 +50,8 @@ COARSER = (  # which inputs, what is changed
     (r"gu2020_dynamics_amplitude", SHELLS | {"dynamics": {"vibration_amplitudes": (1.0e-7, 2.0e-6)}}),
     (r"gu2020_dynamics_foundation", FILM | {"dynamics": {"frequency_ratios": (0.5, 1.0)}}),
     (r"transient_(unbalance|run_up)", {"mesh": {"circumferential_elements": 48, "axial_elements": 6}, "transient": {"turns": 2, "steps_per_turn": 60}}),
-    (r"periodic_limit_cycles", {"mesh": {"circumferential_elements": 24, "axial_elements": 4}, "periodic": {"steps_per_turn": 20, "points": 3}}),
+    (r"periodic_limit_cycles", {"mesh": {"circumferential_elements": 24, "axial_elements": 4}, "periodic": {
+        "motion": "forced", "parameter": "unbalance", "unbalance": 1.0e-5, "final_value": 1.2e-5, "steps_per_turn": 20, "points": 1}}),
     (r"transient_drop", {"mesh": {"circumferential_elements": 48, "axial_elements": 6}, "transient": {"duration": 0.004, "steps_per_turn": 200}}),
     (r"transient_push_shell", SHELLS | {"transient": {"turns": 0.1, "steps_per_turn": 100}}),
     (r"random_bumps", {"mesh": {"axial_elements": 8}, "sample": {"count": 3}}),

@@ -42,7 +42,8 @@ def sizes_of(text, one):
         bearing = Bearing(**measures)
         ends = [f"{edge}_edge_lift{place}" for edge in ("leading", "trailing") for place in ("", "_edge")]
         return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | {
-            f"held_force_{axis}": bearing.force_unit for axis in "xy"}
+            f"held_force_{axis}": bearing.force_unit for axis in "xy"} | {
+            "largest_multiplier": 10.0}  # from differences of orbits that are 2e-6 apart
     works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
     if "maximum_deflection" not in one.summary:
         return {}

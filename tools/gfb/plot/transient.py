@@ -106,6 +106,7 @@ def draw_thinnest(chart, history, _):
     chart.plot(history["time"][least], MICRO*history["minimum_gap"][least], "v", color="C3", markersize=6,
                label=f"{MICRO*history['minimum_gap'][least]:.3g} um at {history['time'][least]:.4g} s")
     chart.set(xlabel="time [s]", ylabel="thinnest film [um]", ylim=(0.0, None))
+    chart.locator_params(axis="x", nbins=5)
     chart.set_title("thinnest film", fontsize=10)
     chart.legend(fontsize=8)
     chart.grid(alpha=0.3)
