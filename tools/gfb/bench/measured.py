@@ -1,0 +1,160 @@
+"""Load capacity and drag beside numbers measured by others: one strip and split strips, thin and thick top foils, preload.
+
+Capacity of a bearing of 34.9 x 43.7 mm from 20,000 to 68,000 rpm, shells, and its drag under light loads; the foils are those
+of [Gu2020], because those of the measured bearings were not published (ten to fifteen minutes).
+"""
+
+import math
+import pathlib
+import tempfile
+
+from gfb.run import run_file, write_case
+from gfb.tables import markdown_table, plain_table
+
+PAGE = pathlib.Path(__file__).resolve().parents[3]/"docs/measured/comparisons.md"
+RADIUS, LENGTH = 17.45e-3, 43.7e-3
+MEASURED = 537.0                                   # [N] at the last of the speeds, 353 kPa over D L
+SPEEDS = (20000.0, 36000.0, 68000.0)                # [rpm]
+DRAG_SPEEDS = (20000.0, 30000.0, 40000.0)
+DRAG_PRESSURES = (6.0e3, 2.0e4, 5.0e4)             # W/(D L) [Pa]
+SHEET = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "leading"}
+THIN, THICK, SOFT = 0.102e-3, 0.203e-3, 0.076e-3   # [m]
+SPLIT = {"strips": 3, "cut_width": 0.6e-3, "strip_thickness": (SOFT, THIN, SOFT)}
+VARIANTS = {  # words: rows, width of the middle ones over those at the edges, top foil, bump foil, free radius less the bore's [m]
+    "one strip, 16 rows": (16, 1.0, THIN, {"thickness": THIN}, 0.0),
+    "one strip, 16 rows, finer at the edges": (16, 4.0, THIN, {"thickness": THIN}, 0.0),
+    "one strip, top foil of 0.203 mm": (16, 4.0, THICK, {"thickness": THIN}, 0.0),
+    "three strips, softer at the edges": (18, 1.0, THIN, SPLIT, 0.0),
+    "three strips, softer at the edges, top foil of 0.203 mm": (18, 1.0, THICK, SPLIT, 0.0),
+    "one strip, pressed on its bumps at rest": (16, 4.0, THIN, {"thickness": THIN}, 110.0e-6),
+}
+HEAD = """# Measured numbers of others
+
+Written by `tools/bench measured --docs`.
+
+What was measured is load and speed; foils, clearances, gas and the film at which a test was stopped were not published, or not whole.
+So these lines show orders and trends, and rest on what is assumed: the sizes of the bearing, 34.9 mm in diameter and 43.7 mm long,
+are read from "43.7 x 34.9 mm" (which is which is not said); both foils are [Gu2020]'s, 0.102 mm, 23 bumps of a pitch of 4.572 mm that
+fit around it; clearance 31.8 um, friction 0.1, air of 1.85e-5 Pa s at 1.0135e5 Pa, one temperature; both foils are fixed at their leading
+edges, because the film draws a free leading edge up at 68,000 rpm; the load acts opposite the slit. Capacity is the
+load at which the smallest film is {gap:g} um, or where the branch ends before (marked *; *none*: no equilibrium from which to
+look for it). Nothing was fitted.
+"""
+LOADS = """
+## 353 kPa at 68,000 rpm (Heshmat, Shapiro and Gray, 1982)
+
+That is {measured:.0f} N. [N], and the film in the middle of the width at the limit of the last speed:
+
+{table}
+*over n*: W grows as speed^n between the first and the last speed; designers take 1 [DellaCorteValco2000].
+
+{said}
+"""
+DRAG = """
+## A drag coefficient of 0.04 from 20,000 to 40,000 rpm (San Andres and Chirathadam)
+
+Friction torque over W R of the bearing above, one strip:
+
+{table}
+It falls with the load and grows with the speed, as a film's does: a coefficient by itself says little without its load. Measured
+bearings rub, too, at start and where rows of bumps lift; these do not, once the film is there.
+"""
+
+
+def add_options(parser):
+    """The command's own options."""
+    parser.add_argument("--quick", action="store_true", help="planar beams, three variants, a coarse mesh (a minute)")
+    parser.add_argument("--docs", action="store_true", help="write docs/measured/comparisons.md")
+    parser.add_argument("--gap", type=float, default=1.0e-6, metavar="M", help="smallest film at the limit; default: %(default)s m")
+
+
+def run(options):
+    """Computes all lines; returns the tables, and writes the page where that is asked for."""
+    with tempfile.TemporaryDirectory() as folder:
+        answers = {}
+        for words, variant in list(VARIANTS.items())[:3 if options.quick else None]:
+            answers[words] = capacities(options, folder, *variant)
+            print(f"{words}:", *(f"{load:.0f}" for load, _, _ in answers[words]), "N", flush=True)
+        loads = load_table(answers)
+        drags = drag_table(options, folder)
+    if options.docs and not options.quick:
+        PAGE.write_text(HEAD.format(gap=options.gap*1.0e6)
+                        + LOADS.format(measured=MEASURED, table=markdown_table(*loads), said=said_of(answers))
+                        + DRAG.format(table=markdown_table(*drags)), encoding="utf-8")
+    return plain_table(*loads) + "\n" + plain_table(*drags)
+
+
+def groups_of(options, rows, finer, top, bumps, larger):
+    """A case's groups but for what is asked."""
+    return {
+        "bearing": {"radius": RADIUS, "length": LENGTH, "clearance": 31.8e-6},
+        "gas": {"viscosity": 1.85e-5, "ambient_pressure": 1.0135e5},
+        "top_foil": SHEET | {"thickness": top} | ({"free_radius": RADIUS + larger} if larger else {}),
+        "bump_foil": SHEET | {"half_length": 1.778e-3, "height": 0.508e-3, "pitch": 4.572e-3, "bumps": 23} | bumps,
+        "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
+        "model": {"foil": "beam" if options.quick else "shell"},
+        "mesh": {"axial_elements": 4 if options.quick else rows, "arc_elements": 6, "flat_elements": 2}
+        | ({"edge_refinement": finer} if finer > 1.0 else {}),
+        "output": {"fields": "none"},
+    }
+
+
+def capacities(options, folder, *variant):
+    """Load, whether it is at the limit, and the film in the middle there, speed by speed; as far as the sweep gets."""
+    groups = groups_of(options, *variant) | {
+        "scene": {"analysis": "load_capacity"}, "capacity": {"smallest_gap": options.gap},
+        "operation": {"speed_rpm": SPEEDS[-1], "load": (-120.0, 0.0)},
+        "sweep": {"parameter": "speed_rpm", "values": SPEEDS[::-1]}}
+    answer = run_file(options.gfb, write_case(folder, "capacity", groups), folder, 1, [], seconds=1800)
+    if answer.status not in (0, 2):
+        raise SystemExit(answer.log)
+    rows = answer.history()
+    found = list(zip(rows["load_capacity"], rows["limit_reached"], rows["minimum_gap_midplane"]))
+    return (found + [(math.nan, 0.0, math.nan)]*len(SPEEDS))[:len(SPEEDS)][::-1]
+
+
+def load_table(answers):
+    """A line a variant."""
+    heads = ["foils", "", *(f"{speed:,.0f} rpm" for speed in SPEEDS), "over measured", "n", "middle [um]"]
+    return "load capacity [N]", heads, [
+        [words, "", *(number(load, ".0f") + ("" if reached or math.isnan(load) else " *") for load, reached, _ in found),
+         number(found[-1][0]/MEASURED, ".2f"), number(exponent(found), ".2f"), number(1.0e6*found[-1][2], ".1f")]
+        for words, found in answers.items()]
+
+
+def number(value, form):
+    """A number of a table, or that there is none."""
+    return "none" if math.isnan(value) else f"{value:{form}}"
+
+
+def exponent(found):
+    """n of a load that grows as speed^n."""
+    return math.log(found[-1][0]/found[0][0])/math.log(SPEEDS[-1]/SPEEDS[0])
+
+
+def said_of(answers):
+    """What the lines say."""
+    parts = [found[-1][0]/MEASURED for found in answers.values() if not math.isnan(found[-1][0])]
+    powers = [exponent(found) for found in answers.values() if not math.isnan(exponent(found))]
+    order = sorted((words for words in answers if not math.isnan(answers[words][-1][0])), key=lambda words: answers[words][-1][0])
+    return (f"These bear {min(parts):.2f} to {max(parts):.2f} of what was measured, and their capacity grows as speed^{min(powers):.2f} to "
+            f"speed^{max(powers):.2f};\nleast is borne by *{order[0]}*, most by *{order[-1]}*.\n"
+            "The film is thinnest at the edges of the width, where the pressure falls and the bumps hold the foil up, while the middle\n"
+            "has reserve. What still differs: heat (a thin film is hot, and a hot gas is more viscous; shaft and foils grow), coatings\n"
+            "that wear in, the criterion (tests end where the torque rises or the shaft rubs, at films that nobody measured), and the\n"
+            "foils, which are not those of the test.")
+
+
+def drag_table(options, folder):
+    """A line a load."""
+    rows = []
+    for pressure in DRAG_PRESSURES:
+        load = pressure*2.0*RADIUS*LENGTH
+        groups = groups_of(options, 8, 1.0, THIN, {"thickness": THIN}, 0.0) | {
+            "scene": {"analysis": "equilibrium"}, "operation": {"speed_rpm": DRAG_SPEEDS[0], "load": (-load, 0.0)},
+            "sweep": {"parameter": "speed_rpm", "values": DRAG_SPEEDS}}
+        answer = run_file(options.gfb, write_case(folder, "drag", groups), folder, 1, [], seconds=1800)
+        torques = list(answer.history()["friction_torque"]) if answer.status in (0, 2) else []
+        torques += [math.nan]*(len(DRAG_SPEEDS) - len(torques))
+        rows.append([f"{pressure*1.0e-5:.2f} bar", f"{load:.1f} N", *(number(torque/(load*RADIUS), ".4f") for torque in torques)])
+    return "drag coefficient", ["W/(D L)", "W", *(f"{speed:,.0f} rpm" for speed in DRAG_SPEEDS)], rows
