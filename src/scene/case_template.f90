@@ -30,7 +30,11 @@ contains
     words = ''
     if (all(analysis_words /= analysis)) then
       near = nearest_word(analysis, analysis_words)
-      if (near /= '') near = ', did you mean '//near//'?'
+      if (near == '') then
+        near = '.'
+      else
+        near = ', did you mean '//near//'?'
+      end if
       call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//near// &
                 ' The analyses are '//join(analysis_words, ', '))
       return

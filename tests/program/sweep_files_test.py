@@ -38,7 +38,7 @@ def check_table(checks, answer, points):
     with h5py.File(f"{answer.stem}.h5") as file:
         history = file["history"]
         checks.that(f"{answer.stem.name}: the history's columns", set(names) == set(history))
-        checks.that(f"{answer.stem.name}: units", all(history[name].attrs["unit"].decode() == unit for name, unit in zip(names, units)))
+        checks.that(f"{answer.stem.name}: units", all(history[name].attrs["unit"] == unit for name, unit in zip(names, units)))
         checks.that(f"{answer.stem.name}: {points} points", len(rows) == points == len(history["converged"]))
         for name, column in zip(names, zip(*rows)):
             same = all(one == other or math.isnan(one) and math.isnan(other) for one, other in zip(column, history[name][...]))

@@ -51,9 +51,12 @@ def check_templates(checks, folder):
         group = (re.findall(r"^!?&(\w+)$", line) or [group])[0]
         named |= {(group, key) for key in re.findall(r"^!?  (?:! )?(\w+) = ?", line)}
     checks.that(f"equilibrium: all its keys are there {sorted(keys ^ named)}", named == keys)
-    for word, expected in (("strp", "did you mean strip?"), ("nonsense", "The analyses are equilibrium")):
+    for word, expected in (("strp", "did you mean strip?"), ("nonsense", "no such analysis. The analyses are equilibrium")):
         status, words, wrong = call("--template", word, folder=folder)
         checks.that(f"--template {word}: {expected}", status == 1 and expected in wrong and not words)
+    analyses = wrong.partition("The analyses are ")[2].strip().split(", ")
+    helped = re.findall(r"\w+", call("--help", folder=folder)[1].partition("; A: ")[2].partition("--explain")[0])
+    checks.that(f"--help: all {len(analyses)} analyses of --template", len(analyses) > 5 and helped == analyses)
 
 
 def check_explanations(checks, folder):

@@ -95,7 +95,7 @@ def steps_of(stem, surface):
         steps, fields = file["VTKHDF/Steps"], file["VTKHDF/FieldData"]
         assert steps.attrs["NSteps"] == len(steps["Values"])
         (name, data), = fields.items()
-        return path, data.attrs["unit"].decode(), list(steps["Values"]), (name, list(data))
+        return path, data.attrs["unit"], list(steps["Values"]), (name, list(data))
 
 
 def same(one, other):

@@ -2,6 +2,7 @@
 
   gfb --keys       every key of a case file    docs/manual/keys.md
   gfb --results    every name of a result      docs/manual/results.md
+                   what the files hold         docs/manual/result_files.md: found in small runs
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
                    exit statuses               docs/manual/results.md
 
@@ -58,10 +59,13 @@ def main():
         need_packages("sphinx", "myst_parser")
         from gfb.html.main import make_pages  # what else tools/manual does needs no Sphinx
         return make_pages(options.html.resolve())
+    from gfb.layout import layout_tables  # needs xarray, which the help does without
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
     if not renew(gfb, "exit statuses", options.folder/"results.md", options.check, statuses_of(gfb)):
         differ.append("exit statuses")
+    if not renew(gfb, "result files", options.folder/"result_files.md", options.check, layout_tables(gfb)):
+        differ.append("result files")
     differ += [path for path, content in made_of_help(gfb).items() if not renew_file(options.share/path, content, options.check)]
     if differ:
         stop(f"these are not those of gfb: {', '.join(differ)}; call tools/manual")

@@ -108,7 +108,7 @@ def read_json(path, *names):
 
 def text_of(value):
     """A text from an HDF5 file."""
-    return value.decode() if isinstance(value, bytes) else str(value)
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
 def attribute(data, name):

@@ -3,8 +3,6 @@
 import re
 
 OPTION = re.compile(r"^  (--[a-z-]+)(?: ([A-Z]+))? {2,}(\S.*)$")
-ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
-            "misalignment_allowance")
 
 
 def options_of(text):
@@ -22,6 +20,12 @@ def options_of(text):
     return found
 
 
+def analyses_of(options):
+    """The analyses that the meaning of --template lists, a blank between two."""
+    meaning = next(meaning for name, _, meaning in options if name == "--template")
+    return meaning.partition("; A: ")[2].replace(",", "")
+
+
 def bash(options):
     """Completion for bash."""
     names = " ".join(name for name, _, _ in options)
@@ -30,7 +34,7 @@ _gfb() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
   case $before in
     --output) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
-    --template) mapfile -t COMPREPLY < <(compgen -W '{" ".join(ANALYSES)}' -- "$word"); return ;;
+    --template) mapfile -t COMPREPLY < <(compgen -W '{analyses_of(options)}' -- "$word"); return ;;
     {"|".join(name for name, value, _ in options if value and name not in ("--output", "--template"))}) return ;;
   esac
   if [[ $word == -* ]]; then
@@ -48,7 +52,7 @@ def zsh(options):
     lines = []
     for name, value, meaning in options:
         words = re.sub(r"[\[\]':]", " ", meaning)
-        action = {"--output": ":folder:_files -/", "--template": f":analysis:({' '.join(ANALYSES)})"}.get(name, f":{value}:" if value else "")
+        action = {"--output": ":folder:_files -/", "--template": f":analysis:({analyses_of(options)})"}.get(name, f":{value}:" if value else "")
         lines.append(f"  '{name}[{words}]{action}' \\\n")
     return ("#compdef gfb\n# zsh completion of gfb, written by tools/manual from gfb --help\n_arguments \\\n" + "".join(lines)
             + "  '--petsc[all that follows is for PETSc]:*:::options: ' \\\n  '*:case file:_files -g \"*.nml\"'\n")
@@ -59,7 +63,7 @@ def fish(options):
     lines = ["# fish completion of gfb, written by tools/manual from gfb --help\n"]
     for name, value, meaning in options:
         words = meaning.replace("\\", "").replace("'", "\\'")
-        more = {"--output": " -x -a '(__fish_complete_directories)'", "--template": f" -x -a '{' '.join(ANALYSES)}'"}
+        more = {"--output": " -x -a '(__fish_complete_directories)'", "--template": f" -x -a '{analyses_of(options)}'"}
         lines.append(f"complete -c gfb -l {name[2:]}{more.get(name, ' -x' if value else '')} -d '{words}'\n")
     return "".join(lines)
 

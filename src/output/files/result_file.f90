@@ -4,7 +4,7 @@
 !> writes it with a checksum under a temporary name; it takes its own when it is whole. Every
 !> dataset has a unit and a meaning.
 module gfb_result_file
-  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_null_ptr, c_int8_t, c_char
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_null_ptr, c_int8_t
   use hdf5
   use mpi, only: MPI_INTEGER, MPI_Bcast
   use gfb_kinds, only: wp, long
@@ -12,6 +12,7 @@ module gfb_result_file
   use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
                           error_words
   use gfb_rank_parts, only: gather_parts, share_truth
+  use gfb_hdf5_text, only: text_kind, write_texts, write_text_attribute, write_fixed_attribute
   implicit none (type, external)
   private
   public :: open_result_file, close_result_file, drop_result_file, keep_result_file
@@ -164,20 +165,16 @@ contains
   subroutine put_text(self, path, words, meaning)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path, words, meaning !! where it goes; the text; a sentence
-    character(kind=c_char, len=:), allocatable, target :: buffer
     integer(hid_t) :: kind, space, dataset
     integer :: status
 
     if (.not. self%first_rank) return
-    buffer = words
-    if (len(buffer) == 0) buffer = ' '
-    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
-    call h5tset_size_f(kind, int(len(buffer), size_t), status)
+    call text_kind(kind, status)
     call h5screate_f(H5S_SCALAR_F, space, status)
     call h5dcreate_f(self%file, path, kind, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, '', meaning)
-    call h5dwrite_f(dataset, kind, c_loc(buffer(1:1)), status)
+    call write_texts(dataset, kind, [words], status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, status)
     call h5sclose_f(space, status)
@@ -190,15 +187,19 @@ contains
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=*), intent(in) :: words(:) !! blank-padded
     character(len=*), intent(in) :: meaning !! a sentence
-    character(kind=c_char, len=len(words)), target :: buffer(max(1, size(words)))
-    integer(hid_t) :: kind
+    integer(hid_t) :: kind, space, dataset
     integer :: status
 
     if (.not. self%first_rank) return
-    buffer(:size(words)) = words
-    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
-    call h5tset_size_f(kind, int(max(1, len(words)), size_t), status)
-    call self%put_whole(path, kind, c_loc(buffer), 1, size(words), '', meaning)
+    call text_kind(kind, status)
+    call h5screate_simple_f(1, [size(words, kind=hsize_t)], space, status)
+    call h5dcreate_f(self%file, path, kind, space, dataset, status)
+    if (status /= 0) self%failed = .true.
+    call self%describe(dataset, '', meaning)
+    if (size(words) > 0) call write_texts(dataset, kind, words, status)
+    if (status /= 0) self%failed = .true.
+    call h5dclose_f(dataset, status)
+    call h5sclose_f(space, status)
     call h5tclose_f(kind, status)
   end subroutine put_words
 
@@ -339,7 +340,7 @@ contains
     call write_text_attribute(dataset, 'meaning', meaning, self%failed)
   end subroutine describe
 
-  !> Adds a text attribute to a group.
+  !> Adds a text attribute to a group, of fixed length as VTKHDF wants it.
   subroutine mark_text(self, group, name, words)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: group, name, words !! of the file; the attribute and its text
@@ -348,7 +349,7 @@ contains
 
     if (.not. self%first_rank) return
     call h5gopen_f(self%file, group, object, status)
-    call write_text_attribute(object, name, words, self%failed)
+    call write_fixed_attribute(object, name, words, self%failed)
     call h5gclose_f(object, status)
   end subroutine mark_text
 
@@ -374,26 +375,4 @@ contains
     call h5sclose_f(space, status)
     call h5gclose_f(object, status)
   end subroutine mark_longs
-
-  !> Writes a fixed-length text attribute.
-  subroutine write_text_attribute(object, name, words, failed)
-    integer(hid_t), intent(in) :: object
-    character(len=*), intent(in) :: name, words
-    logical, intent(inout) :: failed
-    character(kind=c_char, len=:), allocatable, target :: buffer
-    integer(hid_t) :: kind, space, attribute
-    integer :: status
-
-    buffer = words
-    if (len(buffer) == 0) buffer = ' '
-    call h5tcopy_f(H5T_FORTRAN_S1, kind, status)
-    call h5tset_size_f(kind, int(len(buffer), size_t), status)
-    call h5screate_f(H5S_SCALAR_F, space, status)
-    call h5acreate_f(object, name, kind, space, attribute, status)
-    call h5awrite_f(attribute, kind, c_loc(buffer(1:1)), status)
-    if (status /= 0) failed = .true.
-    call h5aclose_f(attribute, status)
-    call h5sclose_f(space, status)
-    call h5tclose_f(kind, status)
-  end subroutine write_text_attribute
 end module gfb_result_file

@@ -1,11 +1,12 @@
 !> An HDF5 file that all ranks read, each what it needs, once its checksum was found to fit.
 module gfb_stored_file
-  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_char
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
   use hdf5
   use mpi, only: MPI_CHARACTER, MPI_Bcast
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
   use gfb_file_set, only: check_seal
+  use gfb_hdf5_text, only: read_text
   implicit none (type, external)
   private
   public :: open_stored_file, close_stored_file
@@ -90,10 +91,7 @@ contains
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=:), allocatable :: words
-    character(kind=c_char, len=:), allocatable, target :: buffer
-    type(c_ptr) :: address
-    integer(hid_t) :: dataset, kind
-    integer(size_t) :: length
+    integer(hid_t) :: dataset
     integer :: status, ignored
 
     words = ''
@@ -102,16 +100,7 @@ contains
       self%failed = .true.
       return
     end if
-    call h5dget_type_f(dataset, kind, status)
-    length = 0
-    if (status == 0) call h5tget_size_f(kind, length, status)
-    if (status == 0) then
-      allocate (character(len=length) :: buffer)
-      address = c_loc(buffer(1:1))
-      call h5dread_f(dataset, kind, address, status)
-      if (status == 0) words = buffer
-      call h5tclose_f(kind, ignored)
-    end if
+    call read_text(dataset, words, status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, ignored)
   end function words

@@ -113,7 +113,8 @@ contains
       do k = 1, many
         rows(:, k) = aimag(self%orbit(k)%multiplier)
       end do
-      call fill_array('/periodic/multipliers_imaginary', '1', 'the same, imaginary part', rows, &
+      call fill_array('/periodic/multipliers_imaginary', '1', &
+                    'largest Floquet multipliers, imaginary part', rows, &
         one(1))
       call add_arrays(arrays, one)
       deallocate (rows)

@@ -1,13 +1,14 @@
 !> Reads HDF5 files back by HDF5's own C functions, apart from those that wrote them.
 module hdf5_reader
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int8_t, c_int64_t, c_loc, &
-                                         c_null_char, c_ptr
+                                         c_null_char, c_ptr, c_f_pointer, c_size_t
   use gfb_kinds, only: wp, long
   implicit none (type, external)
   private
   public :: numbers_of, longs_of, text_of, attribute_of
 
   integer(c_int), parameter :: ascending = 1 !! H5T_DIR_ASCEND
+  integer(c_int), parameter :: utf8 = 1      !! H5T_CSET_UTF8
 
   interface
     function h5f_open(name, flags, access) bind(c, name='H5Fopen') result(file)
@@ -103,6 +104,27 @@ module hdf5_reader
       integer(c_int) :: status
     end function h5a_read
 
+    function h5t_is_variable(kind) bind(c, name='H5Tis_variable_str') result(answer)
+      import :: c_int, c_int64_t
+      implicit none (type, external)
+      integer(c_int64_t), value :: kind
+      integer(c_int) :: answer
+    end function h5t_is_variable
+
+    function h5t_letters(kind) bind(c, name='H5Tget_cset') result(letters)
+      import :: c_int, c_int64_t
+      implicit none (type, external)
+      integer(c_int64_t), value :: kind
+      integer(c_int) :: letters
+    end function h5t_letters
+
+    pure function strlen(words) bind(c, name='strlen') result(length)
+      import :: c_ptr, c_size_t
+      implicit none (type, external)
+      type(c_ptr), value :: words
+      integer(c_size_t) :: length
+    end function strlen
+
     function h5a_close(attribute) bind(c, name='H5Aclose') result(status)
       import :: c_int, c_int64_t
       implicit none (type, external)
@@ -169,39 +191,71 @@ contains
     done = h5d_read(dataset, kind, 0_c_int64_t, 0_c_int64_t, 0_c_int64_t, buffer) >= 0
   end function read_native
 
-  !> Text of a dataset.
+  !> Text of a dataset; a word of complaint where it is not UTF-8 of variable length.
   function text_of(path, name) result(words)
     character(len=*), intent(in) :: path !! of the file
     character(len=*), intent(in) :: name !! of the dataset
     character(len=:), allocatable :: words
-    character(kind=c_char, len=:), allocatable, target :: buffer
+    type(c_ptr), target :: place(1)
     integer(c_int64_t) :: file, dataset
     integer(c_int) :: status
 
     file = h5f_open(path//c_null_char, 0_c_int, 0_c_int64_t)
     dataset = h5d_open(file, name//c_null_char, 0_c_int64_t)
-    allocate (character(len=h5d_bytes(dataset)) :: buffer)
-    status = h5d_read(dataset, h5d_type(dataset), 0_c_int64_t, 0_c_int64_t, 0_c_int64_t, &
-                      c_loc(buffer(1:1)))
-    words = buffer
+    words = 'not UTF-8 of variable length'
+    if (is_variable(h5d_type(dataset))) then
+      status = h5d_read(dataset, h5d_type(dataset), 0_c_int64_t, 0_c_int64_t, 0_c_int64_t, &
+                        c_loc(place))
+      words = letters_at(place(1))
+    end if
     status = h5d_close(dataset)
     status = h5f_close(file)
   end function text_of
 
-  !> A text attribute of a dataset or group.
+  !> Whether a type is text of variable length in UTF-8.
+  function is_variable(kind) result(variable)
+    integer(c_int64_t), intent(in) :: kind
+    logical :: variable
+
+    variable = h5t_is_variable(kind) > 0
+    if (variable) variable = h5t_letters(kind) == utf8
+  end function is_variable
+
+  !> A text of C.
+  function letters_at(place) result(words)
+    type(c_ptr), intent(in) :: place
+    character(len=:), allocatable :: words
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i
+
+    call c_f_pointer(place, letters, [strlen(place)])
+    allocate (character(len=size(letters)) :: words)
+    do i = 1, size(letters)
+      words(i:i) = letters(i)
+    end do
+  end function letters_at
+
+  !> A text attribute of a dataset or group; `Type` has a fixed length.
   function attribute_of(path, name, key) result(words)
     character(len=*), intent(in) :: path      !! of the file
     character(len=*), intent(in) :: name, key !! of dataset or group, and attribute
     character(len=:), allocatable :: words
     character(kind=c_char, len=:), allocatable, target :: buffer
+    type(c_ptr), target :: place(1)
     integer(c_int64_t) :: file, attribute
     integer(c_int) :: status
 
     file = h5f_open(path//c_null_char, 0_c_int, 0_c_int64_t)
     attribute = h5a_open(file, name//c_null_char, key//c_null_char, 0_c_int64_t, 0_c_int64_t)
-    allocate (character(len=h5a_bytes(attribute)) :: buffer)
-    status = h5a_read(attribute, h5a_type(attribute), c_loc(buffer(1:1)))
-    words = buffer
+    if (is_variable(h5a_type(attribute))) then
+      status = h5a_read(attribute, h5a_type(attribute), c_loc(place))
+      words = letters_at(place(1))
+    else
+      allocate (character(len=h5a_bytes(attribute)) :: buffer)
+      status = h5a_read(attribute, h5a_type(attribute), c_loc(buffer(1:1)))
+      words = buffer
+      if (key /= 'Type') words = 'not UTF-8 of variable length'
+    end if
     status = h5a_close(attribute)
     status = h5f_close(file)
   end function attribute_of
