@@ -7,9 +7,8 @@ import tempfile
 import h5py
 
 from gfb.case import Case
-from gfb.door import run
 from gfb.results import text_of
-from gfb.tool import stop
+from gfb.run import run_case
 
 NAMED = ("summary", "history", "provenance")  # groups whose names are those of `gfb --results`
 SAMPLE = {"bump_foil%height_deviation": 1.0e-7, "bump_foil%seed": 1, "sample%count": 2, "model%foil": "beam"}
@@ -26,9 +25,7 @@ def layout(gfb):
             case = Case.template(analysis, gfb)
             for key, value in changes.items():
                 case[key] = value
-            answer = run(case, folder, f"run{number}", gfb=gfb)
-            if not answer.converged:
-                stop(f"the template of {analysis} has no answer:\n{answer.log}")
+            run_case(gfb, case.groups, folder, f"run{number}")
             for path in sorted(pathlib.Path(folder).glob(f"run{number}.*")):
                 if path.suffix in (".h5", ".vtkhdf"):
                     kind, part = kind_of(path)

@@ -18,6 +18,7 @@ import pathlib
 import re
 import sys
 
+from gfb.layout import layout_tables
 from gfb.run import call, find_gfb
 from gfb.shell import pages
 from gfb.tool import ROOT, need_packages, stop
@@ -59,7 +60,6 @@ def main():
         need_packages("sphinx", "myst_parser")
         from gfb.html.main import make_pages  # what else tools/manual does needs no Sphinx
         return make_pages(options.html.resolve())
-    from gfb.layout import layout_tables  # needs xarray, which the help does without
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
     if not renew(gfb, "exit statuses", options.folder/"results.md", options.check, statuses_of(gfb)):
