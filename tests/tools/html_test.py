@@ -73,7 +73,10 @@ class HtmlTest(unittest.TestCase):
         self.assertGreater(len(modules), 200)
         self.assertEqual([name for name in sorted(modules) if not (self.folder/f"api/module/{name}.html").exists()], [])
         page = (self.folder/"api/module/gfb_contact_law.html").read_text(encoding="utf-8")
-        self.assertNotIn("cdn.jsdelivr.net/npm/mathjax", page)
+        for path in (self.folder/"api").rglob("*.html"):
+            loaded = Page(path).loaded
+            self.assertEqual([name for name in loaded if "://" in name], [], f"{path} needs the net")
+            self.assertEqual([name for name in loaded if "bootstrap" in name and not (path.parent/name).exists()], [], path)
         self.assertIn("../../_static/mathjax/MathJax.js", page)
         self.assertIn('href="../api/index.html"', (self.folder/"docs/README.html").read_text(encoding="utf-8"))
 

@@ -15,6 +15,9 @@ MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # What TeX drawn as SVG takes.
 PARTS = ("MathJax.js", "config/TeX-AMS_SVG.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/SVG/autoload",
          "jax/output/SVG/jax.js", "jax/output/SVG/config.js", "jax/output/SVG/fonts/TeX")
+BOOTSTRAP = pathlib.Path("/usr/share/javascript/bootstrap5")  # the style of FORD's pages
+BOOTSTRAP_PARTS = ("css/bootstrap.min.css", "js/bootstrap.bundle.min.js")
+BOOTSTRAP_OF_FORD = re.compile(r'(src|href)="https://[^"]*/((?:css|js)/bootstrap[^"/]*\.min\.(?:css|js))"((?: rel="stylesheet")?)[^>]*>')
 MATHJAX_OF_FORD = re.compile(r'<script src="https://[^"]*/MathJax\.js\?[^>]*></script>')
 START = '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>gfb</title><meta http-equiv="refresh" content="0; url=docs/README.html">\n'
 
@@ -25,8 +28,10 @@ def make_pages(folder):
         stop(f"{MATHJAX} is missing; with apt:\n  apt-get install libjs-mathjax", 3)
     if folder.exists() and any(folder.iterdir()) and not (folder/"objects.inv").exists():
         stop(f"{folder}: holds something else than pages of the manual")
-    shutil.rmtree(folder, ignore_errors=True)
     ford = find_ford()
+    if ford and not BOOTSTRAP.exists():
+        stop(f"{BOOTSTRAP} is missing, the style of FORD's pages; with apt:\n  apt-get install libjs-bootstrap5", 3)
+    shutil.rmtree(folder, ignore_errors=True)
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{folder}.doctrees", "-c", str(HERE),
                str(ROOT), str(folder)]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
@@ -56,13 +61,16 @@ def find_ford():
 
 
 def make_modules(ford, folder):
-    """Pages of all modules, with the MathJax of the others."""
+    """Pages of all modules, with the MathJax of the others and a style sheet beside it: nothing comes from the net."""
     done = subprocess.run([*ford, "--output_dir", str(folder), str(HERE/"ford.md")], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           check=False)
     if done.returncode != 0 or not (folder/"index.html").exists():
         stop(f"FORD complains:\n{(done.stdout + done.stderr).strip()[-2000:]}")
+    for part in BOOTSTRAP_PARTS:
+        (folder/part).parent.mkdir(exist_ok=True)
+        shutil.copyfile(BOOTSTRAP/part, folder/part)
     for page in folder.rglob("*.html"):
-        root = "../"*(len(page.relative_to(folder).parts))
+        root = "../"*(len(page.relative_to(folder).parts) - 1)
         text = page.read_text(encoding="utf-8")
-        page.write_text(MATHJAX_OF_FORD.sub(f'<script src="{root}_static/mathjax/MathJax.js?config=TeX-AMS_SVG" async></script>', text),
-                        encoding="utf-8")
+        text = MATHJAX_OF_FORD.sub(f'<script src="{root}../_static/mathjax/MathJax.js?config=TeX-AMS_SVG" async></script>', text)
+        page.write_text(BOOTSTRAP_OF_FORD.sub(rf'\1="{root}\2"\3>', text), encoding="utf-8")
