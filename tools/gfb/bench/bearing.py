@@ -1,5 +1,5 @@
 """A foil bearing with friction: monolithic against partitioned, reduced against full order, half against full width,
-shells against beams.
+shells against beams; and other bearings with the same model: three pads, three strips side by side.
 
 The bearing of inputs/gu2020_bearing.nml is solved from a cold start at the first load, then at the other loads of a
 sweep, each point from its neighbour. Film, contacts and tolerances are the same in all models, the mesh is the
@@ -27,7 +27,7 @@ CASE = {  # inputs/gu2020_bearing.nml
                   "fixed_line": "half_flat"},
     "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
 }
-FIRST_LOAD, STEP = 100.0, 5.0  # of the sweep [N]
+STEP = 5.0  # of the sweep [N]
 DEFAULT = "shells, reduced, half width"
 MODELS = {  # foil, reduction (beams have none), half_width, coupling
     DEFAULT: ("shell", "guyan", "yes", "monolithic"),
@@ -37,6 +37,12 @@ MODELS = {  # foil, reduction (beams have none), half_width, coupling
     "  full order, full width": ("shell", "none", "no", "monolithic"),
     "beams": ("beam", None, "yes", "monolithic"),
     "  beams, partitioned": ("beam", None, "yes", "partitioned"),
+}
+OTHERS = {  # other bearings, with the default model: what is changed in the case; None takes a key away
+    # under a load that leaves about the same film
+    "three pads, preload 0.3": {"operation": {"load": (-60.0, 0.0)}, "pads": {"count": 3, "arc": 2.0, "preload": 0.3,
+                                "preload_offset": 0.5}, "bump_foil": {"bumps": 8, "pitch": None}},
+    "three strips side by side": {"bump_foil": {"strips": 3, "cut_width": 0.5e-3}},
 }
 COLD_ONLY = "  full order, full width"  # no sweep: it would take as long as all others
 
@@ -58,8 +64,8 @@ def add_options(parser):
     parser.add_argument("--repetitions", metavar="N", type=int, default=1,
                         help="runs of each model; default: %(default)s")
     parser.add_argument("--points", metavar="N", type=int, default=20, help="of the sweep; default: %(default)s")
-    parser.add_argument("--models", metavar="N", type=int, default=len(MODELS), choices=range(1, len(MODELS) + 1),
-                        help="only the first N of the models")
+    parser.add_argument("--models", metavar="N", type=int, default=len(MODELS) + len(OTHERS),
+                        choices=range(1, len(MODELS) + len(OTHERS) + 1), help="only the first N of the models and other bearings")
 
 
 def run(options):
@@ -68,7 +74,7 @@ def run(options):
         stop("--repetitions: at least 1")
     if options.points < 2:
         stop("--points: at least 2")
-    measured = {model: [] for model in list(MODELS)[:options.models]}
+    measured = {model: [] for model in [*MODELS, *OTHERS][:options.models]}
     with tempfile.TemporaryDirectory() as folder:
         start = start_time(options.gfb)
         for _ in range(options.repetitions):  # round all models, so that a slow minute hits all
@@ -78,7 +84,7 @@ def run(options):
     draw(measured, options.output/"bearing.png")
     tables = [cold_table(measured), sweep_table(measured), part_table(measured)]
     (options.output/"bearing.md").write_text("\n".join(markdown_table(*table) for table in tables), encoding="utf-8")
-    head = (f"bearing of [Gu2020] section 4.2, {FIRST_LOAD:g} N cold, then {options.points - 1} points {STEP:g} N "
+    head = (f"bearing of [Gu2020] section 4.2, 100 N cold (three pads: 60 N), then {options.points - 1} points {STEP:g} N "
             f"apart; 30,000 rpm, one rank\nmedians of {options.repetitions} runs of each model; CPU: the whole "
             f"process; MPI's start alone ('gfb --version') takes {start:.2f} s\n")
     return head + "".join("\n" + plain_table(*table) for table in tables) + notes(measured)
@@ -88,11 +94,14 @@ def run(options):
 
 def bearing_case(model, points):
     """The case file's groups."""
-    foil, reduction, half_width, coupling = MODELS[model]
-    return {**CASE,
+    foil, reduction, half_width, coupling = MODELS.get(model, MODELS[DEFAULT])
+    changes = OTHERS.get(model, {})
+    groups = {name: {**CASE.get(name, {}), **changes.get(name, {})} for name in {**CASE, **changes}}
+    first = -groups["operation"]["load"][0]
+    return {**{name: {key: value for key, value in keys.items() if value is not None} for name, keys in groups.items()},
             "model": {"foil": foil, **({"reduction": reduction} if reduction else {}), "half_width": half_width,
                       "coupling": coupling},
-            "sweep": {"parameter": "load", "values": [FIRST_LOAD + STEP*point for point in range(points)]}}
+            "sweep": {"parameter": "load", "values": [first + STEP*point for point in range(points)]}}
 
 
 def measure(gfb, model, points, folder):
@@ -160,6 +169,11 @@ def cold_cpu(one):
     return one["cpu"]["cold"]
 
 
+def unknown_cpu(one):
+    """The same an unknown [s]."""
+    return cold_cpu(one)/one["summary"]["unknowns"]
+
+
 def point_cpu(one):
     """CPU time of a point of the sweep [s]."""
     return one["cpu"]["sweep"]/max(1, one["points"] - 1)
@@ -190,16 +204,18 @@ def cold_table(measured):
         found = first["points"] > 0
         rows.append([model.strip(), "" if found else "no answer", f"{first['summary']['unknowns']:,.0f}",
                      f"{median_of(runs, cold_cpu):.2f}", f"{ratio(measured, model, cold_cpu):.2f}",
+                     f"{ratio(measured, model, unknown_cpu):.2f}",
                      f"{(history['newton_iterations'][0] if found else first['summary']['newton_iterations']):.0f}",
                      f"{(history['factorizations'][0] if found else first['summary']['factorizations']):.0f}",
                      f"{first['solves']:.0f}", f"{1e3*median_of(runs, lambda one: one['factorization']):.0f}",
                      f"{median_of(runs, lambda one: one['summary']['peak_memory'])/1e6:.0f}",
                      f"{history['minimum_gap'][0]*1e6:.3f}" if found else "",
-                     "" if model == DEFAULT or not found else f"{difference(measured, model):.0e}"])
-    heads = ["cold start", "", "unknowns", "CPU [s]", "ratio", "Newton iterations", "factorizations",
+                     "" if model in (DEFAULT, *OTHERS) or not found else f"{difference(measured, model):.0e}"])
+    heads = ["cold start", "", "unknowns", "CPU [s]", "ratio", "ratio an unknown", "Newton iterations", "factorizations",
              "triangular solves", "one factorization [ms]", "memory [MB]", "minimum gap [um]", "difference"]
-    return ("CPU: of a run without a sweep; ratio: over the default model's; difference: largest from that model in\n"
-            "the shaft's position at all points, over C", heads, rows)
+    return ("CPU: of a run without a sweep; ratio: over the default model's; ratio an unknown: the same of the CPU time\n"
+            "over unknowns; difference: largest from that model in the shaft's position at all points, over C",
+            heads, rows)
 
 
 def sweep_table(measured):
@@ -243,7 +259,9 @@ def notes(measured):
         return "\nthe default model found no answer\n"
     factors = spent(one, "factorizations")
     within = sum(count <= AIMS["point"] for count in factors[1:])
-    return (f"\n{DEFAULT}: {factors[0]:.0f} factorizations cold (aim: {AIMS['cold']}); {within} of {len(factors) - 1} "
+    others = "".join(f"; {model}: {spent(measured[model][0], 'factorizations')[0]:.0f}" for model in OTHERS
+                     if model in measured and measured[model][0]["points"] > 0)
+    return (f"\n{DEFAULT}: {factors[0]:.0f} factorizations cold (aim: {AIMS['cold']}{others}); {within} of {len(factors) - 1} "
             f"points within {AIMS['point']} factorizations\n  of each point: "
             + " ".join(f"{count:.0f}" for count in factors[1:]) + "\n")
 
