@@ -28,6 +28,8 @@ FOILS = {
                   "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "trailing", "fixed_line": "half_flat"},
     "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
 }
+BEARING_30 = {"radius": 15.0e-3, "length": 30.0e-3, "clearance": 25.0e-6}  # an engineer's, 30 mm
+FOIL_30 = {"thickness": 0.1e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "trailing"}
 BEAMS = {"model": {"foil": "beam"}, "mesh": (52, 4)} | FOILS
 ROUGH = {"shaft_contact": {"roughness": 0.4e-6, "pressure": 5.0e7}}
 
@@ -149,6 +151,21 @@ def check_ends(checks, folder):
         checks.that(f"no limit: {words}", "no limit found: " in log and words in log)
 
 
+def check_suction(checks, folder):
+    """Where the film draws the free edge to the shaft the branch is lost without a fold: the search names it, and a plain
+    equilibrium at a load a tenth above ends for the same reason."""
+    def content(analysis, load, **groups):
+        return case(analysis, model={"foil": "beam"}, mesh=(104, 4), speed_rpm=80000.0, bearing=BEARING_30, top_foil=FOIL_30,
+                    bump_foil={**FOIL_30, "half_length": 1.4e-3, "height": 0.45e-3, "pitch": 3.6e-3, "bumps": 26},
+                    contact=FOILS["contact"], operation={"speed_rpm": 80000.0, "load": (0.0, -load)}, **groups)
+
+    reason = "the film draws the free edge of the top foil to the shaft"
+    end = solve(folder, "drawn", content("load_capacity", 40.0, capacity={"smallest_gap": GAP_4}))
+    checks.that("suction: told by the search", end["limit_reached"] == "false" and f"a little beyond {reason}" in end.log)
+    over = solve(folder, "over", content("equilibrium", 1.1*end["load_capacity"]), status=2)
+    checks.that("suction: told by an equilibrium beyond", reason in over.log)
+
+
 def check_lift_off(checks, folder):
     """From a high speed, from a low one, plain equilibria on both sides."""
     def lifted(speed):
@@ -231,7 +248,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for check in (check_capacity, check_beams, check_similarity, check_pads, check_ends, check_lift_off, check_misalignment,
+        for check in (check_capacity, check_beams, check_similarity, check_pads, check_ends, check_suction, check_lift_off, check_misalignment,
                       check_sweeps, check_pieces, check_meshes):
             check(checks, folder)
     checks.close()

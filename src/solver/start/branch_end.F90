@@ -15,14 +15,14 @@ module gfb_branch_end
   use gfb_edge_heights, only: has_free_edge, ask_edge
   implicit none (type)
   private
-  public :: follow_branch, path_settings_type, path_report_type
+  public :: follow_branch, ask_beyond, path_settings_type, path_report_type
 
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
 contains
 
-  !> Follows a branch; where no step leads on and nothing tells why, the free edge is fixed, the target reached with it,
-  !> and the edge's force asked there. On return the state is the branch's last answer.
+  !> Follows a branch; where no step leads on and nothing tells why, asks at the target. On return the state is the
+  !> branch's last answer.
   subroutine follow_branch(scene, bearing, newton, target, settings, report)
     type(scene_type), target, intent(in) :: scene !! what is asked for
     type(bearing_system_type), target, intent(inout) :: bearing !! at an answer
@@ -30,30 +30,33 @@ contains
     type(operating_point_type), intent(in) :: target !! where the branch is to lead
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(path_report_type), intent(out) :: report !! how far it led
-    logical :: asks
 
     call follow_path(bearing, newton, target, 1.0_wp, settings, report)
-    asks = .not. (report%converged .or. report%has_cause()) .and. bearing%floats .and. .not. bearing%shaft_fixed
-    if (asks) asks = bearing%pad(1)%foil%has_contacts()
-    if (asks) asks = has_free_edge(bearing)
-    if (asks) asks = .not. stop_agreed()
-    if (asks) call ask_beyond(scene, bearing, newton, target, settings, report)
+    if (.not. report%converged) then
+      call ask_beyond(scene, bearing, newton, target, 'at the value asked for', settings, report)
+    end if
   end subroutine follow_branch
 
-  !> Adds to a report what happens to the free edge at the target.
-  subroutine ask_beyond(scene, bearing, newton, target, settings, report)
-    type(scene_type), target, intent(in) :: scene
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(inout) :: report
+  !> Adds to the report of a path that ended without a cause what happens beyond its end: the free edge is fixed, the
+  !> target reached with it, and the edge's force asked there. The state stays the branch's last answer.
+  subroutine ask_beyond(scene, bearing, newton, target, where, settings, report)
+    type(scene_type), target, intent(in) :: scene !! what is asked for
+    type(bearing_system_type), target, intent(inout) :: bearing !! at the branch's last answer
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: target !! beyond the end
+    character(len=*), intent(in) :: where !! the target in words: 'at ...'
+    type(path_settings_type), intent(in) :: settings !! limits of paths
+    type(path_report_type), intent(inout) :: report !! of the path that ended; its reason becomes longer
     type(start_problem_type) :: problem
     type(path_report_type) :: beyond
     type(kept_state_type) :: last
     logical :: ends
 
-    call newton%log%detail('the branch is lost: its free edge is fixed, and asked at the target')
+    if (report%has_cause() .or. .not. bearing%floats .or. bearing%shaft_fixed) return
+    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    if (.not. has_free_edge(bearing)) return
+    if (stop_agreed()) return
+    call newton%log%detail('the branch is lost: its free edge is fixed, and asked '//where)
     call last%keep(bearing)
     problem%scene => scene
     problem%target = target
@@ -61,10 +64,11 @@ contains
     problem%bearing => bearing
     problem%newton => newton
     call ask_edge(problem, beyond, ends)
+    report%drawn = ends
     if (ends) then
-      report%reason = report%reason//'; at the value asked for '//beyond%reason
+      report%reason = report%reason//'; '//where//' '//beyond%reason
     else if (beyond%converged) then
-      report%reason = report%reason//'; at the value asked for another equilibrium was found, with its free edge at '// &
+      report%reason = report%reason//'; '//where//' another equilibrium was found, with its free edge at '// &
         text(edge_lift(bearing)*micrometres, 3)//' um: a branch of its own'
     end if
     call last%put_back(bearing)

@@ -13,6 +13,7 @@ module gfb_limit_search
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_kept_state, only: kept_state_type
+  use gfb_branch_end, only: ask_beyond
   use gfb_root_bracket, only: root_bracket_type
   use gfb_limit, only: limit_type, limit_of
   implicit none (type, external)
@@ -24,6 +25,7 @@ module gfb_limit_search
   integer, parameter :: most_trials = 40          !! between two values on both sides
   real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed or tilt, relative [1]
   real(wp), parameter :: settled = 1.0e-10_wp     !! reserve that needs no other trial [1]
+  real(wp), parameter :: a_little = 0.05_wp       !! of the step that failed, beyond the branch's end [1]
   real(wp), parameter :: at_limit = 1.0e-6_wp     !! reserve that is none [1]
 
   !> Two values on both sides of the limit, and the last answer on its near side.
@@ -51,7 +53,7 @@ contains
     logical :: passed
 
     limit = limit_of(scene, bearing%point)
-    call pass_limit(limit, path, bearing, newton, sides, passed, report)
+    call pass_limit(scene, limit, path, bearing, newton, sides, passed, report)
     if (passed) call close_in(limit, path, bearing, newton, sides, report)
     if (stop_agreed()) then
       report%converged = .false. ! the caller knows why
@@ -73,7 +75,8 @@ contains
   end subroutine leave_limit
 
   !> Goes on, or back, until the limit lies between two answers, or the branch ends.
-  subroutine pass_limit(limit, path, bearing, newton, sides, passed, report)
+  subroutine pass_limit(scene, limit, path, bearing, newton, sides, passed, report)
+    type(scene_type), intent(in) :: scene
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
     type(bearing_system_type), target, intent(inout) :: bearing
@@ -82,6 +85,7 @@ contains
     logical, intent(out) :: passed
     type(path_report_type), intent(out) :: report !! why not
     type(path_settings_type) :: settings
+    type(operating_point_type) :: beyond
     real(wp) :: value, left, next, first
     logical :: starts_within, stops
     integer :: step
@@ -111,7 +115,12 @@ contains
       stops = stop_agreed()
       if (passed .or. stops) return
       if (.not. report%converged) then
-        if (.not. starts_within) report%reason = 'beyond the limit at first, and on the way back '//report%reason
+        if (starts_within) then
+          beyond = limit%point_with(bearing%point, value + a_little*(next - value))
+          call ask_beyond(scene, bearing, newton, beyond, 'a little beyond', path, report)
+        else
+          report%reason = 'beyond the limit at first, and on the way back '//report%reason
+        end if
         return
       end if
     end do
@@ -169,7 +178,7 @@ contains
       call log%warning(limit%words(bearing)//', not at the limit: answers jump across it')
     else
       ends = limit%words(bearing)//', not at the limit: '//report%reason
-      if (report%has_cause()) then
+      if (report%has_cause() .or. report%drawn) then
         call log%line(ends)
       else
         call log%warning(ends//'; the branch may go on')
