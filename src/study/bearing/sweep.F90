@@ -11,7 +11,7 @@ module gfb_sweep
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_newton, only: newton_type, newton_settings_type
-  use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch
+  use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch, ask_beyond
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
@@ -105,7 +105,8 @@ contains
       report%reason = 'no equilibrium to begin with: '//report%reason
       return
     end if
-    call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, report)
+    call find_limit(self%here, self%context%log, self%path, ask_beyond, self%bearing, self%newton, &
+                    self%record%limit, report)
     self%record%at_fold = report%folded
   end subroutine approach_limit
 

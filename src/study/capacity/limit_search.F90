@@ -13,7 +13,6 @@ module gfb_limit_search
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_kept_state, only: kept_state_type
-  use gfb_branch_end, only: ask_beyond
   use gfb_root_bracket, only: root_bracket_type
   use gfb_limit, only: limit_type, limit_of
   implicit none (type, external)
@@ -34,15 +33,32 @@ module gfb_limit_search
     type(kept_state_type) :: within    !! with reserve; not created where none was met
   end type sides_type
 
+  abstract interface
+    !> Adds to a path's report what happens beyond its end: `ask_beyond` of gfb_branch_end.
+    subroutine asks_beyond(scene, bearing, newton, target, where, settings, report)
+      import :: scene_type, bearing_system_type, newton_type, operating_point_type, &
+        path_settings_type, path_report_type
+      implicit none (type, external)
+      type(scene_type), target, intent(in) :: scene !! what is asked for
+      type(bearing_system_type), target, intent(inout) :: bearing !! at the path's end
+      type(newton_type), target, intent(inout) :: newton !! its solver
+      type(operating_point_type), intent(in) :: target !! beyond the end
+      character(len=*), intent(in) :: where !! that is, in words
+      type(path_settings_type), intent(in) :: settings !! limits of paths
+      type(path_report_type), intent(inout) :: report !! of the path
+    end subroutine asks_beyond
+  end interface
+
 contains
 
   !> Leads the bearing from an equilibrium to the limit that the scene asks for, or to the end of the branch before it.
   !>
   !> Without an answer the bearing is at the last state that was reached.
-  subroutine find_limit(scene, log, path, bearing, newton, found, report)
+  subroutine find_limit(scene, log, path, ask, bearing, newton, found, report)
     type(scene_type), intent(in) :: scene !! that asks for a limit
     type(run_log_type), intent(in) :: log !! where lines go
     type(path_settings_type), intent(in) :: path !! limits of paths
+    procedure(asks_beyond) :: ask !! why a branch ends
     type(bearing_system_type), target, intent(inout) :: bearing !! at an equilibrium
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: found(:) !! what summary and history say of the limit
@@ -53,7 +69,7 @@ contains
     logical :: passed
 
     limit = limit_of(scene, bearing%point)
-    call pass_limit(scene, limit, path, bearing, newton, sides, passed, report)
+    call pass_limit(scene, limit, path, ask, bearing, newton, sides, passed, report)
     if (passed) call close_in(limit, path, bearing, newton, sides, report)
     if (stop_agreed()) then
       report%converged = .false. ! the caller knows why
@@ -75,10 +91,11 @@ contains
   end subroutine leave_limit
 
   !> Goes on, or back, until the limit lies between two answers, or the branch ends.
-  subroutine pass_limit(scene, limit, path, bearing, newton, sides, passed, report)
+  subroutine pass_limit(scene, limit, path, ask, bearing, newton, sides, passed, report)
     type(scene_type), intent(in) :: scene
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
+    procedure(asks_beyond) :: ask
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(sides_type), intent(inout) :: sides
@@ -117,7 +134,7 @@ contains
       if (.not. report%converged) then
         if (starts_within) then
           beyond = limit%point_with(bearing%point, value + a_little*(next - value))
-          call ask_beyond(scene, bearing, newton, beyond, 'a little beyond', path, report)
+          call ask(scene, bearing, newton, beyond, 'a little beyond', path, report)
         else
           report%reason = 'beyond the limit at first, and on the way back '//report%reason
         end if
