@@ -7,7 +7,6 @@ module gfb_natural_order
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top
   use gfb_contact_set, only: contact_set_type
-  use gfb_shaft_motion, only: shaft_unknowns
   use gfb_bearing_system, only: bearing_system_type
   use gfb_strip_system, only: strip_system_type, plate_forced
   implicit none (type)
@@ -39,8 +38,10 @@ contains
     order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
     order%total = largest_number(order%number)
     if (.not. bearing%floats) return
-    if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, shaft_unknowns)]
-    order%total = order%total + shaft_unknowns
+    associate (scalars => bearing%blocks%border%scalars)
+      if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]
+      order%total = order%total + scalars
+    end associate
   end function bearing_order
 
   !> Order of a bearing's state with its path parameter behind it.

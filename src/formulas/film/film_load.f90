@@ -10,7 +10,7 @@ module gfb_film_load
 
   integer, parameter, public :: film_forces = shaft_coordinates !! F_x, F_y, M_x, M_y
   !> The force acts on the sleeve, as the shaft's coordinates are the sleeve's; the torque does not.
-  real(wp), parameter :: acts_on(film_forces) = [1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp]
+  real(wp), parameter, public :: acts_on(film_forces) = [1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp]
 
 contains
 

@@ -9,13 +9,19 @@ module gfb_shaft_drive
   !> What is given over the time; all of it begins at 0.
   type, public :: shaft_drive_type
     real(wp) :: mass = 0.0_wp            !! of the shaft [kg]
+    real(wp) :: transverse_inertia = 0.0_wp !! of a rotor that tilts [kg m^2]
+    real(wp) :: polar_inertia = 0.0_wp   !! of it [kg m^2]
+    real(wp) :: bearing_distance = 0.0_wp !! of the two bearings it then stands on; 0: one bearing [m]
     real(wp) :: load(2) = 0.0_wp         !! steady [N]
     real(wp) :: speed = 0.0_wp           !! at the beginning [rad/s]
     real(wp) :: acceleration = 0.0_wp    !! of it [rad/s^2]
     real(wp) :: ramp = 0.0_wp            !! until when it changes [s]
     real(wp) :: unbalance = 0.0_wp       !! mass times its distance from the axis [kg m]
     real(wp) :: unbalance_angle = 0.0_wp !! of it at the beginning, from x [rad]
+    real(wp) :: couple_unbalance = 0.0_wp !! unbalance times its distance along the axis from an opposite one [kg m^2]
+    real(wp) :: couple_unbalance_angle = 0.0_wp !! of that towards +z at the beginning, from x [rad]
     real(wp) :: pulse(2) = 0.0_wp        !! force times time [N s]
+    real(wp) :: couple_pulse(2) = 0.0_wp !! torque times time, while the pulse takes [N m s]
     real(wp) :: pulse_start = 0.0_wp     !! [s]
     real(wp) :: pulse_length = 0.0_wp    !! [s]
     real(wp), allocatable :: base_time(:)            !! rising [s]
@@ -26,6 +32,7 @@ module gfb_shaft_drive
     procedure :: speed_at
     procedure :: angle_at
     procedure :: load_at
+    procedure :: torque_at
     procedure :: orbit_at
     procedure :: jumps
   end type shaft_drive_type
@@ -59,19 +66,60 @@ contains
     class(shaft_drive_type), intent(in) :: self !! the drive
     real(wp), intent(in) :: time !! [s]
     real(wp) :: load(2)          !! [N]
-    real(wp) :: angle, since, change
 
     load = self%load
-    angle = self%angle_at(time) + self%unbalance_angle
-    change = merge(self%acceleration, 0.0_wp, time < self%ramp)
-    load = load + self%unbalance*(self%speed_at(time)**2*[cos(angle), sin(angle)] &
-                                  - change*[-sin(angle), cos(angle)])
-    since = time - self%pulse_start
-    if (since > 0.0_wp .and. since < self%pulse_length) then
-      load = load + self%pulse*2.0_wp/self%pulse_length*sin(pi*since/self%pulse_length)**2
-    end if
+    load = load + self%unbalance*turning(self, time, self%unbalance_angle)
+    if (pushes(self, time)) load = load + self%pulse*2.0_wp/self%pulse_length*push_at(self, time)
     if (allocated(self%base_time)) load = load - self%mass*base_at(self, time)
   end function load_at
+
+  !> All outer torques on a rotor that tilts, about x and y: couple unbalance and pulse.
+  !>
+  !> A force f at the height z has the torque \( z (-f_y, f_x) \); the unbalance u at z = d/2 and the opposite one at
+  !> -d/2 have, with v = u d,
+  !>
+  !> $$ \boldsymbol{\tau} = v \, [0, -1; 1, 0] (\dot\varphi^2 \mathbf{n} - \ddot\varphi \mathbf{t})
+  !>      + \mathbf{J} \frac{2}{T} \sin^2 \frac{\pi (t - t_0)}{T} $$
+  pure function torque_at(self, time) result(torque)
+    class(shaft_drive_type), intent(in) :: self !! the drive
+    real(wp), intent(in) :: time !! [s]
+    real(wp) :: torque(2)        !! [N m]
+    real(wp) :: force(2)
+
+    force = self%couple_unbalance*turning(self, time, self%couple_unbalance_angle)
+    torque = [-force(2), force(1)]
+    if (pushes(self, time)) torque = torque + self%couple_pulse*2.0_wp/self%pulse_length*push_at(self, time)
+  end function torque_at
+
+  !> Force of an unbalance that turns with the shaft, over it.
+  pure function turning(self, time, from) result(force)
+    class(shaft_drive_type), intent(in) :: self
+    real(wp), intent(in) :: time
+    real(wp), intent(in) :: from !! angle at the beginning [rad]
+    real(wp) :: force(2)         !! [1/s^2]
+    real(wp) :: angle, change
+
+    angle = self%angle_at(time) + from
+    change = merge(self%acceleration, 0.0_wp, time < self%ramp)
+    force = self%speed_at(time)**2*[cos(angle), sin(angle)] - change*[-sin(angle), cos(angle)]
+  end function turning
+
+  !> Whether the pulse pushes.
+  pure logical function pushes(self, time)
+    class(shaft_drive_type), intent(in) :: self
+    real(wp), intent(in) :: time
+    real(wp) :: since
+    since = time - self%pulse_start
+    pushes = since > 0.0_wp .and. since < self%pulse_length
+  end function pushes
+
+  !> Force of the pulse over its mean twice.
+  pure function push_at(self, time) result(share)
+    class(shaft_drive_type), intent(in) :: self
+    real(wp), intent(in) :: time !! while it pushes [s]
+    real(wp) :: share            !! [1]
+    share = sin(pi*(time - self%pulse_start)/self%pulse_length)**2
+  end function push_at
 
   !> Acceleration of the base; none beyond the table.
   pure function base_at(self, time) result(acceleration)

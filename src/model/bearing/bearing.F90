@@ -2,7 +2,7 @@
 !> Pads and shaft: their unknowns, and what a state of them says. Their equations are another module's.
 !>
 !> Local unknowns of a rank, in this order: of each pad the pressures of its film nodes and the foil's
-!> unknowns, and \( (e_x, e_y) \) where the shaft floats. Newton sees them divided by their sizes
+!> unknowns, and \( (e_x, e_y) \) where the shaft floats, with its tilts where a rotor has two bearings. Newton sees them divided by their sizes
 !> (ambient pressure, clearance), and the equations by the sizes of their terms.
 module gfb_bearing
   use petscvec
@@ -10,7 +10,6 @@ module gfb_bearing
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: shaft_unknowns
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type, block_type, create_blocks
@@ -20,6 +19,8 @@ module gfb_bearing
   implicit none (type)
   private
   public :: number_unknowns, scale_unknowns
+
+  integer, parameter :: planar = 2 !! unknowns of a shaft that does not tilt
 
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
@@ -72,7 +73,7 @@ contains
         block(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
       end associate
     end do
-    call create_blocks(block, merge(shaft_unknowns, 0, bearing%floats), bearing%blocks)
+    call create_blocks(block, merge(bearing%pad(1)%film%coordinates, 0, bearing%floats), bearing%blocks)
     bearing%unknowns = bearing%blocks%border%unknowns
     bearing%last_rank = bearing%blocks%border%last_rank
     bearing%first_shaft = bearing%blocks%first(size(block) + 1)
@@ -89,7 +90,10 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
-    bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%pad(1)%film%clearance
+    associate (film => bearing%pad(1)%film, shaft => bearing%unknown_scale(bearing%first_shaft + 1:))
+      shaft = film%clearance
+      if (size(shaft) > planar) shaft(planar + 1:) = film%clearance/abs(film%offset)
+    end associate
   end subroutine scale_unknowns
 
   !> Sizes of the local equations at an operating point, in SI.
@@ -103,6 +107,7 @@ contains
       scale(self%pad(i)%first + 1:self%pad(i)%last) = self%pad(i)%equation_scale(point)
     end do
     scale(self%first_shaft + 1:) = self%force_scale(point)
+    scale(self%first_shaft + 1 + planar:) = self%force_scale(point)*abs(self%pad(1)%film%offset)
   end function equation_scale
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
@@ -148,7 +153,7 @@ contains
     end do
   end function solid_pressure
 
-  !> The operating point with the eccentricity that is found or fixed.
+  !> The operating point with the shaft's position that is found or fixed.
   pure function bearing_position(self, unknown, asked) result(point)
     class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
@@ -157,7 +162,8 @@ contains
 
     point = self%point
     if (present(asked)) point = asked
-    if (self%floats) point%eccentricity = unknown(self%first_shaft + 1:self%first_shaft + 2)
+    if (self%floats) point%eccentricity = unknown(self%first_shaft + 1:self%first_shaft + planar)
+    if (self%blocks%border%scalars > planar) point%tilt = unknown(self%first_shaft + 1 + planar:)
   end function bearing_position
 
   !> Eccentricity at the present state, found or fixed [m].
@@ -169,7 +175,7 @@ contains
     eccentricity = self%point%eccentricity
     if (.not. self%floats) return
     call self%get_unknowns(unknown)
-    eccentricity = unknown(self%first_shaft + 1:self%first_shaft + 2)
+    eccentricity = unknown(self%first_shaft + 1:self%first_shaft + planar)
   end function bearing_eccentricity
 
   !> Smallest gap at the present state, over all ranks [m].

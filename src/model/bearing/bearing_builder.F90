@@ -65,11 +65,13 @@ contains
   !> The equations of a bearing that differs in numbers, on a mesh with as many elements, at the same point.
   !>
   !> Fails when the mesh cannot be cut into parts.
-  subroutine build_like(scene, bearing, other, error)
+  subroutine build_like(scene, bearing, other, error, bearing_distance)
     type(scene_type), intent(in) :: scene !! of the other bearing
     type(bearing_system_type), intent(in) :: bearing !! of a scene like it
     type(bearing_system_type), intent(inout) :: other !! its state is that at rest
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    !> of two bearings like that one, which the other is; default: it is one [m]
+    real(wp), intent(in), optional :: bearing_distance
     type(bearing_plan_type) :: plan
 
     associate (whole => bearing%pad(1)%whole)
@@ -78,6 +80,7 @@ contains
       plan%circumferential = whole%circumferential()/plan%order
       plan%axial = whole%axial()/plan%order*merge(2, 1, plan%half)
     end associate
+    if (present(bearing_distance)) plan%bearing_distance = bearing_distance
     call build_on_mesh(scene, film_mesh_of(scene, plan), bearing%pad(1)%film%flow%upwind, bearing%floats, other, error)
     if (allocated(error)) return
     other%point = bearing%point
@@ -105,7 +108,7 @@ contains
     bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
-    call create_bearing_system(bearing, foil, floats, pad_places(scene%bearing))
+    call create_bearing_system(bearing, foil, floats, places_of(scene%bearing, film%offset))
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
 
@@ -171,6 +174,18 @@ contains
     end do
   end function pad_places
 
+  !> The same of the pads of both bearings of a rotor that tilts: the first one at +z, the second one at -z.
+  pure function places_of(bearing, offset) result(place)
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp), intent(in) :: offset !! of the bearings' midplanes; 0: there is one bearing [m]
+    type(pad_place_type), allocatable :: place(:)
+
+    place = pad_places(bearing)
+    if (.not. offset > 0.0_wp) return
+    place = [place, place]
+    place%offset = [spread(offset, 1, bearing%pads), spread(-offset, 1, bearing%pads)]
+  end function places_of
+
   !> The parts of film and foils: what touches belongs to one part.
   !>
   !> Fails when METIS does.
@@ -212,5 +227,6 @@ contains
         end if
       end if
     end associate
+    mesh%offset = 0.5_wp*plan%bearing_distance
   end function film_mesh_of
 end module gfb_bearing_builder

@@ -7,8 +7,8 @@ module gfb_bearing_system
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks, any_rank
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: shaft_unknowns, no_shaft
+  use gfb_film_load, only: film_forces, acts_on
+  use gfb_shaft_motion, only: no_shaft
   use gfb_foil_model, only: foil_model_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
@@ -137,27 +137,33 @@ contains
       call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_number(bearing, i), bearing%jacobian)
     end do
     call number_by(bearing, 0, bearing%jacobian)
-    if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(bearing%first_shaft, 0.0_wp, bearing%jacobian)
+    if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(bearing%first_shaft, 0.0_wp*bearing%point%other_stiffness(bearing%blocks%border%scalars), bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
 
   !> Local unknowns of a pad, before e_x among the numbers by which it fills the matrix, where the shaft has any.
-  pure function shaft_number(bearing, i) result(number)
+  pure integer function shaft_number(bearing, i) result(number)
     class(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: i !! of the pad
-    integer :: number
     number = merge(bearing%pad(i)%last - bearing%pad(i)%first, no_shaft, bearing%floats)
   end function shaft_number
 
-  !> Force over displacement that keeps a fixed shaft at its position; of one that floats that of its inertia [N/m].
+  !> Forces over coordinates: those that keep a fixed shaft at its position; of one that floats those of its inertia.
   pure function hold_stiffness(bearing, point, fixed) result(stiffness)
     class(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point !! whose load counts
     logical, intent(in) :: fixed                     !! the shaft is fixed
-    real(wp) :: stiffness
-    stiffness = merge(bearing%force_scale(point)/bearing%pad(1)%film%clearance, -point%inertia, fixed)
+    real(wp) :: stiffness(bearing%blocks%border%scalars, bearing%blocks%border%scalars) !! [N/m], [N m/rad]
+    integer :: i
+
+    stiffness = point%other_stiffness(size(stiffness, 1))
+    if (.not. fixed) return
+    stiffness = 0.0_wp
+    do i = 1, size(stiffness, 1)
+      stiffness(i, i) = bearing%force_scale(point)/bearing%pad(1)%film%clearance*merge(1.0_wp, bearing%pad(1)%film%offset**2, i <= 2)
+    end do
   end function hold_stiffness
 
   !> Residual of all equations at the present operating point.
@@ -212,12 +218,11 @@ contains
   end function is_open_at
 
   !> Whether gap and pressure are positive on this rank.
-  function is_open(bearing, point, unknown, gap) result(open)
+  logical function is_open(bearing, point, unknown, gap) result(open)
     class(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
-    logical :: open
     PetscErrorCode :: ierr
     integer :: i
 
@@ -237,20 +242,16 @@ contains
     type(operating_point_type), intent(in) :: point
     real(wp), intent(in) :: unknown(:)  !! local, in SI
     real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
-    real(wp), intent(inout) :: value(:) !! of (e_x, e_y), in SI
+    real(wp), intent(inout) :: value(:) !! of the shaft's coordinates, in SI
     real(wp) :: force(film_forces)
 
-    if (bearing%shaft_fixed) then
-      if (bearing%last_rank) then
-        value = (unknown(bearing%first_shaft + 1:) - point%eccentricity)*hold_stiffness(bearing, point, .true.)
-      end if
-      return
-    end if
-    force = bearing%local_force(unknown, gap)
-    value = force(:shaft_unknowns)
-    if (bearing%last_rank) then
-      value = value - point%load
-      if (point%inertia > 0.0_wp) value = value - point%inertia*(unknown(bearing%first_shaft + 1:) - point%eccentricity)
+    if (.not. bearing%shaft_fixed) then
+      force = acts_on*bearing%local_force(unknown, gap)
+      value = force(:size(value))
+      if (bearing%last_rank) call point%add_other_forces(unknown(bearing%first_shaft + 1:), value)
+    else if (bearing%last_rank) then
+      force = point%place()
+      value = matmul(hold_stiffness(bearing, point, .true.), unknown(bearing%first_shaft + 1:) - force(:size(value)))
     end if
   end subroutine add_shaft_residual
 

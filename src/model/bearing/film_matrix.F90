@@ -7,7 +7,8 @@ module gfb_film_matrix
   use gfb_gas_film, only: gas_film_type
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_shaft_motion, only: shaft_unknowns, no_shaft
+  use gfb_film_load, only: acts_on
+  use gfb_shaft_motion, only: no_shaft
   implicit none (type)
   private
   public :: add_film_rows, add_shaft_weights, add_shaft_stiffness, make_film_room, element_columns, add_block
@@ -26,10 +27,10 @@ contains
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     real(wp), dimension(size(film%shape, 1), size(film%shape, 1)) :: by_pressure, by_gap
-    real(wp) :: by_shaft(size(film%shape, 1), shaft_unknowns)
+    real(wp) :: by_shaft(size(film%shape, 1), film%coordinates)
     ! a row of the matrix in each column, as PETSc reads it
-    real(wp) :: block(2*size(film%shape, 1) + shaft_unknowns, size(film%shape, 1))
-    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
+    real(wp) :: block(2*size(film%shape, 1) + film%coordinates, size(film%shape, 1))
+    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + film%coordinates)
     integer :: element, b, node, film_nodes
 
     film_nodes = size(film%shape, 1)
@@ -62,16 +63,18 @@ contains
     real(wp), intent(in) :: factor !! of the weights; 0: makes room [1]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
-    PetscInt :: row(shaft_unknowns)
+    PetscInt :: row(film%coordinates)
     PetscInt, allocatable :: column(:)
     real(wp), allocatable :: weight(:, :)
     integer :: i
 
     if (shaft == no_shaft) return
-    row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
+    row = [(int(shaft + i - 1, pint), i=1, film%coordinates)]
     column = [(int(i - 1, pint), i=1, size(film%force_weight, 2))]
-    allocate (weight(size(column), shaft_unknowns), source=0.0_wp)
-    if (.not. fixed) weight = transpose(film%force_weight(:shaft_unknowns, :))
+    allocate (weight(size(column), film%coordinates), source=0.0_wp)
+    do i = 1, merge(0, film%coordinates, fixed)
+      weight(:, i) = acts_on(i)*film%force_weight(i, :)
+    end do
     call add_block(matrix, row, column, factor*weight)
   end subroutine add_shaft_weights
 
@@ -79,18 +82,13 @@ contains
   !> that owns these rows asks.
   subroutine add_shaft_stiffness(shaft, stiffness, matrix)
     integer, intent(in) :: shaft      !! local unknowns before e_x
-    real(wp), intent(in) :: stiffness !! force over displacement [N/m]
+    real(wp), intent(in) :: stiffness(:, :) !! forces over coordinates [N/m], [N m/rad]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
-    PetscInt :: row(shaft_unknowns)
-    real(wp) :: block(shaft_unknowns, shaft_unknowns)
+    PetscInt :: row(size(stiffness, 1))
     integer :: i
 
-    row = [(int(shaft + i - 1, pint), i=1, shaft_unknowns)]
-    block = 0.0_wp
-    do i = 1, shaft_unknowns
-      block(i, i) = stiffness
-    end do
-    call add_block(matrix, row, row, block)
+    row = [(int(shaft + i - 1, pint), i=1, size(row))]
+    call add_block(matrix, row, row, transpose(stiffness))
   end subroutine add_shaft_stiffness
 
   !> Makes room for what the film's rows will hold.
@@ -101,7 +99,7 @@ contains
     logical, intent(in) :: owned(:) !! nodes that are this rank's
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
-    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + shaft_unknowns)
+    PetscInt :: row(size(film%shape, 1)), column(2*size(film%shape, 1) + film%coordinates)
     real(wp) :: zero(size(column), size(row))
     integer :: element, node
 
@@ -129,7 +127,7 @@ contains
 
     film_nodes = size(row)
     column = -1 ! PETSc skips negative numbers
-    if (shaft /= no_shaft) column(2*film_nodes + 1:) = [(int(shaft + b, pint), b=0, 1)]
+    if (shaft /= no_shaft) column(2*film_nodes + 1:) = [(int(shaft + b, pint), b=0, size(column) - 2*film_nodes - 1)]
     associate (nodes => film%element_nodes(:, element))
       row = int(merge(-1, nodes - 1, film%fixed(nodes)), pint)
       column(:film_nodes) = int(nodes - 1, pint)

@@ -5,8 +5,8 @@ module gfb_gas_film
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
   use gfb_bore_profile, only: bore_profile_type, bore_height
   use gfb_film_gap, only: rigid_gap
-  use gfb_shaft_motion, only: shaft_coordinates, shaft_motion, point_motions, motion_excess, &
-                              entraining_speed
+  use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns, shaft_motion, point_motions, &
+                              motion_excess, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type
   use gfb_general_film, only: general_residual, general_jacobian
@@ -33,6 +33,8 @@ module gfb_gas_film
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
     real(wp) :: width = 0.0_wp            !! that is meshed [m]
+    real(wp) :: offset = 0.0_wp           !! of its midplane from the rotor's centre of mass [m]
+    integer :: coordinates = shaft_unknowns !! of a shaft that floats which are unknowns: 2, or 4
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
     integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
     real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
@@ -41,17 +43,14 @@ module gfb_gas_film
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
-    real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, for pressures
-    !! that are odd in z [m3]
-    real(wp), allocatable :: motion(:, :)         !! (4, nodes) the gap's derivatives by the shaft's
-    !! coordinates, see `shaft_motion` [1], [m]
+    real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, odd in z [m3]
+    real(wp), allocatable :: motion(:, :)         !! (4, nodes) the gap's, see `shaft_motion` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
     real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
-    !> (points, elements) what earlier r h add to its rate over a step of time [Pa m/s]
-    real(wp), allocatable :: past(:, :)
+    real(wp), allocatable :: past(:, :) !! (points, elements) what earlier r h add to its rate [Pa m/s]
   contains
     procedure :: flow_at
     procedure :: cell_flow
@@ -94,6 +93,8 @@ contains
     film%cell(1) = whole%radius*abs(whole%station_angle(2) - whole%station_angle(1))
     film%cell(2) = whole%row_axial(2) - whole%row_axial(1)
     film%width = whole%row_axial(whole%rows()) - whole%row_axial(1)
+    film%offset = whole%offset
+    if (abs(film%offset) > 0.0_wp) film%coordinates = shaft_coordinates ! it tilts
     film%cell_nodes = cell_nodes
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
@@ -105,7 +106,7 @@ contains
       film%angle(i) = whole%station_angle(station)
       film%axial(i) = whole%row_axial(row)
       film%fixed(i) = whole%is_edge(station, row)
-      film%motion(:, i) = shaft_motion(film%angle(i), film%axial(i))
+      film%motion(:, i) = shaft_motion(film%angle(i), film%axial(i) + film%offset)
     end do
     call measure_elements(film, error)
   end subroutine create_gas_film
@@ -135,8 +136,8 @@ contains
         position(2, :) = film%axial(nodes)
         call film_geometry(position, film%geometry(element), error)
         if (allocated(error)) return
-        motion = point_motions(angle, film%axial(nodes))
-        film%motion_excess(:, :, element) = motion_excess(angle, film%axial(nodes))
+        motion = point_motions(angle, film%axial(nodes) + film%offset)
+        film%motion_excess(:, :, element) = motion_excess(angle, film%axial(nodes) + film%offset)
         call film_force_weights(film%geometry(element), motion, weight)
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
@@ -206,8 +207,9 @@ contains
     real(wp) :: gap(size(deflection)), eccentricity(2)
 
     eccentricity = point%eccentricity + self%shift
-    gap = deflection + rigid_gap(self%angle, self%axial, self%clearance - self%interference, &
-                                 eccentricity(1), eccentricity(2), point%tilt(1), point%tilt(2))
+    gap = deflection + rigid_gap(self%angle, self%axial + self%offset, &
+                                 self%clearance - self%interference, eccentricity(1), &
+                                 eccentricity(2), point%tilt(1), point%tilt(2))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
@@ -232,12 +234,11 @@ contains
   end function film_excess
 
   !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.
-  pure function is_open(self, pressure, gap, point) result(open)
+  pure logical function is_open(self, pressure, gap, point) result(open)
     class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
-    logical :: open
     real(wp), dimension(most_film_nodes) :: here, excess
     integer :: element, i, n
 

@@ -13,6 +13,8 @@ module gfb_mesh_plan
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
     integer :: order = 1           !! of film elements: bilinear, biquadratic
+    !> of two equal bearings that carry a rotor which tilts; 0: one bearing [m]
+    real(wp) :: bearing_distance = 0.0_wp
     real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
   end type bearing_plan_type
 end module gfb_mesh_plan

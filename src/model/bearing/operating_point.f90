@@ -2,10 +2,10 @@
 module gfb_operating_point
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
+  use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: point_between
-  public :: remember_point
+  public :: point_between, remember_point
 
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
@@ -14,15 +14,56 @@ module gfb_operating_point
     !> Of the sleeve relative to the shaft, where it is fixed; over a step of time, where a shaft
     !> that floats would be without forces [m].
     real(wp) :: eccentricity(2) = 0.0_wp
-    real(wp) :: tilt(2) = 0.0_wp         !! of the sleeve relative to the shaft [rad]
+    real(wp) :: tilt(2) = 0.0_wp         !! the same of the sleeve's tilt [rad]
+    real(wp) :: torque(2) = 0.0_wp       !! external one on a rotor that tilts [N m]
     real(wp) :: inertia = 0.0_wp         !! of a shaft that floats, over a step of time [N/m]
+    !> The same of its tilts, with the gyroscopic torque that each has from the other's rate [N m/rad].
+    real(wp) :: tilt_inertia(2, 2) = 0.0_wp
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold = 0.0_wp       !! fictitious, keeps that edge at a height [N/m]
     real(wp) :: edge_height = 0.0_wp     !! it, above the edge at rest [m]
+  contains
+    procedure :: place
+    procedure :: add_other_forces
+    procedure :: other_stiffness
   end type operating_point_type
 
 contains
+
+  !> All coordinates of the sleeve relative to the shaft [m], [rad].
+  pure function place(self) result(coordinate)
+    class(operating_point_type), intent(in) :: self !! the point
+    real(wp) :: coordinate(shaft_coordinates)
+    coordinate = [self%eccentricity, self%tilt]
+  end function place
+
+  !> Adds the forces on the sleeve that balance the film's: those of the load, and of inertia.
+  pure subroutine add_other_forces(self, place, force)
+    class(operating_point_type), intent(in) :: self !! the point
+    real(wp), intent(in) :: place(:)    !! the sleeve's first coordinates, those that are unknown [m], [rad]
+    real(wp), intent(inout) :: force(:) !! conjugate to them [N], [N m]
+    real(wp) :: all(shaft_coordinates)
+
+    all = [self%load, self%torque]
+    force = force - all(:size(force))
+    if (.not. self%inertia > 0.0_wp) return
+    all = self%place()
+    force = force + matmul(self%other_stiffness(size(place)), place - all(:size(place)))
+  end subroutine add_other_forces
+
+  !> Their derivatives by the coordinates [N/m], [N m/rad].
+  pure function other_stiffness(self, coordinates) result(stiffness)
+    class(operating_point_type), intent(in) :: self !! the point
+    integer, intent(in) :: coordinates !! that are unknown
+    real(wp) :: stiffness(coordinates, coordinates), all(shaft_coordinates, shaft_coordinates)
+
+    all = 0.0_wp
+    all(1, 1) = -self%inertia
+    all(2, 2) = -self%inertia
+    all(3:, 3:) = -self%tilt_inertia
+    stiffness = all(:coordinates, :coordinates)
+  end function other_stiffness
 
   !> The point at a fraction of the straight path from one to another, or on beyond either.
   elemental function point_between(first, last, fraction) result(point)
@@ -54,6 +95,7 @@ contains
     call memory%visit('eccentricity', point%eccentricity)
     call memory%visit('tilt', point%tilt)
     call memory%visit('inertia', point%inertia)
+    call memory%visit('torque', point%torque)
     call memory%visit('edge_pull', point%edge_pull)
     call memory%visit('edge_tension', point%edge_tension)
     call memory%visit('edge_hold', point%edge_hold)

@@ -28,6 +28,7 @@ module gfb_pad
   type, public :: pad_place_type
     real(wp) :: turn = 0.0_wp     !! from the first pad [rad]
     real(wp) :: shift(2) = 0.0_wp !! of its centre of curvature relative to the bearing's, seen as an eccentricity [m]
+    real(wp) :: offset = 0.0_wp   !! of its midplane along the axis from the rotor's centre of mass [m]
   end type pad_place_type
 
   !> A pad on this rank.
@@ -133,6 +134,7 @@ contains
     pad%first_node = before%last_node
     pad%last_node = pad%first_node + nodes
     pad%whole%station_angle = first%whole%station_angle + place%turn
+    pad%whole%offset = place%offset
     associate (film => first%film)
       call create_gas_film(pad%whole, pad%mesh%mesh_node, pad%mesh%element_nodes, film%clearance, film%ambient_pressure, &
                            film%flow%viscosity, film%flow%upwind, pad%film, error)

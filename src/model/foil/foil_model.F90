@@ -98,12 +98,12 @@ module gfb_foil_model
     end subroutine add_constant
 
     !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
-    !> node that depends on up to three unknowns of the bearing.
+    !> node that depends on some unknowns of the bearing.
     subroutine add_load_rates(self, column, slope, jacobian)
       import :: foil_model_type, wp, tMat
       class(foil_model_type), intent(in) :: self !! the foil
-      integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
-      real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+      integer, intent(in) :: column(:, :) !! (3 or 5, film nodes) local numbers from 0; negative: none
+      real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
       Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     end subroutine add_load_rates
 

@@ -223,8 +223,8 @@ contains
   !> The mean of a pressure that depends on other unknowns.
   subroutine foundation_load_rates(self, column, slope, jacobian)
     class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
-    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+    integer, intent(in) :: column(:, :) !! (3 or 5, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
     Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     PetscErrorCode :: ierr
     PetscInt :: row(1), unknown(size(column, 1))

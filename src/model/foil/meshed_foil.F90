@@ -176,8 +176,8 @@ contains
   !> Load of a pressure that depends on other unknowns.
   subroutine meshed_load_rates(self, column, slope, jacobian)
     class(meshed_foil_type), intent(in) :: self !! the foil
-    integer, intent(in) :: column(:, :) !! (3, film nodes) local numbers from 0; negative: none
-    real(wp), intent(in) :: slope(:, :) !! (3, film nodes) of the pressure by these unknowns [SI]
+    integer, intent(in) :: column(:, :) !! (3 or 5, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
     Mat, intent(in) :: jacobian !! of the bearing, by local numbers
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(size(column, 1), size(self%pressed, 1), size(self%pressed, 1))

@@ -25,7 +25,10 @@ module gfb_transient_case
     real(wp) :: ramp_time = 0.0_wp         !! in which it is reached; 0: the whole time [s]
     real(wp) :: unbalance = 0.0_wp         !! [kg m]
     real(wp) :: unbalance_angle = 0.0_wp   !! [rad]
+    real(wp) :: couple_unbalance = 0.0_wp  !! [kg m^2]
+    real(wp) :: couple_unbalance_angle = 0.0_wp !! [rad]
     real(wp) :: pulse(2) = 0.0_wp          !! [N s]
+    real(wp) :: couple_pulse(2) = 0.0_wp   !! [N m s]
     real(wp) :: pulse_start = 0.0_wp       !! [s]
     real(wp) :: pulse_length = 0.0_wp      !! [s]
     real(wp), allocatable :: base_time(:)           !! [s]
@@ -68,7 +71,8 @@ contains
                        'ends when two turns of the shaft differ by no more than this part of '// &
                        'the clearance; 0: never', not_negative)
     call keys%real_key('largest_orbit', transient%largest_orbit, 'm', &
-                       'ends when the shaft has left its first position by more; 0: never', &
+                       'ends when the shaft has left its first position by more, in either '// &
+                       'bearing; 0: never', &
                        not_negative)
     call keys%finish_group()
   end subroutine read_transient_case
@@ -113,11 +117,21 @@ contains
                        'the axis', not_negative)
     call keys%real_key('unbalance_angle', transient%unbalance_angle, 'rad', &
                        'direction of the unbalance at the beginning, from x towards y', any_value)
+    call keys%real_key('couple_unbalance', transient%couple_unbalance, 'kg m^2', &
+                       'of a rotor that tilts on two bearings: an unbalance times its distance '// &
+                       'along the axis from the opposite one, halfway from which is the '// &
+                       'centre of mass', not_negative)
+    call keys%real_key('couple_unbalance_angle', transient%couple_unbalance_angle, 'rad', &
+                       'direction of the one at +z at the beginning, from x towards y', any_value)
     call keys%real_vector_key('pulse', transient%pulse, 'N s', &
-                              'push on the shaft, force times time, x and y: a smooth one')
+                              'push on the shaft that this bearing carries, force times time, '// &
+                              'x and y: a smooth one')
+    call keys%real_vector_key('couple_pulse', transient%couple_pulse, 'N m s', &
+                              'turn of a rotor that tilts on two bearings, torque times time '// &
+                              'about x and y, at the time of the push')
     call keys%real_key('pulse_start', transient%pulse_start, 's', 'when it begins', not_negative)
     call keys%real_key('pulse_length', transient%pulse_length, 's', 'how long it takes', positive, &
-                       default='required with `pulse`')
+                       default='required with `pulse` and `couple_pulse`')
     call keys%real_list_key('base_time', transient%base_time, longest_table, 's', &
                             'times of a table of the acceleration of the base, rising', &
                             any_value, .false., 'none: the base rests')

@@ -2,7 +2,8 @@
 module gfb_transient_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation
+  use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
+                            half_width_yes
   use gfb_operation_case, only: operation_case_type
   use gfb_rotor_case, only: rotor_case_type
   use gfb_scene_case, only: analysis_equilibrium
@@ -37,6 +38,7 @@ contains
     end if
     if (state == analysis_equilibrium) then
       call check_free_shaft(keys, rotor)
+      call check_tilts(keys, model)
     else
       call check_given_orbit(keys)
     end if
@@ -52,13 +54,29 @@ contains
     if (.not. rotor%present) then
       call keys%complain('scene', 'analysis', "'transient' needs the mass of the shaft, in "// &
                          '&rotor; without one give an eccentricity, and its orbit, for the load')
-    else if (keys%meant('rotor', 'bearing_distance')) then
-      call keys%complain('rotor', 'bearing_distance', "has no use with analysis = 'transient': "// &
-                         'the shaft moves in x and y alone')
     end if
     call refuse(keys, 'orbit_radius', 'needs an eccentricity in &operation instead of a load')
     call refuse(keys, 'orbit_frequency', 'needs an eccentricity in &operation instead of a load')
   end subroutine check_free_shaft
+
+  !> A rotor that tilts on two bearings needs their whole width, and what turns it needs such a rotor.
+  subroutine check_tilts(keys, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(in) :: model
+    character(len=*), parameter :: rigid = 'needs transverse_inertia and bearing_distance in '// &
+                                           '&rotor: a rotor that tilts on two bearings'
+
+    if (keys%meant('rotor', 'bearing_distance')) then
+      if (model%half_width == half_width_yes) then
+        call keys%complain('model', 'half_width', "must not be 'yes' where a rotor tilts on two "// &
+                           'bearings over time')
+      end if
+      return
+    end if
+    call refuse(keys, 'couple_unbalance', rigid)
+    call refuse(keys, 'couple_unbalance_angle', rigid)
+    call refuse(keys, 'couple_pulse', rigid)
+  end subroutine check_tilts
 
   !> A shaft whose place is given feels no force.
   subroutine check_given_orbit(keys)
@@ -73,7 +91,10 @@ contains
     end if
     call refuse(keys, 'start_load', free)
     call refuse(keys, 'unbalance', free)
+    call refuse(keys, 'couple_unbalance', free)
+    call refuse(keys, 'couple_unbalance_angle', free)
     call refuse(keys, 'pulse', free)
+    call refuse(keys, 'couple_pulse', free)
     call refuse(keys, 'base_time', free)
     call refuse(keys, 'steady_tolerance', free)
     call refuse(keys, 'largest_orbit', free)
@@ -91,11 +112,13 @@ contains
   subroutine check_pulse_and_base(keys, transient)
     type(case_keys_type), intent(inout) :: keys
     type(transient_case_type), intent(in) :: transient
+    logical :: pushed
 
-    if (keys%meant(group, 'pulse') .and. .not. keys%meant(group, 'pulse_length')) then
+    pushed = keys%meant(group, 'pulse') .or. keys%meant(group, 'couple_pulse')
+    if (pushed .and. .not. keys%meant(group, 'pulse_length')) then
       call keys%complain(group, 'pulse_length', 'must be given with pulse')
     end if
-    if (.not. keys%meant(group, 'pulse')) then
+    if (.not. pushed) then
       call refuse(keys, 'pulse_start', 'has no use without pulse')
       call refuse(keys, 'pulse_length', 'has no use without pulse')
     end if

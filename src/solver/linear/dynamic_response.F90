@@ -17,7 +17,7 @@ module gfb_dynamic_response
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns
+  use gfb_shaft_motion, only: shaft_coordinates
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_columns, only: shaft_column
@@ -185,7 +185,7 @@ contains
   pure function coupled_columns(bearing) result(columns)
     type(bearing_system_type), intent(in) :: bearing !! that vibrates
     integer :: columns
-    columns = bearing%unknowns - merge(shaft_unknowns, 0, bearing%floats)
+    columns = bearing%unknowns - bearing%blocks%border%scalars
   end function coupled_columns
 
   !> Takes out of the right sides of a part's motions what its equations do not have.

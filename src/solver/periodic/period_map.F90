@@ -156,16 +156,16 @@ contains
     map%smallest_gap = huge(1.0_wp)
     if (allocated(map%orbit)) deallocate (map%orbit)
     allocate (map%orbit(planar, map%steps + 1))
-    map%orbit(:, 1) = march%place(:, 1)
+    map%orbit(:, 1) = march%place(:2, 1)
     do i = 1, map%steps
       call take_step(march, bearing, newton, report)
       done = report%converged .and. march%rejections == 0
       if (.not. done) exit
-      map%orbit(:, i + 1) = march%place(:, 1)
+      map%orbit(:, i + 1) = march%place(:2, 1)
       if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
     end do
     if (done) then
-      call pack_point(map, bearing, march%unknown, march%velocity, y)
+      call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
     else
       map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
       if (.not. report%converged) map%problem = map%problem//': '//report%reason

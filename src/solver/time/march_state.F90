@@ -6,9 +6,10 @@ module gfb_march_state
   use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_operating_point, only: operating_point_type
+  use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type)
   private
-  public :: allowed_step, first_step, usual_step, place_ahead, error_of
+  public :: allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -36,9 +37,10 @@ module gfb_march_state
     real(wp) :: next = 0.0_wp           !! that is tried next [s]
     integer :: steps = 0                !! taken
     integer :: rejections = 0           !! steps that were taken again, shorter
-    real(wp) :: velocity(2, 2) = 0.0_wp !! of the sleeve, now and one step ago [m/s]
-    real(wp) :: place(2, kept_times) = 0.0_wp !! of it, now and before [m]
-    real(wp) :: first_place(2) = 0.0_wp !! of it at the beginning [m]
+    !> of the sleeve and its tilt, now and one step ago [m/s], [rad/s]
+    real(wp) :: velocity(shaft_coordinates, 2) = 0.0_wp
+    real(wp) :: place(shaft_coordinates, kept_times) = 0.0_wp !! of them, now and before [m], [rad]
+    real(wp) :: first_place(shaft_coordinates) = 0.0_wp !! of them at the beginning [m], [rad]
     real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
     real(wp), allocatable :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
     type(pad_history_type), allocatable :: pad(:)
@@ -47,6 +49,8 @@ module gfb_march_state
   contains
     procedure :: turns
     procedure :: outer_load
+    procedure :: outer_torque
+    procedure :: way_in_bearings
   end type march_type
 
 contains
@@ -55,18 +59,40 @@ contains
   pure function place_ahead(march, step) result(place)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: step !! [s]
-    real(wp) :: place(2)
+    real(wp) :: place(shaft_coordinates)
     place = matmul(march%place, extrapolation_weights([step, march%past_step(:2)]))
   end function place_ahead
 
-  !> Error of a step in the sleeve's place [m].
+  !> Error of a step in the sleeve's place, that of the bearing where it is larger [m].
   pure function error_of(march, step, place) result(error)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: step !! [s]
-    real(wp), intent(in) :: place(2) !! that it led to [m]
+    real(wp), intent(in) :: place(shaft_coordinates) !! that it led to [m], [rad]
     real(wp) :: error
-    error = error_share([step, march%past_step(:2)])*norm2(place - place_ahead(march, step))
+    error = error_share([step, march%past_step(:2)])*largest_way(march, place - place_ahead(march, step))
   end function error_of
+
+  !> The way that a motion of the shaft moves its journals, the larger one [m].
+  pure function largest_way(march, change) result(way)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: change(shaft_coordinates) !! [m], [rad]
+    real(wp) :: way, ways(2, 2)
+
+    ways = march%way_in_bearings(change)
+    way = max(norm2(ways(:, 1)), norm2(ways(:, 2)))
+  end function largest_way
+
+  !> What a motion of the shaft is in each of two bearings, e + z (phi_y, -phi_x): that at +z, that at -z.
+  pure function way_in_bearings(self, change) result(way)
+    class(march_type), intent(in) :: self !! the march
+    real(wp), intent(in) :: change(shaft_coordinates) !! [m], [rad]
+    real(wp) :: way(2, 2) !! (x and y, bearings) [m]
+    real(wp) :: lever(2)
+
+    lever = 0.5_wp*self%drive%bearing_distance*[change(4), -change(3)]
+    way(:, 1) = change(:2) + lever
+    way(:, 2) = change(:2) - lever
+  end function way_in_bearings
 
   !> The next step, not beyond the end; one that the error chooses not beyond a jump of what drives the shaft either, and
   !> with no short one left over before it.
@@ -139,4 +165,11 @@ contains
     real(wp) :: load(2)
     load = self%drive%load_at(self%time)
   end function outer_load
+
+  !> The outer torques at the present time [N m].
+  pure function outer_torque(self) result(torque)
+    class(march_type), intent(in) :: self !! the march
+    real(wp) :: torque(2)
+    torque = self%drive%torque_at(self%time)
+  end function outer_torque
 end module gfb_march_state

@@ -4,7 +4,9 @@
 !> A step is the bearing's balance with three more terms, each a difference of second order over the
 !> present step and the one before (`gfb_backward_difference`): the gas that the film stores, dampers
 !> of the foil, and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
-!> force F on the sleeve and the outer one f on the shaft.
+!> force F on the sleeve and the outer one f on the shaft. A rotor on two bearings tilts, too:
+!> \( I \ddot\phi + \mathbf G \dot\phi = -\mathbf M - \boldsymbol\tau \), with the torques M of the films and
+!> tau from outside on the rotor, about its centre of mass.
 !>
 !> PETSc's TS differentiates unknowns; here the product r h is differenced as a whole, which keeps the
 !> gas to round-off.
@@ -14,9 +16,10 @@ module gfb_time_march
   use gfb_text, only: text
   use gfb_backward_difference, only: difference_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
-  use gfb_film_load, only: film_forces
+  use gfb_film_load, only: film_forces, acts_on
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
                              place_ahead, error_of
+  use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton, keep_factors
   implicit none (type)
@@ -26,7 +29,7 @@ module gfb_time_march
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
   integer, parameter :: most_trials = 12 !! of one step
-
+  real(wp), parameter :: unit(2, 2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
 
 contains
 
@@ -49,7 +52,7 @@ contains
     if (bearing%shaft_fixed) march%start%eccentricity = bearing%eccentricity()
     march%next = first_step(march)
     march%past_step = march%next
-    march%first_place = bearing%eccentricity()
+    march%first_place = place_of(bearing)
     march%place = spread(march%first_place, 2, kept_times)
     allocate (march%unknown(bearing%local_size(), 2), march%pad(size(bearing%pad)))
     call bearing%get_unknowns(march%unknown(:, 1))
@@ -73,24 +76,27 @@ contains
     call bearing%set_unknowns(unknown(:, 2))
     PetscCallA(VecCopy(bearing%state, march%state(2), ierr))
     call bearing%set_unknowns(unknown(:, 1))
-    march%velocity = velocity
-    march%place(:, :2) = unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, :)
+    march%velocity(:2, :) = velocity
+    march%place(:2, :2) = unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, :)
     weight = difference_weights(march%next, march%next)
     march%place(:, 3) = march%place(:, 2) &
-      + (velocity(:, 1) - weight(0)*(march%place(:, 1) - march%place(:, 2)))/weight(2)
+      + (march%velocity(:, 1) - weight(0)*(march%place(:, 1) - march%place(:, 2)))/weight(2)
     call rebuild_past(bearing, march)
   end subroutine resume_march
 
   !> A load that is there at once moves a free shaft from the first moment on: its past is the parabola of that
-  !> acceleration a, \( \mathbf v(-\Delta) = -\mathbf a \Delta \). With a past at rest it would start late by half a step, of order 1.
+  !> acceleration a, \( \mathbf v(-\Delta) = -\mathbf a \Delta \), and of that of its tilts. With a past at rest it would start
+  !> late by half a step, of order 1.
   subroutine begin_falling(bearing, march)
     type(bearing_system_type), intent(in) :: bearing !! at rest
     type(march_type), intent(inout) :: march !! with its first step; gets the past
-    real(wp) :: force(film_forces), acceleration(2)
+    real(wp) :: force(film_forces), acceleration(film_forces)
     integer :: i
 
-    force = bearing%reaction()
-    acceleration = (force(:2) - march%drive%load_at(0.0_wp))/march%drive%mass
+    force = acts_on*bearing%reaction()
+    acceleration = 0.0_wp
+    acceleration(:2) = (force(:2) - march%drive%load_at(0.0_wp))/march%drive%mass
+    if (tilts(bearing)) acceleration(3:) = (force(3:) - march%drive%torque_at(0.0_wp))/march%drive%transverse_inertia
     do i = 2, kept_times
       march%place(:, i) = march%first_place + 0.5_wp*acceleration*((i - 1)*march%next)**2
     end do
@@ -109,7 +115,7 @@ contains
     call bearing%get_unknowns(march%unknown(:, 1))
     call bearing%get_unknowns(march%unknown(:, 2), march%state(2))
     do step = 2, 1, -1
-      if (.not. bearing%floats) bearing%point%eccentricity = march%place(:, step)
+      if (.not. bearing%floats) bearing%point%eccentricity = march%place(:2, step)
       do i = 1, size(bearing%pad)
         call look_at_pad(bearing, i, march%unknown(:, step), march%pad(i))
       end do
@@ -146,7 +152,7 @@ contains
     type(bearing_system_type), target, intent(inout) :: bearing !! at the newest state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(newton_report_type), intent(out) :: report !! of the last trial
-    real(wp) :: step, error, place(2)
+    real(wp) :: step, error, place(film_forces)
     integer :: trial
 
     step = allowed_step(march)
@@ -156,7 +162,7 @@ contains
       call keep_factors(newton)
       call solve_newton(newton, report)
       if (report%converged) then
-        place = bearing%eccentricity()
+        place = place_of(bearing)
         error = error_of(march, step, place)/(march%settings%tolerance*bearing%pad(1)%film%clearance)
         if (march%settings%steps_per_turn > 0.0_wp .or. error < rejected) exit
         step = next_step(step, error)
@@ -175,8 +181,7 @@ contains
       march%next = next_step(step, error)
       if (march%settings%steps_per_turn > 0.0_wp) march%next = usual_step(march)
     else
-      bearing%point%speed = march%drive%speed_at(march%time)
-      bearing%point%load = march%drive%load_at(march%time)
+      call drive_at(march, march%time, bearing)
     end if
   end subroutine take_step
 
@@ -193,9 +198,9 @@ contains
   subroutine accept(march, step, place, bearing)
     type(march_type), intent(inout) :: march
     real(wp), intent(in) :: step !! that led to it [s]
-    real(wp), intent(in) :: place(2) !! of the sleeve [m]
+    real(wp), intent(in) :: place(:) !! of the sleeve and its tilt [m], [rad]
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp) :: velocity(2), weight(0:2)
+    real(wp) :: velocity(film_forces), weight(0:2)
     integer :: i
     PetscErrorCode :: ierr
 
@@ -226,16 +231,20 @@ contains
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: step !! [s]
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp) :: weight(0:2), time
+    real(wp) :: weight(0:2), time, place(film_forces)
     integer :: i
 
     time = march%time + step
     weight = difference_weights(step, march%past_step(1))
-    bearing%point%speed = march%drive%speed_at(time)
-    bearing%point%load = march%drive%load_at(time)
+    call drive_at(march, time, bearing)
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
       bearing%point%inertia = march%drive%mass*weight(0)**2
-      bearing%point%eccentricity = free_place(march, weight)
+      place = free_place(march, weight)
+      bearing%point%eccentricity = place(:2)
+      if (tilts(bearing)) then
+        bearing%point%tilt_inertia = march%drive%transverse_inertia*weight(0)**2*unit + weight(0)*gyration(march, time)
+        bearing%point%tilt = free_tilt(march, weight, gyration(march, time), place(3:))
+      end if
     else
       bearing%point%eccentricity = march%start%eccentricity + march%drive%orbit_at(time)
     end if
@@ -257,7 +266,7 @@ contains
   pure function free_place(march, weight) result(place)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
-    real(wp) :: place(2), drift(2)
+    real(wp) :: place(film_forces), drift(film_forces)
 
     ! Differences of places and of velocities keep their digits.
     drift = weight(2)*(march%place(:, 2) - march%place(:, 1)) &
@@ -265,17 +274,74 @@ contains
     place = march%place(:, 1) - drift/weight(0)
   end function free_place
 
+  !> The same of the tilts with the gyroscopic torque, which follows the rates of both: where
+  !>
+  !> $$ I a_0^2 (\phi - \hat\phi) + \mathbf G \dot\phi = 0, \quad \dot\phi = a_0 \phi + a_1 \phi_1 + a_2 \phi_2 $$
+  pure function free_tilt(march, weight, gyration, without) result(tilt)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
+    real(wp), intent(in) :: gyration(2, 2) !! G [N m s]
+    real(wp), intent(in) :: without(2) !! without that torque [rad]
+    real(wp) :: tilt(2), rest(2)
+
+    associate (inertia => march%drive%transverse_inertia*weight(0)**2, now => march%place(3:, 1), before => march%place(3:, 2))
+      rest = inertia*(without - now) - weight(2)*matmul(gyration, before - now)
+      ! The matrix is [a, b; -b, a].
+      associate (b => weight(0)*gyration(1, 2))
+        tilt = now + [inertia*rest(1) - b*rest(2), b*rest(1) + inertia*rest(2)]/(inertia**2 + b**2)
+      end associate
+    end associate
+  end function free_tilt
+
+  !> Torque over the rates of both tilts: the rotor's spin is kept by a drive along its own axis. See `gfb_rotor`.
+  pure function gyration(march, time) result(matrix)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: time !! [s]
+    real(wp) :: matrix(2, 2)     !! [N m s]
+
+    matrix = march%drive%polar_inertia*march%drive%speed_at(time)*reshape([0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp], [2, 2])
+  end function gyration
+
+  !> Speed and outer forces of a time become the bearing's.
+  subroutine drive_at(march, time, bearing)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: time !! [s]
+    type(bearing_system_type), intent(inout) :: bearing
+
+    bearing%point%speed = march%drive%speed_at(time)
+    bearing%point%load = march%drive%load_at(time)
+    if (tilts(bearing)) bearing%point%torque = march%drive%torque_at(time)
+  end subroutine drive_at
+
+  !> Whether tilts are unknowns.
+  pure logical function tilts(bearing)
+    type(bearing_system_type), intent(in) :: bearing
+    tilts = bearing%blocks%border%scalars > 2
+  end function tilts
+
+  !> Where the sleeve is at the present state, and its tilt [m], [rad].
+  function place_of(bearing) result(place)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp) :: place(film_forces), unknown(bearing%local_size())
+    type(operating_point_type) :: here
+
+    call bearing%get_unknowns(unknown)
+    here = bearing%position(unknown)
+    place = here%place()
+  end function place_of
+
   !> Begins Newton's method ahead of the newest state, where the film is open there.
   subroutine predict(march, step, bearing)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: step !! [s]
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp) :: ahead(size(march%unknown, 1))
+    real(wp) :: ahead(size(march%unknown, 1)), place(film_forces)
     logical :: open
 
     ahead = march%unknown(:, 1) + step/march%past_step(1)*(march%unknown(:, 1) - march%unknown(:, 2))
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
-      ahead(bearing%first_shaft + 1:bearing%first_shaft + 2) = place_ahead(march, step)
+      place = place_ahead(march, step)
+      ahead(bearing%first_shaft + 1:) = place(:bearing%blocks%border%scalars)
     end if
     open = bearing%is_open_at(ahead)
     if (open) then
@@ -289,6 +355,7 @@ contains
   subroutine end_march(march, bearing)
     type(march_type), intent(inout) :: march !! its numbers stay
     type(bearing_system_type), intent(inout) :: bearing !! at the last state
+    real(wp) :: place(film_forces)
     integer :: i
     PetscErrorCode :: ierr
 
@@ -296,7 +363,12 @@ contains
       PetscCallA(VecDestroy(march%state(i), ierr))
     end do
     bearing%point%inertia = 0.0_wp
-    if (bearing%floats) bearing%point%eccentricity = bearing%eccentricity()
+    bearing%point%tilt_inertia = 0.0_wp
+    if (bearing%floats) then
+      place = place_of(bearing)
+      bearing%point%eccentricity = place(:2)
+      bearing%point%tilt = place(3:)
+    end if
     do i = 1, size(bearing%pad)
       if (allocated(bearing%pad(i)%film%past)) deallocate (bearing%pad(i)%film%past)
     end do

@@ -135,6 +135,7 @@ contains
     integer, intent(out) :: next !! point of the sweep
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: scene
+    type(bearing_plan_type) :: on_way
 
     next = 0
     call find_restart_point(sweep%context%restart, next, error)
@@ -142,7 +143,9 @@ contains
     call scene_of(sweep, next, scene, error)
     if (allocated(error)) return
     associate (log => sweep%context%log)
-      call build_bearing(scene, plan, sweep%bearing, error)
+      on_way = plan
+      on_way%bearing_distance = scene%distance_in_time() ! the file was written on the way
+      call build_bearing(scene, on_way, sweep%bearing, error)
       if (allocated(error)) return
       call create_newton(sweep%newton, sweep%bearing, 'bearing_', sweep%tolerances, log)
       call recall_bearing(scene, sweep%context%restart, log, sweep%bearing, sweep%newton, sweep%record, next, error)

@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> A shaft that moves, from an equilibrium on: over time, or on orbits that close.
 module gfb_motions
+  use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_scene, only: scene_type
@@ -10,6 +11,7 @@ module gfb_motions
   use gfb_bearing_record, only: bearing_record_type
   use gfb_reasons, only: reason_type
   use gfb_run_context, only: run_context_type
+  use gfb_two_bearings, only: stand_on_two
   use gfb_transient, only: transient_type
   use gfb_periodic, only: periodic_type
   implicit none (type)
@@ -35,7 +37,7 @@ contains
     moves = scene%transient%present .or. scene%periodic%present
   end function moves
 
-  !> Follows the shaft.
+  !> Follows the shaft; one that tilts on two bearings.
   !>
   !> Fails when a restart file is damaged.
   subroutine run(self, scene, context, bearing, newton, record, reason, error)
@@ -50,6 +52,12 @@ contains
 
     if (scene%transient%present) then
       allocate (self%transient)
+      associate (distance => scene%distance_in_time())
+        if (distance > 0.0_wp .and. .not. context%restart%goes_on) then
+          call stand_on_two(scene, distance, context%log, bearing, newton, error)
+        end if
+      end associate
+      if (allocated(error)) return
       call self%transient%run(scene, context, bearing, newton, record, reason, error)
     else
       allocate (self%periodic)

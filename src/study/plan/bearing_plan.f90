@@ -77,6 +77,7 @@ contains
     end if
     plan%memory = film_memory(nodes*scene%bearing%pads)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
+    if (scene%distance_in_time() > 0.0_wp) plan%memory = 2.0_wp*plan%memory ! two bearings
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     end if
@@ -155,15 +156,17 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
+    logical :: symmetric
 
     if (scene%model%half_width == half_width_auto) then
-      plan%half = is_symmetric(scene%operation, scene%sweep) .and. modulo(plan%axial, 2) == 0
+      symmetric = is_symmetric(scene%operation, scene%sweep) .and. .not. scene%distance_in_time() > 0.0_wp
+      plan%half = symmetric .and. modulo(plan%axial, 2) == 0
       plan%half = plan%half .and. strips_mirror(scene%bump_foil)
       if (.not. strips_mirror(scene%bump_foil)) then
         call log%line('width: whole, because the strips do not mirror each other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
-      else if (is_symmetric(scene%operation, scene%sweep)) then
+      else if (symmetric) then
         call log%line('width: whole, because axial_elements is odd')
       else
         call log%line('width: whole, because the shaft tilts')

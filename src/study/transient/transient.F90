@@ -13,10 +13,11 @@ module gfb_transient
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
   use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march
+  use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
   use gfb_run_context, only: run_context_type
-  use gfb_transient_history, only: transient_history_type
+  use gfb_transient_history, only: transient_history_type, plane_columns, tilt_columns
   use gfb_bearing_record, only: bearing_record_type
   use gfb_restart, only: restart_type
   use gfb_transient_restart, only: keep_march, recall_march
@@ -145,7 +146,9 @@ contains
       if (history%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
         self%ending = 'the shaft touches down'
       else if (transient%largest_orbit > 0.0_wp) then
-        if (norm2(march%place(:, 1) - march%first_place) > transient%largest_orbit) self%ending = 'the orbit has grown beyond its limit'
+        if (largest_way(march, march%place(:, 1) - march%first_place) > transient%largest_orbit) then
+          self%ending = 'the orbit has grown beyond its limit'
+        end if
       end if
     end associate
   end subroutine look_for_limits
@@ -154,13 +157,13 @@ contains
   subroutine look_for_steady_orbit(self, scene)
     class(transient_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
-    real(wp) :: now(4), before(4)
+    real(wp), allocatable :: now(:), before(:)
 
     if (.not. scene%transient%steady_tolerance > 0.0_wp) return
     associate (turn => self%march%turns())
       if (turn < 2.0_wp .or. self%march%drive%jumps(self%march%time) < self%march%settings%end_time) return
-      now = self%history%extent(turn - 1.0_wp, turn)
-      before = self%history%extent(turn - 2.0_wp, turn - 1.0_wp)
+      now = self%history%extents(turn - 1.0_wp, turn)
+      before = self%history%extents(turn - 2.0_wp, turn - 1.0_wp)
     end associate
     if (maxval(abs(now - before)) > scene%transient%steady_tolerance*scene%bearing%clearance) return
     self%ending = 'the orbit is steady'
@@ -170,15 +173,26 @@ contains
   function results(self) result(found)
     class(transient_type), intent(in) :: self !! its way
     type(quantity_type), allocatable :: found(:)
-    real(wp) :: box(4)
+    real(wp), allocatable :: box(:)
+    integer :: i
 
     associate (march => self%march)
-      box = self%history%extent(march%turns() - 1.0_wp, march%turns())
+      box = self%history%extents(march%turns() - 1.0_wp, march%turns(), plane_columns)
       call add_result(found, 'time', march%time)
       call add_result(found, 'turns', march%turns())
       call add_result(found, 'time_steps', march%steps)
       call add_result(found, 'orbit_x', box(2) - box(1))
       call add_result(found, 'orbit_y', box(4) - box(3))
+      if (self%history%tilts) then
+        box = self%history%extents(march%turns() - 1.0_wp, march%turns())
+        do i = 1, 2
+          call add_result(found, 'orbit_x_'//text(i), box(4*i - 2) - box(4*i - 3))
+          call add_result(found, 'orbit_y_'//text(i), box(4*i) - box(4*i - 1))
+        end do
+        box = self%history%extents(march%turns() - 1.0_wp, march%turns(), tilt_columns)
+        call add_result(found, 'orbit_tilt_x', box(2) - box(1))
+        call add_result(found, 'orbit_tilt_y', box(4) - box(3))
+      end if
       call add_result(found, 'minimum_gap_over_time', self%history%smallest_gap)
       if (self%ending /= '') call add_result(found, 'ending', self%ending)
     end associate
@@ -191,21 +205,29 @@ contains
     call add_arrays(arrays, self%history%arrays())
   end subroutine add_transient_arrays
 
-  !> What drives the shaft of a scene.
+  !> What drives the shaft of a scene: what each of two bearings carries of a rotor that tilts counts twice.
   pure function drive_of(scene) result(drive)
     type(scene_type), intent(in) :: scene !! with `&transient`
     type(shaft_drive_type) :: drive
+    real(wp) :: bearings
 
+    drive%bearing_distance = scene%distance_in_time()
+    bearings = merge(2.0_wp, 1.0_wp, drive%bearing_distance > 0.0_wp)
     associate (transient => scene%transient)
-      drive%mass = scene%rotor%mass
-      drive%load = scene%operation%load
+      drive%mass = bearings*scene%rotor%mass
+      drive%transverse_inertia = scene%rotor%transverse_inertia
+      drive%polar_inertia = scene%rotor%polar_inertia
+      drive%load = bearings*scene%operation%load
       drive%speed = angular_speed(scene%operation%speed_rpm)
       drive%ramp = duration_of(scene)
       if (transient%ramp_time > 0.0_wp) drive%ramp = transient%ramp_time
       drive%acceleration = (angular_speed(transient%final_speed_rpm) - drive%speed)/drive%ramp
-      drive%unbalance = transient%unbalance
+      drive%unbalance = bearings*transient%unbalance
       drive%unbalance_angle = transient%unbalance_angle
-      drive%pulse = transient%pulse
+      drive%couple_unbalance = transient%couple_unbalance
+      drive%couple_unbalance_angle = transient%couple_unbalance_angle
+      drive%pulse = bearings*transient%pulse
+      drive%couple_pulse = transient%couple_pulse
       drive%pulse_start = transient%pulse_start
       drive%pulse_length = transient%pulse_length
       drive%orbit_radius = transient%orbit_radius

@@ -12,14 +12,19 @@ module gfb_transient_history
   implicit none (type)
   private
 
-  integer, parameter :: columns = 21
+  integer, parameter :: planar = 21, columns = 35 !! of a shaft that does not tilt, of a rotor that does
+  integer, parameter, public :: plane_columns(2) = [4, 5], tilt_columns(2) = [22, 23] !! e_x and e_y; tilts
+  integer, parameter :: journal_columns(4) = [30, 31, 32, 33] !! the same of both bearings
   character(len=*), parameter :: names(columns) = [character(len=17) :: &
     'time', 'turns', 'speed', 'eccentricity_x', 'eccentricity_y', 'velocity_x', 'velocity_y', &
     'force_x', 'force_y', 'load_x', 'load_y', 'minimum_gap', 'maximum_pressure', 'minimum_pressure', &
-    'friction_torque', 'step', 'stored_gas', 'gas_outflow', 'steps', 'newton_iterations', 'factorizations']
+    'friction_torque', 'step', 'stored_gas', 'gas_outflow', 'steps', 'newton_iterations', 'factorizations', &
+    'tilt_x', 'tilt_y', 'tilt_velocity_x', 'tilt_velocity_y', 'torque_x', 'torque_y', 'outer_torque_x', 'outer_torque_y', &
+    'eccentricity_x_1', 'eccentricity_y_1', 'eccentricity_x_2', 'eccentricity_y_2', 'minimum_gap_1', 'minimum_gap_2']
   character(len=*), parameter :: units(columns) = [character(len=8) :: &
     's', '1', 'rad/s', 'm', 'm', 'm/s', 'm/s', 'N', 'N', 'N', 'N', 'm', 'Pa', 'Pa', 'N m', 's', &
-    'Pa m^3', 'Pa m^3/s', '1', '1', '1']
+    'Pa m^3', 'Pa m^3/s', '1', '1', '1', &
+    'rad', 'rad', 'rad/s', 'rad/s', 'N m', 'N m', 'N m', 'N m', 'm', 'm', 'm', 'm', 'm', 'm']
   character(len=*), parameter :: meanings(columns) = [character(len=96) :: &
     'time from the beginning', 'turns of the shaft so far', 'speed of the shaft', &
     'e_x, of the sleeve relative to the shaft', 'e_y, of the sleeve relative to the shaft', &
@@ -32,18 +37,26 @@ module gfb_transient_history
     'p h integrated over the film (in a real gas density times p_a over that at p_a, times h)', &
     'that leaves the film through its edges, a time', 'steps so far', &
     'Newton iterations so far, with those of the start', &
-    'factorizations so far, with those of the start']
+    'factorizations so far, with those of the start', &
+    'tilt of the sleeves relative to the rotor about x', 'tilt of the sleeves relative to the rotor about y', &
+    'rate of tilt_x', 'rate of tilt_y', &
+    'torque of the films on the rotor about its centre of mass, x', &
+    'torque of the films on the rotor about its centre of mass, y', &
+    'outer torque on the rotor, x: couple unbalance, pulse', 'outer torque on the rotor, y: couple unbalance, pulse', &
+    'e_x in the bearing at +z', 'e_y in the bearing at +z', 'e_x in the bearing at -z', 'e_y in the bearing at -z', &
+    'smallest film thickness in the bearing at +z', 'smallest film thickness in the bearing at -z']
 
   !> The lines so far.
   type, public :: transient_history_type
     integer :: lines = 0
+    logical :: tilts = .false.                  !! a rotor does, on two bearings
     real(wp), allocatable :: values(:, :)       !! (columns, lines), with room for more [SI]
     real(wp) :: smallest_gap = huge(1.0_wp)     !! of all steps [m]
   contains
     procedure :: add => add_line
     procedure :: see_gap
     procedure :: arrays => history_arrays
-    procedure :: extent
+    procedure :: extents
     procedure :: remember => remember_history
   end type transient_history_type
 
@@ -58,10 +71,12 @@ contains
     type(bearing_answer_type) :: answer
     real(wp) :: gas(2)
     real(wp), allocatable :: grown(:, :)
+    integer :: pads
 
-    if (.not. allocated(self%values)) allocate (self%values(columns, 256))
+    self%tilts = march%drive%bearing_distance > 0.0_wp
+    if (.not. allocated(self%values)) allocate (self%values(merge(columns, planar, self%tilts), 256))
     if (self%lines == size(self%values, 2)) then
-      allocate (grown(columns, 2*self%lines))
+      allocate (grown(size(self%values, 1), 2*self%lines))
       grown(:, :self%lines) = self%values
       call move_alloc(grown, self%values)
     end if
@@ -69,10 +84,15 @@ contains
     gas = gas_balance(bearing)
     self%lines = self%lines + 1
     self%smallest_gap = min(self%smallest_gap, answer%minimum_gap)
-    self%values(:, self%lines) = [march%time, march%turns(), bearing%point%speed, march%place(:, 1), march%velocity(:, 1), &
+    self%values(:planar, self%lines) = [march%time, march%turns(), bearing%point%speed, march%place(:2, 1), march%velocity(:2, 1), &
                                   answer%force(:2), march%outer_load(), answer%minimum_gap, answer%maximum_pressure, &
                                   answer%minimum_pressure, answer%friction_torque, march%step, gas, &
                                   real([march%steps, newton%iterations, newton%factorizations], wp)]
+    if (.not. self%tilts) return
+    pads = size(bearing%pad)/2
+    self%values(planar + 1:, self%lines) = [march%place(3:, 1), march%velocity(3:, 1), answer%force(3:), march%outer_torque(), &
+                                            pack(march%way_in_bearings(march%place(:, 1)), .true.), &
+                                            minval(answer%pad_gap(:pads)), minval(answer%pad_gap(pads + 1:))]
   end subroutine add_line
 
   !> Notes the smallest gap of the present state, which no line need show.
@@ -117,7 +137,7 @@ contains
     integer :: i
 
     allocate (arrays(0))
-    do i = 1, columns
+    do i = 1, size(self%values, 1)
       call fill_array('/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines), one(1))
       call add_arrays(arrays, one)
     end do
@@ -134,20 +154,26 @@ contains
     call memory%visit('smallest_gap', self%smallest_gap)
     memory%failed = memory%failed .or. .not. allocated(lines)
     if (memory%packs .or. memory%failed) return
-    memory%failed = size(lines, 1) /= columns
+    memory%failed = size(lines, 1) /= size(self%values, 1)
     self%lines = size(lines, 2)
     call move_alloc(lines, self%values)
   end subroutine remember_history
 
-  !> Smallest and largest e_x and e_y in the lines of the turns between two numbers.
-  pure function extent(self, from, to) result(box)
+  !> Smallest and largest values of some columns in the lines of the turns between two numbers.
+  pure function extents(self, from, to, asked) result(box)
     class(transient_history_type), intent(in) :: self !! the lines
     real(wp), intent(in) :: from, to !! turns of the shaft [1]
-    real(wp) :: box(4)               !! smallest e_x, largest, e_y [m]
+    integer, intent(in), optional :: asked(:) !! default: where the shaft is, in both bearings where it has two
+    real(wp), allocatable :: box(:)  !! smallest value of the first column, largest, those of the next [SI]
+    integer, allocatable :: column(:)
     logical :: there(self%lines)
+    integer :: i
 
+    column = plane_columns
+    if (self%tilts) column = journal_columns
+    if (present(asked)) column = asked
     there = self%values(2, :self%lines) >= from .and. self%values(2, :self%lines) <= to
-    box = [minval(self%values(4, :self%lines), there), maxval(self%values(4, :self%lines), there), &
-           minval(self%values(5, :self%lines), there), maxval(self%values(5, :self%lines), there)]
-  end function extent
+    box = [(minval(self%values(column(i), :self%lines), there), maxval(self%values(column(i), :self%lines), there), &
+            i=1, size(column))]
+  end function extents
 end module gfb_transient_history
