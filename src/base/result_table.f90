@@ -20,8 +20,8 @@ module gfb_result_table
                                 origin = 512, sample = 1024, transient = 2048, periodic = 4096
   character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
     'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
-    'history of a strip', 'modes', '`&accuracy`', 'table of cases', &
-    '`/provenance`', '`&sample`', '`&transient`', '`&periodic`']
+    'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`', '`&sample`', &
+    '`&transient`', '`&periodic`']
 
   !> A row of the table.
   type, public :: result_type
@@ -105,8 +105,7 @@ module gfb_result_table
     result_type('torque_<a>', 'N m', number, bearing, '{film} torque on the shaft about <a>', &
       'torque of the film, and of solid contact, on the shaft', asked=.true.), &
     result_type('torque_<a>_without_suction', 'N m', number, bearing, &
-      'torque_<a> of the pressure above ambient', &
-      'the same of the pressure above ambient only'), &
+      'torque_<a> of the pressure above ambient', 'the same of the pressure above ambient only'), &
     result_type('friction_torque', 'N m', number, bearing, &
       'torque with which {the film brakes} the shaft', &
       'torque with which the film, and solid contact, brake the shaft', asked=.true.), &
@@ -141,8 +140,7 @@ module gfb_result_table
       compared=.true., joins=.true.), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &
-      'foils of shells or beams: crest length without contact, over all of it', &
-      compared=.true.), &
+      'foils of shells or beams: crest length without contact, over all of it', compared=.true.), &
     result_type('solid_contact_force_<a>', 'N', number, bearing, &
       'share of force_<a> that the solid contact carries', &
       'with `&shaft_contact`: share of `force_x`, `force_y` that the asperities carry'), &

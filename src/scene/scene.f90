@@ -1,6 +1,5 @@
 !> One case file as plain values: what was asked, in SI.
 module gfb_scene
-  use gfb_kinds, only: wp
   use gfb_accuracy_case, only: accuracy_case_type
   use gfb_bearing_case, only: bearing_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
@@ -57,16 +56,5 @@ module gfb_scene
     type(mesh_case_type) :: mesh
     type(solver_case_type) :: solver
     type(output_case_type) :: output
-  contains
-    procedure :: distance_in_time
   end type scene_type
-
-contains
-
-  !> Distance of the two bearings of a rotor that is followed over time and tilts; 0: there is one bearing.
-  pure function distance_in_time(self) result(distance)
-    class(scene_type), intent(in) :: self !! what is asked for
-    real(wp) :: distance !! [m]
-    distance = merge(self%rotor%bearing_distance, 0.0_wp, self%transient%present)
-  end function distance_in_time
 end module gfb_scene

@@ -169,10 +169,10 @@ def check_unbalance(checks, folder):
     checks.below("unbalance: with 200 steps a turn", numpy.linalg.norm(found[1] - wanted)/size, 5.0e-3)
 
 
-def modes_in(rows, turns, count=1):
+def modes_in(rows, turns, count=1, name="eccentricity"):
     """Rates of the modes that a free motion ends in, from rows at equal steps: the least damped one first."""
     kept = rows["turns"] > rows["turns"][-1] - turns
-    motion = [numpy.diff(rows[f"eccentricity_{axis}"][kept]) for axis in "xy"] # the equilibrium drops out
+    motion = [numpy.diff(rows[f"{name}_{axis}"][kept]) for axis in "xy"] # the equilibrium drops out
     order = 2*count
     before = numpy.concatenate([numpy.array([one[order - i:len(one) - i] for i in range(1, order + 1)]).T for one in motion])
     after = numpy.concatenate([one[order:] for one in motion])

@@ -11,15 +11,16 @@ module gfb_shaft_drive
     real(wp) :: mass = 0.0_wp            !! of the shaft [kg]
     real(wp) :: transverse_inertia = 0.0_wp !! of a rotor that tilts [kg m^2]
     real(wp) :: polar_inertia = 0.0_wp   !! of it [kg m^2]
-    real(wp) :: bearing_distance = 0.0_wp !! of the two bearings it then stands on; 0: one bearing [m]
+    real(wp) :: bearing_distance = 0.0_wp !! of the two that it then stands on; 0: there is one [m]
     real(wp) :: load(2) = 0.0_wp         !! steady [N]
     real(wp) :: speed = 0.0_wp           !! at the beginning [rad/s]
     real(wp) :: acceleration = 0.0_wp    !! of it [rad/s^2]
     real(wp) :: ramp = 0.0_wp            !! until when it changes [s]
     real(wp) :: unbalance = 0.0_wp       !! mass times its distance from the axis [kg m]
     real(wp) :: unbalance_angle = 0.0_wp !! of it at the beginning, from x [rad]
-    real(wp) :: couple_unbalance = 0.0_wp !! unbalance times its distance along the axis from an opposite one [kg m^2]
-    real(wp) :: couple_unbalance_angle = 0.0_wp !! of that towards +z at the beginning, from x [rad]
+    !> Unbalance times its distance along the axis from an opposite one [kg m^2].
+    real(wp) :: couple_unbalance = 0.0_wp
+    real(wp) :: couple_unbalance_angle = 0.0_wp !! of that at +z at the beginning, from x [rad]
     real(wp) :: pulse(2) = 0.0_wp        !! force times time [N s]
     real(wp) :: couple_pulse(2) = 0.0_wp !! torque times time, while the pulse takes [N m s]
     real(wp) :: pulse_start = 0.0_wp     !! [s]
@@ -75,10 +76,11 @@ contains
 
   !> All outer torques on a rotor that tilts, about x and y: couple unbalance and pulse.
   !>
-  !> A force f at the height z has the torque \( z (-f_y, f_x) \); the unbalance u at z = d/2 and the opposite one at
-  !> -d/2 have, with v = u d,
+  !> A force f at the height z has the torque \( z (-f_y, f_x) \); the unbalance u at z = d/2 and
+  !> the opposite one at -d/2 have, with v = u d,
   !>
-  !> $$ \boldsymbol{\tau} = v \, [0, -1; 1, 0] (\dot\varphi^2 \mathbf{n} - \ddot\varphi \mathbf{t})
+  !> $$ \boldsymbol{\tau} = v \, [0, -1; 1, 0]
+  !>      (\dot\varphi^2 \mathbf{n} - \ddot\varphi \mathbf{t})
   !>      + \mathbf{J} \frac{2}{T} \sin^2 \frac{\pi (t - t_0)}{T} $$
   pure function torque_at(self, time) result(torque)
     class(shaft_drive_type), intent(in) :: self !! the drive
@@ -88,7 +90,9 @@ contains
 
     force = self%couple_unbalance*turning(self, time, self%couple_unbalance_angle)
     torque = [-force(2), force(1)]
-    if (pushes(self, time)) torque = torque + self%couple_pulse*2.0_wp/self%pulse_length*push_at(self, time)
+    if (pushes(self, time)) then
+      torque = torque + self%couple_pulse*2.0_wp/self%pulse_length*push_at(self, time)
+    end if
   end function torque_at
 
   !> Force of an unbalance that turns with the shaft, over it.

@@ -33,8 +33,8 @@ module gfb_gas_film
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
     real(wp) :: width = 0.0_wp            !! that is meshed [m]
-    real(wp) :: offset = 0.0_wp           !! of its midplane from the rotor's centre of mass [m]
-    integer :: coordinates = shaft_unknowns !! of a shaft that floats which are unknowns: 2, or 4
+    real(wp) :: offset = 0.0_wp           !! of its midplane from the rotor's centre [m]
+    integer :: coordinates = shaft_unknowns !! of a shaft that floats, 4 where it tilts
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
     integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
     real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
@@ -44,13 +44,13 @@ module gfb_gas_film
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
     real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, odd in z [m3]
-    real(wp), allocatable :: motion(:, :)         !! (4, nodes) the gap's, see `shaft_motion` [1], [m]
+    real(wp), allocatable :: motion(:, :)         !! (4, nodes) see `shaft_motion` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
     real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
-    real(wp), allocatable :: past(:, :) !! (points, elements) what earlier r h add to its rate [Pa m/s]
+    real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
   contains
     procedure :: flow_at
     procedure :: cell_flow

@@ -17,7 +17,7 @@ module gfb_operating_point
     real(wp) :: tilt(2) = 0.0_wp         !! the same of the sleeve's tilt [rad]
     real(wp) :: torque(2) = 0.0_wp       !! external one on a rotor that tilts [N m]
     real(wp) :: inertia = 0.0_wp         !! of a shaft that floats, over a step of time [N/m]
-    !> The same of its tilts, with the gyroscopic torque that each has from the other's rate [N m/rad].
+    !> The same of its tilts, with the gyroscopic torque by the other's rate [N m/rad].
     real(wp) :: tilt_inertia(2, 2) = 0.0_wp
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
@@ -41,7 +41,7 @@ contains
   !> Adds the forces on the sleeve that balance the film's: those of the load, and of inertia.
   pure subroutine add_other_forces(self, place, force)
     class(operating_point_type), intent(in) :: self !! the point
-    real(wp), intent(in) :: place(:)    !! the sleeve's first coordinates, those that are unknown [m], [rad]
+    real(wp), intent(in) :: place(:)    !! the coordinates that are unknowns [m], [rad]
     real(wp), intent(inout) :: force(:) !! conjugate to them [N], [N m]
     real(wp) :: all(shaft_coordinates)
 

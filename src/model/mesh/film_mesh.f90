@@ -19,7 +19,7 @@ module gfb_film_mesh
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     real(wp), allocatable :: row_axial(:)      !! z of the rows, 0 at the midplane [m]
-    real(wp) :: offset = 0.0_wp                !! of the midplane from the rotor's centre of mass [m]
+    real(wp) :: offset = 0.0_wp                !! of the midplane from the rotor's centre [m]
   contains
     procedure :: stations => film_stations
     procedure :: rows => film_rows

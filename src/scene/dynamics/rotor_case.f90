@@ -1,4 +1,4 @@
-!> `&rotor`: the rigid rotor whose modes are asked for.
+!> `&rotor`: the rigid rotor whose modes, or whose way over time, are asked for.
 module gfb_rotor_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
@@ -21,6 +21,7 @@ module gfb_rotor_case
     real(wp) :: transverse_inertia = 0.0_wp !! of the whole rotor [kg m^2]
     real(wp) :: polar_inertia = 0.0_wp      !! of the whole rotor [kg m^2]
     real(wp) :: bearing_distance = 0.0_wp   !! from midplane to midplane [m]
+    real(wp) :: distance_in_time = 0.0_wp   !! the same where it is followed over time, else 0 [m]
   end type rotor_case_type
 
 contains
@@ -46,6 +47,7 @@ contains
     call keys%real_key(distance, rotor%bearing_distance, 'm', &
                        'distance of the two bearings, from midplane to midplane', positive, &
                        default=no_default)
+    if (analysis == analysis_transient) rotor%distance_in_time = rotor%bearing_distance
     call keys%finish_group()
   end subroutine read_rotor_case
 

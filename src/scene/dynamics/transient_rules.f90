@@ -59,7 +59,7 @@ contains
     call refuse(keys, 'orbit_frequency', 'needs an eccentricity in &operation instead of a load')
   end subroutine check_free_shaft
 
-  !> A rotor that tilts on two bearings needs their whole width, and what turns it needs such a rotor.
+  !> A rotor that tilts needs the whole width of its bearings, and what turns it needs such a rotor.
   subroutine check_tilts(keys, model)
     type(case_keys_type), intent(inout) :: keys
     type(model_case_type), intent(in) :: model
@@ -68,8 +68,8 @@ contains
 
     if (keys%meant('rotor', 'bearing_distance')) then
       if (model%half_width == half_width_yes) then
-        call keys%complain('model', 'half_width', "must not be 'yes' where a rotor tilts on two "// &
-                           'bearings over time')
+        call keys%complain('model', 'half_width', "must not be 'yes' where a rotor tilts "// &
+                           'on two bearings over time')
       end if
       return
     end if

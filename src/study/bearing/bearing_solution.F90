@@ -144,7 +144,7 @@ contains
     if (allocated(error)) return
     associate (log => sweep%context%log)
       on_way = plan
-      on_way%bearing_distance = scene%distance_in_time() ! the file was written on the way
+      on_way%bearing_distance = scene%rotor%distance_in_time ! the file was written on the way
       call build_bearing(scene, on_way, sweep%bearing, error)
       if (allocated(error)) return
       call create_newton(sweep%newton, sweep%bearing, 'bearing_', sweep%tolerances, log)

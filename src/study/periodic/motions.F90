@@ -52,11 +52,9 @@ contains
 
     if (scene%transient%present) then
       allocate (self%transient)
-      associate (distance => scene%distance_in_time())
-        if (distance > 0.0_wp .and. .not. context%restart%goes_on) then
-          call stand_on_two(scene, distance, context%log, bearing, newton, error)
-        end if
-      end associate
+      if (scene%rotor%distance_in_time > 0.0_wp .and. .not. context%restart%goes_on) then
+        call stand_on_two(scene, context%log, bearing, newton, error)
+      end if
       if (allocated(error)) return
       call self%transient%run(scene, context, bearing, newton, record, reason, error)
     else

@@ -77,7 +77,7 @@ contains
     end if
     plan%memory = film_memory(nodes*scene%bearing%pads)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
-    if (scene%distance_in_time() > 0.0_wp) plan%memory = 2.0_wp*plan%memory ! two bearings
+    if (scene%rotor%distance_in_time > 0.0_wp) plan%memory = 2.0_wp*plan%memory ! two bearings
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     end if
@@ -159,7 +159,8 @@ contains
     logical :: symmetric
 
     if (scene%model%half_width == half_width_auto) then
-      symmetric = is_symmetric(scene%operation, scene%sweep) .and. .not. scene%distance_in_time() > 0.0_wp
+      symmetric = is_symmetric(scene%operation, scene%sweep) .and. &
+                  .not. scene%rotor%distance_in_time > 0.0_wp
       plan%half = symmetric .and. modulo(plan%axial, 2) == 0
       plan%half = plan%half .and. strips_mirror(scene%bump_foil)
       if (.not. strips_mirror(scene%bump_foil)) then

@@ -211,7 +211,7 @@ contains
     type(shaft_drive_type) :: drive
     real(wp) :: bearings
 
-    drive%bearing_distance = scene%distance_in_time()
+    drive%bearing_distance = scene%rotor%distance_in_time
     bearings = merge(2.0_wp, 1.0_wp, drive%bearing_distance > 0.0_wp)
     associate (transient => scene%transient)
       drive%mass = bearings*scene%rotor%mass

@@ -20,9 +20,8 @@ contains
   !>
   !> Their pads are those of one system of equations, with the rotor's displacement and its tilts as unknowns; forces, and
   !> what the films hold, are those of both. Fails when the mesh cannot be cut into parts.
-  subroutine stand_on_two(scene, distance, log, bearing, newton, error)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    real(wp), intent(in) :: distance !! of the bearings, from midplane to midplane [m]
+  subroutine stand_on_two(scene, log, bearing, newton, error)
+    type(scene_type), intent(in) :: scene !! with such a rotor
     type(run_log_type), intent(in) :: log !! where a line goes
     type(bearing_system_type), target, intent(inout) :: bearing !! at its equilibrium, aligned; then both
     type(newton_type), target, intent(inout) :: newton !! its solver; then theirs
@@ -35,7 +34,7 @@ contains
     counts = [newton%iterations, newton%factorizations, newton%factorizations_before, newton%enlargements]
     call forget_factors(newton)
     call destroy_newton(newton)
-    call build_like(scene, bearing, both, error, distance)
+    call build_like(scene, bearing, both, error, scene%rotor%distance_in_time)
     if (allocated(error)) return
     call take_state(bearing, both)
     call bearing%destroy()
@@ -45,7 +44,7 @@ contains
     newton%factorizations = counts(2)
     newton%factorizations_before = counts(3)
     newton%enlargements = counts(4)
-    call log%line('rotor: on two equal bearings, '//text(distance)//' m apart, with its tilts; forces, torques and gas are those '// &
+    call log%line('rotor: on two equal bearings, '//text(scene%rotor%distance_in_time)//' m apart, with its tilts; forces, torques and gas are those '// &
                   'of both')
   end subroutine stand_on_two
 

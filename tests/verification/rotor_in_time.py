@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""A rigid rotor on two bearings over time, with its tilts: what is known of it without any other program.
+
+Two point masses m at the bearings' midplanes are the rotor of the mass 2 m, of I_t = m L^2/2 and I_p = 0. Far apart, so
+that a tilt moves a journal but hardly turns it, each of them is a shaft of its own on its bearing, at any amplitude.
+Without gas a rotor that was turned goes round with I_p/I_t of the speed. Small conical motions have the rates of the
+linear theory, see transient.py.
+"""
+
+import math
+import sys
+import tempfile
+
+import numpy
+
+from dynamics import FOIL_BEARING, beams
+from dynamics_foils import shells
+from gfb_run import Checks, case_groups, largest_difference, observed_order, run_file, solve, write_case
+from rotor import modes_of, speed_of
+from transient import MESH, TIGHT, foil_case, history, modes_in, plane, rate
+
+CLEARANCE = 31.8e-6
+DISTANCE = 0.12
+ROTOR = {"transverse_inertia": 1.6e-3, "polar_inertia": 4.0e-4, "bearing_distance": DISTANCE}
+
+
+def conical_case(mass, load, rotor=None, mesh=MESH, name="PT1", **keys):
+    """A rotor on two bearings over time, and the linear theory's case of it."""
+    content, linear = foil_case(mass, load, mesh, name, **keys)
+    for one in (content, linear):
+        one["rotor"] = one["rotor"] | (rotor or ROTOR)
+    return content, linear
+
+
+def check_alike(checks, folder):
+    """What both bearings share leaves the rotor aligned: the answer of one bearing; forces are those of both."""
+    mass = 1.5
+    drive = {"turns": 2, "steps_per_turn": 60, "unbalance": 1.5e-6, "pulse": (0.01, 0.02), "pulse_length": 1.0e-3}
+    single, _ = foil_case(mass, (-60.0, 0.0), **drive)
+    double, _ = conical_case(mass, (-60.0, 0.0), **drive)
+    for one in (single, double):
+        one["solver"] = TIGHT
+    one, two = (history(solve(folder, name, content)) for name, content in (("single", single), ("double", double)))
+    for name in ("eccentricity", "velocity"):
+        size = numpy.abs(plane(one, name)).max()
+        checks.below(f"bearings alike: {name} of one", largest_difference(plane(one, name), plane(two, name), size), 1.0e-9)
+    checks.below("bearings alike: twice its force", largest_difference(2.0*plane(one, "force"), plane(two, "force"), 120.0), 1.0e-8)
+    checks.below("bearings alike: twice its gas", numpy.abs(two["stored_gas"]/one["stored_gas"] - 2.0).max(), 1.0e-9)
+    checks.below("bearings alike: no tilt", numpy.abs(plane(two, "tilt")).max()*DISTANCE/CLEARANCE, 1.0e-9)
+
+
+def check_apart(checks, folder):
+    """Point masses on bearings far apart: each with the large orbit of a shaft on one bearing, with its own unbalance."""
+    mass, unbalance = 1.5, (3.0e-6, 0.5e-6)
+    found = []
+    for ratio in (250.0, 500.0):
+        distance = ratio*FOIL_BEARING.length
+        rotor = {"transverse_inertia": 0.5*mass*distance**2, "bearing_distance": distance}
+        content, _ = conical_case(mass, (-60.0, 0.0), rotor, turns=2, steps_per_turn=60, unbalance=0.5*sum(unbalance),
+                                  couple_unbalance=0.5*(unbalance[0] - unbalance[1])*distance)
+        rows = history(solve(folder, "apart", content))
+        off = []
+        for number, one in enumerate(unbalance, 1):
+            single, _ = foil_case(mass, (-60.0, 0.0), turns=2, steps_per_turn=60, unbalance=one)
+            alone = history(solve(folder, "alone", single))
+            there = rows[f"eccentricity_x_{number}"] + 1j*rows[f"eccentricity_y_{number}"]
+            off.append(largest_difference(there, plane(alone, "eccentricity"), CLEARANCE))
+            if number == 1:
+                checks.that("far apart: a large orbit", numpy.ptp(alone["eccentricity_x"]) > 0.1*CLEARANCE)
+        found.append(max(off))
+        checks.below(f"far apart, {ratio:.0f} lengths: each journal as if alone, over the clearance", found[-1], 20.0/ratio**2)
+    checks.within("far apart: order in the distance", observed_order(*found), 1.8, 2.2)
+
+
+def check_free(checks, folder):
+    """A gas that is hardly there: after a turn the rotor goes round with I_p/I_t of the speed."""
+    content, _ = conical_case(1.0, (-1.0e-9, 0.0), turns=6)
+    content["gas"] = {"viscosity": 1.95e-12, "ambient_pressure": 1.0e-2}
+    content["model"] = {"foil": "rigid"}
+    del content["transient"]["foundation_damping"]
+    omega = speed_of(content)
+    wanted = ROTOR["polar_inertia"]/ROTOR["transverse_inertia"]
+    content["transient"] |= {"couple_pulse": (1.0e-4*CLEARANCE, 0.0), "pulse_length": 2.0*math.pi/omega}
+    found = []
+    for steps in (60, 120):
+        content["transient"]["steps_per_turn"] = steps
+        rows = history(solve(folder, "free", content))
+        turn = plane(rows, "tilt_velocity")[rows["turns"] > 1.5]
+        angle = numpy.unwrap(numpy.angle(turn))
+        found.append((angle[-1] - angle[0])/(len(turn) - 1)/rows["step"][-1]/omega)
+    checks.below("no gas: precession over the speed", (4.0*found[1] - found[0])/3.0 - wanted, 1.0e-4)
+
+
+def check_balance(checks, folder):
+    """Torques, inertia and gyroscopic torque balance; the film's work and the outer one is kinetic energy."""
+    content, _ = conical_case(1.0, (-60.0, 0.0), turns=1.5, couple_unbalance=2.0e-8, couple_unbalance_angle=0.5)
+    omega = speed_of(content)
+    content["transient"] |= {"couple_pulse": (1.5e-4, -1.0e-4), "pulse_length": 2.0*math.pi/omega}
+    content["solver"] = TIGHT
+    missing = []
+    for steps in (120, 240):
+        content["transient"]["steps_per_turn"] = steps
+        rows = history(solve(folder, "balance", content))
+        tilt, spin = plane(rows, "tilt"), plane(rows, "tilt_velocity")
+        outer = -plane(rows, "torque") - plane(rows, "outer_torque") # on the sleeve's tilt
+        # I_p Omega [0, 1; -1, 0] is a factor -i of the plane's complex number.
+        gyroscopic = -1j*ROTOR["polar_inertia"]*omega*spin
+        lost = ROTOR["transverse_inertia"]*rate(rows, spin) + (gyroscopic - outer)[2:]
+        checks.below(f"{steps} steps: torques balance", numpy.abs(lost).max()/numpy.abs(outer).max(), 1.0e-6)
+        momentum = ROTOR["transverse_inertia"]*spin - 1j*ROTOR["polar_inertia"]*omega*tilt
+        given = numpy.concatenate(([0.0], numpy.cumsum(0.5*(outer[1:] + outer[:-1])*numpy.diff(rows["time"]))))
+        size = numpy.abs(momentum - momentum[0]).max()
+        power = ((plane(rows, "force") - plane(rows, "load"))*plane(rows, "velocity").conj()
+                 + outer*spin.conj()).real
+        work = numpy.concatenate(([0.0], numpy.cumsum(0.5*(power[1:] + power[:-1])*numpy.diff(rows["time"]))))
+        energy = numpy.abs(plane(rows, "velocity"))**2 + 0.5*ROTOR["transverse_inertia"]*numpy.abs(spin)**2 # two masses of 1 kg
+        missing.append((abs(momentum - momentum[0] - given)[-1]/size, abs(energy - energy[0] - work)[-1]/energy.max()))
+    for number, words in enumerate(("angular momentum", "energy")):
+        checks.below(f"{words} that is missing with 240 steps", missing[1][number], 2.0e-3)
+        checks.within(f"{words}: order of the steps", observed_order(missing[0][number], missing[1][number]), 1.7, 2.4)
+    for axis, lever in (("x", rows["tilt_y"]), ("y", -rows["tilt_x"])):
+        for number, sign in ((1, 0.5), (2, -0.5)):
+            there = rows[f"eccentricity_{axis}"] + sign*DISTANCE*lever
+            checks.below(f"journal {number}, {axis}", numpy.abs(there - rows[f"eccentricity_{axis}_{number}"]).max()/CLEARANCE, 1.0e-12)
+    gap = numpy.minimum(rows["minimum_gap_1"], rows["minimum_gap_2"])
+    checks.below("smallest film is that of one bearing", numpy.abs(gap - rows["minimum_gap"]).max()/CLEARANCE, 1.0e-12)
+    checks.that("bearings differ", numpy.abs(rows["minimum_gap_1"] - rows["minimum_gap_2"]).max() > 0.01*CLEARANCE)
+
+
+def conical_modes(answer, omega):
+    """Rates of the slow conical modes, the least damped first, and their sense."""
+    growth, frequency, _, kind, sense = modes_of(answer)
+    mine = (kind == 2) & (frequency > 0.0) & (growth > -0.6*omega)
+    order = numpy.argsort(-growth[mine])
+    return (growth + 1j*frequency)[mine][order], sense[mine][order]
+
+
+def check_modes(checks, folder):
+    """A rotor that was turned a little: growth and frequency of its conical modes, without and with a polar inertia."""
+    supg = {"film_order": 1, "film_scheme": "supg"}
+    cases = (("without polar inertia", {"polar_inertia": 0.0}, {}), ("with one", {}, {}), ("of a disc", {"polar_inertia": 2.4e-3}, {}),
+             ("SUPG", {}, supg), ("rigid pad", {}, {"foil": "rigid"}))
+    for words, rotor, model in cases:
+        content, linear = conical_case(0.3, (-20.0, 0.0), ROTOR | rotor, name="PT2", turns=8, steps_per_turn=60)
+        omega = speed_of(content)
+        for one in (content, linear):
+            one["model"].update(model)
+            if model.get("foil") == "rigid":
+                del one["model"]["foundation_stiffness"], one["model"]["foundation_pressure"]
+        if model.get("foil") == "rigid":
+            del content["transient"]["foundation_damping"], linear["dynamics"]["foundation_damping"]
+        wanted, sense = conical_modes(solve(folder, "modes", linear), omega)
+        content["transient"] |= {"couple_pulse": (1.0e-5*CLEARANCE/DISTANCE*ROTOR["transverse_inertia"]*omega, 0.0),
+                                 "pulse_length": 2.0*math.pi/omega}
+        content["solver"] = TIGHT
+        rows = history(solve(folder, "turned", content))
+        print(words, wanted/omega, sense)
+        for count in (1, 2, 3):
+            print(count, [x/omega for x in modes_in(rows, 4.0, count, "tilt")])
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        for name in sys.argv[1:] or ["alike", "apart", "free", "balance", "modes"]:
+            globals()["check_" + name](checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
