@@ -6,7 +6,7 @@
 module gfb_shaft_columns
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_film_load, only: film_forces
+  use gfb_film_load, only: film_forces, acts_on
   use gfb_solid_contact, only: contact_pressure, contact_pressure_rate
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
@@ -39,7 +39,8 @@ contains
         call add_asperities(pad, coordinate, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
                             value(pad%first + 1:pad%last), force)
         if (bearing%floats .and. .not. bearing%shaft_fixed) then
-          value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(1:2)
+          force = acts_on*force
+          value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(:bearing%blocks%border%scalars)
         end if
       end associate
     end do

@@ -13,20 +13,38 @@ module gfb_film_grid
 
 contains
 
-  !> Adds the film with the fields the scene asks for; nothing where it asks for none.
+  !> Adds the film with the fields the scene asks for; nothing where it asks for none. The film of the second bearing of a
+  !> rotor that tilts has a number behind its name.
   subroutine add_film_grid(bearing, output, grids)
     type(bearing_system_type), intent(in) :: bearing !! at the state to be written
     type(output_case_type), intent(in) :: output !! which fields are asked for
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written; gets the film
+    integer :: pads
+
+    if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
+    pads = size(bearing%pad)
+    if (abs(bearing%pad(1)%film%offset) > 0.0_wp) pads = pads/2
+    call add_pads(bearing, output, 0, pads, 'film', grids)
+    if (pads < size(bearing%pad)) call add_pads(bearing, output, pads, pads, 'film_2', grids)
+  end subroutine add_film_grid
+
+  !> Adds the film of some pads, those of one bearing.
+  subroutine add_pads(bearing, output, before, pads, name, grids)
+    type(bearing_system_type), intent(in) :: bearing
+    type(output_case_type), intent(in) :: output
+    integer, intent(in) :: before !! pads before them
+    integer, intent(in) :: pads   !! their number
+    character(len=*), intent(in) :: name !! of the surface
+    type(result_grid_type), allocatable, intent(inout) :: grids(:)
 
     type(result_grid_type) :: film
     real(wp) :: unknown(bearing%local_size())
     integer :: i
 
-    if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
     call bearing%get_unknowns(unknown)
-    film%name = 'film'
-    film%grid = strip_grid(positions_along(bearing), size(bearing%pad), full_rows(bearing), this_rank(), rank_count())
+    film%name = name
+    film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%offset, &
+                           this_rank(), rank_count())
     call add('theta', 'rad', 'angle around the bearing', [(bearing%pad(i)%film%angle, i=1, size(bearing%pad))])
     if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', bearing%film_pressure(unknown))
     if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
@@ -37,7 +55,7 @@ contains
     if (bearing%pad(1)%contact%present) then
       call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
     end if
-    if (size(bearing%pad) > 1) then
+    if (pads > 1) then
       call add('pad', '1', 'number of the pad', &
                [(spread(real(i, wp), 1, size(bearing%pad(i)%film%angle)), i=1, size(bearing%pad))])
     end if
@@ -52,23 +70,25 @@ contains
       character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(in) :: value(:) !! at the local nodes
       real(wp), allocatable :: block(:)
-      integer :: first, last
+      integer :: first, last, skipped
 
+      skipped = before*(film%grid%points/pads)
       call block_bounds(film%grid%points, this_rank(), rank_count(), first, last)
-      call film_block(bearing, value, first, last, block)
+      call film_block(bearing, value, skipped + first, skipped + last, block)
       call add_grid_field(film%point_field, name, unit, meaning, reshape(block, [1, size(block)]))
     end subroutine add
-  end subroutine add_film_grid
+  end subroutine add_pads
 
-  !> Where the stations of all pads lie along the motion, from the leading edge of the first one [m].
-  pure function positions_along(bearing) result(position)
+  !> Where the stations of a bearing's pads lie along the motion, from the leading edge of the first one [m].
+  pure function positions_along(bearing, pads) result(position)
     type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: pads !! of a bearing
     real(wp), allocatable :: position(:)
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     integer :: i
 
     associate (first => bearing%pad(1)%whole)
-      position = [(first%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, size(bearing%pad))]
+      position = [(first%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, pads)]
       if (first%periodic) position = [position, first%radius*turn]
     end associate
   end function positions_along

@@ -44,6 +44,7 @@ contains
     integer :: i, k
 
     if (.not. allocated(record%dynamics%point)) return
+    if (size(record%dynamics%point) == 0) return ! as a restart file leaves it
     name = ''
     allocate (values(size(record%history)), source=0.0_wp)
     if (scene%sweep%present) then

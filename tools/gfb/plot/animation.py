@@ -95,19 +95,20 @@ def of_orbit(path, file):
     keys = used_keys(file) if "scene/used" in file else {}
     figure, chart = pyplot.subplots(figsize=(6.0, 6.0), layout="constrained")
     transient.draw_orbit(chart, history, keys)
-    for line in chart.get_lines()[-4:]:
+    shafts = transient.journals(history)
+    for line in chart.get_lines()[-4*len(shafts):]:
         line.set_alpha(0.15)
     chart.get_legend().remove()
-    tail, = chart.plot([], [], color="C0", linewidth=1.5)
-    spot, = chart.plot([], [], "o", color="C3", markersize=8)
-    x, y = transient.places(history)
-    numbers = chosen(len(x))
+    tails = [chart.plot([], [], color=colour, linewidth=1.5)[0] for _, colour, _ in shafts]
+    spots = [chart.plot([], [], "o", color="C3", markersize=8)[0] for _ in shafts]
+    numbers = chosen(len(history["turns"]))
 
     def frame(number):
         end = numbers[number]
         shown = (history["turns"] <= history["turns"][end]) & (history["turns"] >= history["turns"][end] - 2.0)
-        tail.set_data(x[shown], y[shown])
-        spot.set_data(x[end:end + 1], y[end:end + 1])
+        for tail, spot, (_, _, (x, y)) in zip(tails, spots, shafts):
+            tail.set_data(x[shown], y[shown])
+            spot.set_data(x[end:end + 1], y[end:end + 1])
         chart.set_title(f"{case_name(path)}: turn {history['turns'][end]:.1f}, {history['time'][end]:.4g} s, "
                         f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm", fontsize=10)
 

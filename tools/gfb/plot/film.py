@@ -23,7 +23,7 @@ class Film:
     """The fields of a film file."""
 
     theta: numpy.ndarray  # of the stations, growing [deg]
-    z: numpy.ndarray      # of the rows [m]
+    z: numpy.ndarray      # of the rows, from the midplane [m]
     fields: dict          # name: values on (station, row), in SI units
     units: dict           # name: unit
 
@@ -57,7 +57,9 @@ def read_film(path, file):
     if theta[-1] <= theta[0]:  # a full ring ends where it begins
         theta[-1] += 360.0
     there = [name for name in FIELDS if name in fields]
-    return Film(theta, points[:rows, 2], {name: fields[name][...].reshape(shape) for name in there},
+    z = points[:rows, 2]
+    z = z - 0.5*(z[0] + z[-1])  # of the second bearing of a rotor, too, from its midplane
+    return Film(theta, z, {name: fields[name][...].reshape(shape) for name in there},
                 {name: attribute(fields[name], "unit") for name in there})
 
 

@@ -58,24 +58,34 @@ def places(history):
     return -MICRO*history["eccentricity_x"], -MICRO*history["eccentricity_y"]
 
 
+def journals(history):
+    """(words, colour, where the shaft's centre stands [um]) of each bearing: a rotor that tilts has two."""
+    if "eccentricity_x_1" not in history:
+        return [("", "C0", places(history))]
+    return [(f" at {side}z", f"C{2*number - 2}", tuple(-MICRO*history[f"eccentricity_{axis}_{number}"] for axis in "xy"))
+            for number, side in ((1, "+"), (2, "-"))]
+
+
 # --- orbit ---
 
 def draw_orbit(chart, history, keys):
     """The way of the shaft's centre, the clearance circle and where the bumps stand."""
-    x, y = places(history)
+    shafts = journals(history)
     turns = history["turns"]
     late = turns >= turns[-1] - LAST
-    far = max(numpy.hypot(x, y))
+    far = max(numpy.hypot(*place).max() for _, _, place in shafts)
     clearance = number(keys, "bearing", "clearance")
     if clearance is not None:
         far = max(far, MICRO*clearance)
         chart.add_patch(patches.Circle((0.0, 0.0), MICRO*clearance, fill=False, color="k", linewidth=1.0, label="clearance"))
         mark_bumps(chart, keys, MICRO*clearance)
-    chart.plot(x, y, color="C0", linewidth=0.6, alpha=0.5)
-    chart.plot(x[late], y[late], color="C0", linewidth=1.3,
-               label="all turns" if late.all() else f"the last {LAST:g} turns dark")
-    chart.plot(x[0], y[0], "o", color="C2", markersize=5, label="begin")
-    chart.plot(x[-1], y[-1], "s", color="C3", markersize=5, label="end")
+    for words, colour, (x, y) in shafts:
+        first = colour == "C0"
+        chart.plot(x, y, color=colour, linewidth=0.6, alpha=0.5)
+        chart.plot(x[late], y[late], color=colour, linewidth=1.3,
+                   label="bearing" + words if words else "all turns" if late.all() else f"the last {LAST:g} turns dark")
+        chart.plot(x[0], y[0], "o", color="C4" if words else "C2", markersize=5, label="begin" if first else None)
+        chart.plot(x[-1], y[-1], "s", color="C3", markersize=5, label="end" if first else None)
     chart.set(xlabel="shaft's centre, -e_x [um]", ylabel="-e_y [um]", xlim=(-1.12*far, 1.12*far), ylim=(-1.12*far, 1.12*far),
               aspect="equal")
     chart.set_title("orbit", fontsize=10)
@@ -101,7 +111,9 @@ def mark_bumps(chart, keys, radius):
 
 def draw_thinnest(chart, history, _):
     """The smallest film thickness over time."""
-    chart.plot(history["time"], MICRO*history["minimum_gap"], linewidth=0.9)
+    for number, (words, colour, _) in enumerate(journals(history), 1):
+        chart.plot(history["time"], MICRO*history[f"minimum_gap_{number}" if words else "minimum_gap"], color=colour, linewidth=0.9,
+                   label="bearing" + words if words else None)
     least = int(numpy.argmin(history["minimum_gap"]))
     chart.plot(history["time"][least], MICRO*history["minimum_gap"][least], "v", color="C3", markersize=6,
                label=f"{MICRO*history['minimum_gap'][least]:.3g} um at {history['time'][least]:.4g} s")
@@ -119,8 +131,9 @@ def draw_bifurcation(chart, history, _):
     if len(whole) < 2:
         stop("less than two turns: there are no points once a turn")
     speed = numpy.interp(whole, turns, history["speed"])*30.0/math.pi
-    for values, name in zip(places(history), ("-e_x", "-e_y")):
-        chart.plot(speed, numpy.interp(whole, turns, values), ".", markersize=2.5, label=f"{name}, once a turn")
+    for words, _, place in journals(history):
+        for values, name in zip(place, ("-e_x", "-e_y")):
+            chart.plot(speed, numpy.interp(whole, turns, values), ".", markersize=2.5, label=f"{name}{words}, once a turn")
     chart.set(xlabel="speed [rpm]", ylabel="shaft's centre [um]")
     chart.xaxis.set_major_locator(round_numbers(7))
     chart.legend(fontsize=8)
@@ -130,7 +143,8 @@ def draw_bifurcation(chart, history, _):
 # --- spectra ---
 
 def spectra(history):
-    """Speeds [rpm], times [s], frequencies [Hz] and amplitudes [um] of windows of some turns, the shaft's centre along y."""
+    """Speeds [rpm], times [s], frequencies [Hz] and amplitudes [um] of windows of some turns, the shaft's centre along y; of a
+    rotor that tilts in the bearing at +z."""
     turns = history["turns"]
     span = turns[-1] - turns[0]
     window = math.floor(min(WINDOW, span))  # whole turns have whole periods
@@ -139,7 +153,7 @@ def spectra(history):
         at = numpy.linspace(begin, begin + window, int(SAMPLES*window), endpoint=False)
         time = numpy.interp(at, turns, history["time"])
         even = numpy.linspace(time[0], time[-1], len(time))
-        values = numpy.interp(even, history["time"], places(history)[1])
+        values = numpy.interp(even, history["time"], journals(history)[0][2][1])
         weight = numpy.hanning(len(values))
         line = 2.0*numpy.abs(numpy.fft.rfft((values - values.mean())*weight))/weight.sum()
         yield (numpy.interp(begin + 0.5*window, turns, history["speed"])*30.0/math.pi, 0.5*(even[0] + even[-1]),
@@ -156,7 +170,7 @@ def draw_waterfall(chart, history, _):
     heights, words = (times, "time [s]") if steady else (speeds, "speed [rpm]")
     least, highest = LEAST*speeds.min()/60.0, HIGHEST*speeds.max()/60.0
     largest = max(line[frequency > least].max(initial=0.0) for _, _, frequency, line in found) or 1.0
-    turns = f"spectra of -e_y over {math.floor(min(WINDOW, numpy.ptp(history['turns'])))} turns each"
+    turns = f"spectra of -e_y{journals(history)[0][0]} over {math.floor(min(WINDOW, numpy.ptp(history['turns'])))} turns each"
     if len(found) == 1:
         heights, scale, words = numpy.zeros(1), 1.0, "amplitude of -e_y [um]"
         turns = turns.replace("spectra", "spectrum").removesuffix(" each")
