@@ -58,10 +58,11 @@ def vibrating():
                    dynamics={"frequency_ratios": (0.5, 1.0), "foundation_damping": 3.0e5})
 
 
-def shaft_in_time():
+def shaft_in_time(turns=4.0, rotor=None, **drive):
     """A shaft with an unbalance on beams, four turns of it."""
-    content = bearing("beam", {}, every=15, scene={"analysis": "transient"}, rotor={"mass": 4.0}, mesh={"circumferential_elements": 208},
-                      transient={"turns": 4.0, "steps_per_turn": 60, "unbalance": 4.0e-6})
+    content = bearing("beam", {}, every=15, scene={"analysis": "transient"}, rotor={"mass": 4.0} | (rotor or {}),
+                      mesh={"circumferential_elements": 208},
+                      transient={"turns": turns, "steps_per_turn": 60, "unbalance": 4.0e-6, **drive})
     return {group: keys for group, keys in content.items() if group != "sweep"}
 
 
@@ -317,6 +318,10 @@ def check_all_foils(checks, folder, loads, tilts, chance):
     check_kills(checks, folder, "rigid", bearing("rigid", {"parameter": "load", "values": (40.0, 60.0, 50.0, 30.0)},
                                                  mesh={"axial_elements": 20}), chance)
     moved = {"parameter": "eccentricity_x", "values": (1.0e-5, 1.2e-5, 1.5e-5, 1.8e-5, 2.0e-5)}
+    tilting = shaft_in_time(2.0, {"transverse_inertia": 8.0e-3, "polar_inertia": 2.0e-3, "bearing_distance": 0.12},
+                            couple_unbalance=1.0e-7)
+    check_kills(checks, folder, "two_bearings", tilting, chance,
+                whole=run_time(write_case(folder, "tilting", tilting), pathlib.Path(folder)/"whole"))
     check_kills(checks, folder, "beams_placed",
                 bearing("beam", moved, scene={"analysis": "fixed_position"},
                         operation={"eccentricity": (1.0e-5, 5.0e-6)}), chance)

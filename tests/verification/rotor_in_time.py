@@ -11,11 +11,12 @@ import math
 import sys
 import tempfile
 
+import h5py
 import numpy
 
 from dynamics import FOIL_BEARING, beams
 from dynamics_foils import shells
-from gfb_run import Checks, case_groups, largest_difference, observed_order, run_file, solve, write_case
+from gfb_run import Checks, case_groups, largest_difference, observed_order, solve
 from rotor import modes_of, speed_of
 from transient import MESH, TIGHT, foil_case, history, modes_in, plane, rate
 
@@ -52,22 +53,18 @@ def check_alike(checks, folder):
 def check_apart(checks, folder):
     """Point masses on bearings far apart: each with the large orbit of a shaft on one bearing, with its own unbalance."""
     mass, unbalance = 1.5, (3.0e-6, 0.5e-6)
+    alone = [history(solve(folder, "alone", foil_case(mass, (-60.0, 0.0), turns=1.5, steps_per_turn=60, unbalance=one)[0]))
+             for one in unbalance]
+    checks.that("far apart: a large orbit", numpy.ptp(alone[0]["eccentricity_x"]) > 0.1*CLEARANCE)
     found = []
     for ratio in (250.0, 500.0):
         distance = ratio*FOIL_BEARING.length
         rotor = {"transverse_inertia": 0.5*mass*distance**2, "bearing_distance": distance}
-        content, _ = conical_case(mass, (-60.0, 0.0), rotor, turns=2, steps_per_turn=60, unbalance=0.5*sum(unbalance),
+        content, _ = conical_case(mass, (-60.0, 0.0), rotor, turns=1.5, steps_per_turn=60, unbalance=0.5*sum(unbalance),
                                   couple_unbalance=0.5*(unbalance[0] - unbalance[1])*distance)
         rows = history(solve(folder, "apart", content))
-        off = []
-        for number, one in enumerate(unbalance, 1):
-            single, _ = foil_case(mass, (-60.0, 0.0), turns=2, steps_per_turn=60, unbalance=one)
-            alone = history(solve(folder, "alone", single))
-            there = rows[f"eccentricity_x_{number}"] + 1j*rows[f"eccentricity_y_{number}"]
-            off.append(largest_difference(there, plane(alone, "eccentricity"), CLEARANCE))
-            if number == 1:
-                checks.that("far apart: a large orbit", numpy.ptp(alone["eccentricity_x"]) > 0.1*CLEARANCE)
-        found.append(max(off))
+        found.append(max(largest_difference(rows[f"eccentricity_x_{number}"] + 1j*rows[f"eccentricity_y_{number}"],
+                                            plane(one, "eccentricity"), CLEARANCE) for number, one in enumerate(alone, 1)))
         checks.below(f"far apart, {ratio:.0f} lengths: each journal as if alone, over the clearance", found[-1], 20.0/ratio**2)
     checks.within("far apart: order in the distance", observed_order(*found), 1.8, 2.2)
 
@@ -135,34 +132,92 @@ def conical_modes(answer, omega):
     return (growth + 1j*frequency)[mine][order], sense[mine][order]
 
 
-def check_modes(checks, folder):
-    """A rotor that was turned a little: growth and frequency of its conical modes, without and with a polar inertia."""
-    supg = {"film_order": 1, "film_scheme": "supg"}
-    cases = (("without polar inertia", {"polar_inertia": 0.0}, {}), ("with one", {}, {}), ("of a disc", {"polar_inertia": 2.4e-3}, {}),
-             ("SUPG", {}, supg), ("rigid pad", {}, {"foil": "rigid"}))
-    for words, rotor, model in cases:
-        content, linear = conical_case(0.3, (-20.0, 0.0), ROTOR | rotor, name="PT2", turns=8, steps_per_turn=60)
-        omega = speed_of(content)
-        for one in (content, linear):
-            one["model"].update(model)
-            if model.get("foil") == "rigid":
-                del one["model"]["foundation_stiffness"], one["model"]["foundation_pressure"]
+def turned_case(rotor, model, steps):
+    """A rotor that was turned a little on its bearings, and the linear theory's case of it."""
+    content, linear = conical_case(0.3, (-20.0, 0.0), ROTOR | rotor, name="PT2", turns=4, steps_per_turn=steps)
+    for one in (content, linear):
+        one["model"].update(model)
         if model.get("foil") == "rigid":
-            del content["transient"]["foundation_damping"], linear["dynamics"]["foundation_damping"]
+            del one["model"]["foundation_stiffness"], one["model"]["foundation_pressure"]
+    if model.get("foil") == "rigid":
+        del content["transient"]["foundation_damping"], linear["dynamics"]["foundation_damping"]
+    omega = speed_of(content)
+    content["transient"] |= {"couple_pulse": (1.0e-4*CLEARANCE/DISTANCE*ROTOR["transverse_inertia"]*omega, 0.0),
+                             "pulse_length": 0.5*math.pi/omega}
+    content["solver"] = TIGHT
+    return content, linear
+
+
+def check_modes(checks, folder):
+    """A rotor that was turned a little: growth and frequency of its conical modes, without and with a polar inertia, which
+    splits them."""
+    supg = {"film_order": 1, "film_scheme": "supg"}
+    cases = (("no polar inertia", {"polar_inertia": 0.0}, {}), ("polar inertia", {}, {}), ("SUPG", {}, supg),
+             ("rigid pad", {}, {"foil": "rigid"}))
+    split = []
+    for words, rotor, model in cases:
+        content, linear = turned_case(rotor, model, 120)
+        omega = speed_of(content)
         wanted, sense = conical_modes(solve(folder, "modes", linear), omega)
-        content["transient"] |= {"couple_pulse": (1.0e-5*CLEARANCE/DISTANCE*ROTOR["transverse_inertia"]*omega, 0.0),
-                                 "pulse_length": 2.0*math.pi/omega}
-        content["solver"] = TIGHT
         rows = history(solve(folder, "turned", content))
-        print(words, wanted/omega, sense)
-        for count in (1, 2, 3):
-            print(count, [x/omega for x in modes_in(rows, 4.0, count, "tilt")])
+        late = {name: values[rows["turns"] >= 1.0] for name, values in rows.items()}
+        # The film's own modes die out besides.
+        found = sorted((one for one in modes_in(late, 4.0, 5, "tilt") if abs(one.real) < omega), key=lambda one: -one.real)
+        checks.below(f"{words}: growth of the first conical mode over the speed", (found[0].real - wanted[0].real)/omega, 5.0e-5)
+        checks.below(f"{words}: its frequency", (found[0].imag - wanted[0].imag)/omega, 5.0e-5)
+        if not model:
+            split.append(found[:2])
+            checks.below(f"{words}: second conical mode over the speed", abs(found[1] - wanted[1])/omega, 1.0e-3)
+            checks.that(f"{words}: the first goes round with the speed, the second against it", sense[0] > 0.5 and sense[1] < -0.5)
+    checks.that("gyroscopic torque: forward faster, backward slower", split[1][0].imag > split[0][0].imag + 0.01*omega
+                and split[1][1].imag < split[0][1].imag - 0.1*omega)
+
+
+def meshed_case(foil, friction, rotor, **keys):
+    """A rotor on meshed foils over half a turn."""
+    one = (beams if foil == "beam" else shells)(friction)
+    groups = {group: dict(values) for group, values in one["groups"].items()}
+    groups["model"].pop("half_width")
+    content = case_groups(FOIL_BEARING, one["mesh"], foil, load=(-60.0, 0.0), speed_rpm=one["speed_rpm"], groups=groups)
+    content["scene"]["analysis"] = "transient"
+    content["rotor"] = {"mass": 1.5} | rotor
+    content["transient"] = {"turns": 0.5, "steps_per_turn": 60, "unbalance": 3.0e-6} | keys
+    return content
+
+
+def check_foils(checks, folder):
+    """Foils that rub, each of both bearings with contacts of its own: the answer of one bearing; ranks."""
+    for foil, turns in (("beam", 0.5), ("shell", 0.1)):
+        one, two = (history(solve(folder, "foils", meshed_case(foil, 0.1, rotor, turns=turns))) for rotor in ({}, ROTOR))
+        checks.below(f"{foil}s: both bearings alike", largest_difference(
+            plane(one, "eccentricity"), plane(two, "eccentricity"), CLEARANCE), 1.0e-8)
+    content = meshed_case("beam", 0.1, ROTOR, couple_unbalance=2.0e-7)
+    one, two = (history(solve(folder, "ranks", content, ranks)) for ranks in (1, 2))
+    tilt = numpy.abs(plane(one, "tilt")).max()
+    checks.that("beams, couple unbalance: a large tilt", tilt*DISTANCE > 0.2*CLEARANCE)
+    checks.below("beams, two ranks: tilts", largest_difference(plane(one, "tilt"), plane(two, "tilt"), tilt), 1.0e-8)
+
+
+def check_files(checks, folder):
+    """What the answer says of both bearings: pads, extents of the orbits, films of their own."""
+    content, _ = conical_case(1.5, (-60.0, 0.0), turns=2, steps_per_turn=60, couple_unbalance=1.0e-7)
+    answer = solve(folder, "files", content)
+    rows = history(answer)
+    last = rows["turns"] >= rows["turns"][-1] - 1.0 - 1.0e-9
+    for name in ("x_1", "y_1", "x_2", "y_2"):
+        checks.below(f"orbit_{name}", answer[f"orbit_{name}"]/numpy.ptp(rows[f"eccentricity_{name}"][last]) - 1.0, 1.0e-12)
+    checks.below("orbit_tilt_y", answer["orbit_tilt_y"]/numpy.ptp(rows["tilt_y"][last]) - 1.0, 1.0e-12)
+    for number, name in ((1, "film"), (2, "film_2")):
+        with h5py.File(f"{answer.stem}.{name}.vtkhdf", "r") as file:
+            points, gap = file["VTKHDF/Points"][...], file["VTKHDF/PointData/gap"][...]
+        checks.below(f"{name}: its smallest gap", gap.min()/rows[f"minimum_gap_{number}"][-1] - 1.0, 1.0e-12)
+        checks.below(f"{name}: its middle", 0.5*(points[:, 2].min() + points[:, 2].max()) - (1.5 - number)*DISTANCE, 1.0e-12)
 
 
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for name in sys.argv[1:] or ["alike", "apart", "free", "balance", "modes"]:
+        for name in sys.argv[1:] or ["alike", "apart", "free", "balance", "modes", "foils", "files"]:
             globals()["check_" + name](checks, folder)
     checks.close()
 
