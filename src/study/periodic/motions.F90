@@ -53,7 +53,7 @@ contains
     if (scene%transient%present) then
       allocate (self%transient)
       if (scene%rotor%distance_in_time > 0.0_wp .and. .not. context%restart%goes_on) then
-        call stand_on_two(scene, context%log, bearing, newton, error)
+        call stand_on_two(scene, context%log, bearing, newton, record, error)
       end if
       if (allocated(error)) return
       call self%transient%run(scene, context, bearing, newton, record, reason, error)

@@ -10,6 +10,7 @@ module gfb_two_bearings
   use gfb_bearing_builder, only: build_like
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors, destroy_newton
   use gfb_run_log, only: run_log_type
+  use gfb_bearing_record, only: bearing_record_type
   implicit none (type)
   private
   public :: stand_on_two
@@ -20,15 +21,16 @@ contains
   !>
   !> Their pads are those of one system of equations, with the rotor's displacement and its tilts as unknowns; forces, and
   !> what the films hold, are those of both. Fails when the mesh cannot be cut into parts.
-  subroutine stand_on_two(scene, log, bearing, newton, error)
+  subroutine stand_on_two(scene, log, bearing, newton, record, error)
     type(scene_type), intent(in) :: scene !! with such a rotor
     type(run_log_type), intent(in) :: log !! where a line goes
     type(bearing_system_type), target, intent(inout) :: bearing !! at its equilibrium, aligned; then both
     type(newton_type), target, intent(inout) :: newton !! its solver; then theirs
+    type(bearing_record_type), intent(inout) :: record !! of the equilibrium; gets the contacts of the second one
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(bearing_system_type) :: both
     type(newton_settings_type) :: settings
-    integer :: counts(4)
+    integer :: counts(4), steps, i
 
     settings = newton%settings
     counts = [newton%iterations, newton%factorizations, newton%factorizations_before, newton%enlargements]
@@ -44,6 +46,11 @@ contains
     newton%factorizations = counts(2)
     newton%factorizations_before = counts(3)
     newton%enlargements = counts(4)
+    if (allocated(record%contacts%value)) then
+      steps = size(record%contacts%value, 3)
+      record%contacts%value = reshape([(record%contacts%value(:, :, i), record%contacts%value(:, :, i), i=1, steps)], &
+                                      shape(record%contacts%value)*[1, 2, 1])
+    end if
     call log%line('rotor: on two equal bearings, '//text(scene%rotor%distance_in_time)//' m apart, with its tilts; forces, torques and gas are those '// &
                   'of both')
   end subroutine stand_on_two
