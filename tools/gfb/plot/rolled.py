@@ -20,6 +20,7 @@ from gfb.tool import stop
 HEIGHT = 0.3     # of the radius: how high the picture makes the bumps
 TRAVEL = 0.15    # of the radius: how far it moves the node that moves most, at most
 LINES = 240      # stations of a picture, about
+LONG = 2.5       # longest side over the shortest from which on the picture comes nearer: two bearings of a rotor
 ELEVATION, AZIMUTH = 24.0, -58.0
 VTK_QUAD = 9
 ROUND_OFF = 1.0e-9  # of z [m]
@@ -215,10 +216,11 @@ def equal_sides(chart, places):
     """One scale along all axes."""
     sides = numpy.ptp(places, axis=0)
     middle = places.min(axis=0) + 0.5*sides
-    for axis, half in zip("xyz", 0.5*sides):
-        getattr(chart, f"set_{axis}lim")(*(middle["xyz".index(axis)] + numpy.array((-half, half))))
-    # With y upwards the box has its sides in the order z, x, y.
-    chart.set_box_aspect(sides, zoom=1.25)
+    half = 0.5*sides.max()
+    for axis, centre in zip("xyz", middle):
+        getattr(chart, f"set_{axis}lim")(centre - half, centre + half)
+    # With y upwards the order of the box's sides depends on matplotlib's version: that of a cube does not.
+    chart.set_box_aspect((1.0, 1.0, 1.0), zoom=1.25 if sides.max() < LONG*sides.min() else 1.6)
 
 
 # --- CASE.3d.vtkhdf ---
