@@ -119,16 +119,15 @@ contains
                        'direction of the unbalance at the beginning, from x towards y', any_value)
     call keys%real_key('couple_unbalance', transient%couple_unbalance, 'kg m^2', &
                        'of a rotor that tilts on two bearings: an unbalance times its distance '// &
-                       'along the axis from the opposite one, halfway from which is the '// &
-                       'centre of mass', not_negative)
+                       'along the axis from an equal and opposite one', not_negative)
     call keys%real_key('couple_unbalance_angle', transient%couple_unbalance_angle, 'rad', &
                        'direction of the one at +z at the beginning, from x towards y', any_value)
     call keys%real_vector_key('pulse', transient%pulse, 'N s', &
-                              'push on the shaft that this bearing carries, force times time, '// &
-                              'x and y: a smooth one')
+                              'push on the shaft, force times time, x and y: a smooth one; on '// &
+                              'two bearings what each of them carries')
     call keys%real_vector_key('couple_pulse', transient%couple_pulse, 'N m s', &
                               'turn of a rotor that tilts on two bearings, torque times time '// &
-                              'about x and y, at the time of the push')
+                              'about x and y, while the push takes')
     call keys%real_key('pulse_start', transient%pulse_start, 's', 'when it begins', not_negative)
     call keys%real_key('pulse_length', transient%pulse_length, 's', 'how long it takes', positive, &
                        default='required with `pulse` and `couple_pulse`')

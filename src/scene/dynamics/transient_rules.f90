@@ -116,7 +116,7 @@ contains
 
     pushed = keys%meant(group, 'pulse') .or. keys%meant(group, 'couple_pulse')
     if (pushed .and. .not. keys%meant(group, 'pulse_length')) then
-      call keys%complain(group, 'pulse_length', 'must be given with pulse')
+      call keys%complain(group, 'pulse_length', 'must be given with pulse or couple_pulse')
     end if
     if (.not. pushed) then
       call refuse(keys, 'pulse_start', 'has no use without pulse')
