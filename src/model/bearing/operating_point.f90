@@ -96,6 +96,7 @@ contains
     call memory%visit('tilt', point%tilt)
     call memory%visit('inertia', point%inertia)
     call memory%visit('torque', point%torque)
+    call memory%visit('tilt_inertia', point%tilt_inertia)
     call memory%visit('edge_pull', point%edge_pull)
     call memory%visit('edge_tension', point%edge_tension)
     call memory%visit('edge_hold', point%edge_hold)
