@@ -104,6 +104,27 @@ class ShaftTest(unittest.TestCase):
         chart, = self.chart(shaft_file(self.folder/"a.h5"), "thinnest")
         self.assertAlmostEqual(chart.lines[1].get_ydata()[0], 31.8 - math.hypot(10.0, 4.0) - 2.0, delta=0.01)
 
+    def test_two_bearings(self):
+        """A rotor that tilts: the orbit of each journal, the thinnest film of each bearing."""
+        path = shaft_file(self.folder/"a.h5")
+        with h5py.File(path, "r+") as file:
+            for number, shift in ((1, 3.0e-6), (2, -3.0e-6)):
+                for name in ("eccentricity_x", "eccentricity_y", "minimum_gap"):
+                    file[f"transient/{name}_{number}"] = file[f"transient/{name}"][...] + shift
+        orbit, = self.chart(path, "orbit")
+        words = [text.get_text() for text in orbit.get_legend().get_texts()]
+        self.assertTrue({"bearing at +z", "bearing at -z"} <= set(words), words)
+        whole = [line for line in orbit.lines if len(line.get_xdata()) == 20001]
+        for line, shift in zip(whole, (3.0, -3.0)):
+            self.assertAlmostEqual(line.get_xdata()[0], -12.0 - shift, delta=0.01)
+        self.assertEqual(len(whole), 2)
+        thinnest, = self.chart(path, "thinnest")
+        self.assertAlmostEqual(thinnest.lines[1].get_ydata()[0] - thinnest.lines[0].get_ydata()[0], -6.0, delta=0.01)
+        spectrum, = self.chart(path, "waterfall")
+        self.assertIn("at +z", spectrum.get_title())
+        with unittest.mock.patch.object(animation, "FRAMES", 4):
+            self.assertEqual(call(self.folder, "a.h5", "--animate"), (0, "drawn: a.h5.gif\n"))
+
     def test_calls(self):
         shaft_file(self.folder/"a.h5", instants=3001)
         shaft_file(self.folder/"short.h5", instants=30, seconds=1.0e-3)

@@ -12,9 +12,10 @@ from gfb.run import run_case
 
 NAMED = ("summary", "history", "provenance")  # groups whose names are those of `gfb --results`
 SAMPLE = {"bump_foil%height_deviation": 1.0e-7, "bump_foil%seed": 1, "sample%count": 2, "model%foil": "beam"}
+TILTING = {"rotor%transverse_inertia": 1.0e-3, "rotor%bearing_distance": 0.12, "model%foil": "beam"}
 SCENES = (  # analysis of the template, what is changed in it
     ("equilibrium", {}), ("equilibrium", SAMPLE), ("strip", {}), ("modes", {}), ("linear_dynamics", {"rotor%mass": 0.1}),
-    ("equilibrium", {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}), ("transient", {}), ("periodic", {}))
+    ("equilibrium", {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}), ("transient", TILTING), ("periodic", {}))
 
 
 def layout(gfb):
@@ -38,6 +39,7 @@ def layout(gfb):
 def kind_of(path):
     """A file's name as the manual writes it, and the part of the bearing."""
     part, _, ending = path.name.partition(".")[2].partition(".")
+    part = re.sub(r"_\d+$", "", part)  # of several pads, of two bearings
     return (f"<case>.<part>.{ending}", part) if ending else (f"<case>.{part}", "")
 
 

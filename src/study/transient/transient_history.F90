@@ -43,8 +43,9 @@ module gfb_transient_history
     'torque of the films on the rotor about its centre of mass, x', &
     'torque of the films on the rotor about its centre of mass, y', &
     'outer torque on the rotor, x: couple unbalance, pulse', 'outer torque on the rotor, y: couple unbalance, pulse', &
-    'e_x in the bearing at +z', 'e_y in the bearing at +z', 'e_x in the bearing at -z', 'e_y in the bearing at -z', &
-    'smallest film thickness in the bearing at +z', 'smallest film thickness in the bearing at -z']
+    'e_x in a bearing: 1 at +z, 2 at -z', 'e_y in a bearing: 1 at +z, 2 at -z', &
+    'e_x in a bearing: 1 at +z, 2 at -z', 'e_y in a bearing: 1 at +z, 2 at -z', &
+    'smallest film thickness of a bearing: 1 at +z, 2 at -z', 'smallest film thickness of a bearing: 1 at +z, 2 at -z']
 
   !> The lines so far.
   type, public :: transient_history_type
