@@ -155,7 +155,7 @@ module gfb_result_table
     result_type('turns', '1', number, transient, 'of the shaft in that time'), &
     result_type('time_steps', '1', total, transient, 'that were taken'), &
     result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
-    result_type('orbit_<a>_<n>', 'm', number, transient, 'the same in one of two bearings'), &
+    result_type('orbit_<a>_<n>', 'm', number, transient, 'extent in one of two bearings'), &
     result_type('orbit_tilt_<a>', 'rad', number, transient, 'extent of a tilt in a turn'), &
     result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest one'), &
     result_type('ending', '', word, transient + periodic, 'why it ended before its end'), &
