@@ -172,7 +172,7 @@ contains
     do row = 1, size(rows)
       do i = 1, fillings(rows(row))
         one = filled(rows(row), i)
-        names = [names, one%name]
+        names = [character(len=name_length) :: names, one%name]
       end do
     end do
   end function names_of
