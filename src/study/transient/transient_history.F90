@@ -9,6 +9,7 @@ module gfb_transient_history
   use gfb_time_march, only: march_type
   use gfb_newton, only: newton_type
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  use gfb_spectra, only: spectra_type, spectra_of
   implicit none (type)
   private
 
@@ -142,7 +143,37 @@ contains
       call fill_array('/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines), one(1))
       call add_arrays(arrays, one)
     end do
+    call add_spectra(self, arrays)
   end function history_arrays
+
+  !> Adds the spectra of the shaft's motion, a row a window of some turns; none where there are less than two turns.
+  subroutine add_spectra(self, arrays)
+    class(transient_history_type), intent(in) :: self
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(case_array_type) :: one(1)
+    type(spectra_type) :: spectra
+    character(len=:), allocatable :: place
+    integer, allocatable :: column(:)
+    integer :: i
+
+    column = plane_columns
+    if (self%tilts) column = journal_columns
+    spectra = spectra_of(self%values(1, :self%lines), self%values(2, :self%lines), self%values(column, :self%lines))
+    if (size(spectra%time) == 0) return
+    call fill_array('/spectrum/time', 's', 'in the middle of the window', reshape(spectra%time, [1, size(spectra%time)]), one(1))
+    call add_arrays(arrays, one)
+    call fill_array('/spectrum/speed', 'rad/s', 'mean speed of the shaft in the window', &
+                    reshape(spectra%speed, [1, size(spectra%speed)]), one(1))
+    call add_arrays(arrays, one)
+    call fill_array('/spectrum/frequency', 'Hz', 'of the lines: window by line', spectra%frequency, one(1))
+    call add_arrays(arrays, one)
+    do i = 1, size(column)
+      place = trim(names(column(i)))
+      call fill_array('/spectrum/amplitude'//place(len('eccentricity') + 1:), 'm', 'amplitude of '//place//': window by line', &
+                      spectra%amplitude(:, :, i), one(1))
+      call add_arrays(arrays, one)
+    end do
+  end subroutine add_spectra
 
   !> Packs or unpacks the lines.
   subroutine remember_history(self, memory)

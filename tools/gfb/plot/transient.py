@@ -11,9 +11,6 @@ from gfb.tool import stop
 
 KINDS = ("orbit", "waterfall", "bifurcation", "thinnest")
 MICRO = 1.0e6
-WINDOW = 8        # turns of a spectrum
-SPECTRA = 40      # of a waterfall, at most
-SAMPLES = 64      # a turn, of a spectrum
 HIGHEST = 3.0     # frequency of a waterfall over that of the turns, at most
 LEAST = 0.1       # the same, at least
 STEADY = 1.0e-3   # of the speed: one that changes less stays
@@ -30,6 +27,8 @@ def draw(path, file, kind):
     if not is_transient(file):
         stop(f"{path}: nothing moves in it; --show {kind or KINDS[0]} is of analysis = 'transient'")
     history = {name: data[...] for name, data in file["transient"].items()}
+    if "spectrum" in file:
+        history["spectrum"] = {name: data[...] for name, data in file["spectrum"].items()}
     if len(history["time"]) < 3:
         stop(f"{path}: no more than {len(history['time'])} instants, which make no picture")
     keys = used_keys(file) if "scene/used" in file else {}
@@ -142,51 +141,35 @@ def draw_bifurcation(chart, history, _):
 
 # --- spectra ---
 
-def spectra(history):
-    """Speeds [rpm], times [s], frequencies [Hz] and amplitudes [um] of windows of some turns, the shaft's centre along y; of a
-    rotor that tilts in the bearing at +z."""
-    turns = history["turns"]
-    span = turns[-1] - turns[0]
-    window = math.floor(min(WINDOW, span))  # whole turns have whole periods
-    many = max(1, min(SPECTRA, int(span/(0.5*window)) - 1))
-    for begin in numpy.linspace(turns[0], turns[-1] - window, many):
-        at = numpy.linspace(begin, begin + window, int(SAMPLES*window), endpoint=False)
-        time = numpy.interp(at, turns, history["time"])
-        even = numpy.linspace(time[0], time[-1], len(time))
-        values = numpy.interp(even, history["time"], journals(history)[0][2][1])
-        weight = numpy.hanning(len(values))
-        line = 2.0*numpy.abs(numpy.fft.rfft((values - values.mean())*weight))/weight.sum()
-        yield (numpy.interp(begin + 0.5*window, turns, history["speed"])*30.0/math.pi, 0.5*(even[0] + even[-1]),
-               numpy.fft.rfftfreq(len(values), even[1] - even[0]), line)
-
-
 def draw_waterfall(chart, history, _):
     """Spectra one above the other at their speeds, with the lines of the turns and of half of them."""
-    if history["turns"][-1] - history["turns"][0] < 2.0:
+    if "spectrum" not in history:
         stop("less than two turns: there is no spectrum")
-    found = list(spectra(history))
-    speeds, times = (numpy.array([one[i] for one in found]) for i in range(2))
+    found = history["spectrum"]
+    speeds, times = found["speed"]*30.0/math.pi, found["time"]
+    place, = (name for name in ("amplitude_y", "amplitude_y_1") if name in found)
+    lines = list(zip(found["frequency"], MICRO*found[place]))
     steady = numpy.ptp(speeds) <= STEADY*speeds.max()
     heights, words = (times, "time [s]") if steady else (speeds, "speed [rpm]")
     least, highest = LEAST*speeds.min()/60.0, HIGHEST*speeds.max()/60.0
-    largest = max(line[frequency > least].max(initial=0.0) for _, _, frequency, line in found) or 1.0
-    turns = f"spectra of -e_y{journals(history)[0][0]} over {math.floor(min(WINDOW, numpy.ptp(history['turns'])))} turns each"
-    if len(found) == 1:
-        heights, scale, words = numpy.zeros(1), 1.0, "amplitude of -e_y [um]"
+    largest = max(line[frequency > least].max(initial=0.0) for frequency, line in lines) or 1.0
+    turns = f"spectra of e_y{journals(history)[0][0]} over {speeds[0]/60.0/lines[0][0][1]:.0f} turns each"
+    if len(lines) == 1:
+        heights, scale, words = numpy.zeros(1), 1.0, "amplitude of e_y [um]"
         turns = turns.replace("spectra", "spectrum").removesuffix(" each")
     else:
-        scale = 2.5*numpy.ptp(heights)/(len(found) - 1)/largest
+        scale = 2.5*numpy.ptp(heights)/(len(lines) - 1)/largest
         turns += f"; highest peak {largest:.3g} um"
-    shades = pyplot.get_cmap("viridis")(colors.Normalize(0, len(found))(numpy.arange(len(found))))
-    for depth, (height, shade, (_, _, frequency, line)) in enumerate(zip(heights[::-1], shades[::-1], reversed(found))):
+    shades = pyplot.get_cmap("viridis")(colors.Normalize(0, len(lines))(numpy.arange(len(lines))))
+    for depth, (height, shade, (frequency, line)) in enumerate(zip(heights[::-1], shades[::-1], reversed(lines))):
         shown = (frequency <= highest) & (frequency > least)
         chart.fill_between(frequency[shown], height, height + scale*line[shown], color="white", zorder=2 + depth, linewidth=0.0)
         chart.plot(frequency[shown], height + scale*line[shown], color=shade, linewidth=0.9, zorder=2 + depth)
     for ratio, name, style in ((1.0, "1 x", "--"), (0.5, "1/2 x", ":")):
-        if len(found) == 1:
+        if len(lines) == 1:
             chart.axvline(ratio*speeds[0]/60.0, linestyle=style, color="C3", linewidth=1.0, label=f"{name} speed")
         else:
-            chart.plot(ratio*speeds/60.0, heights, style, color="C3", linewidth=1.0, zorder=3 + len(found), label=f"{name} speed")
+            chart.plot(ratio*speeds/60.0, heights, style, color="C3", linewidth=1.0, zorder=3 + len(lines), label=f"{name} speed")
     chart.set(xlabel="frequency [Hz]", ylabel=words, xlim=(0.0, highest))
     chart.set_title(turns, fontsize=10)
     chart.legend(fontsize=8)

@@ -1,0 +1,125 @@
+!> Spectra of what was kept over time, of windows of whole turns.
+!>
+!> A window of T seconds is sampled evenly at t_j on cubics through the instants that were kept, and
+!> weighted by Hann's window:
+!>
+!> $$ A_k = \frac{2}{\sum w_j} \left| \sum_{j=0}^{n-1} w_j (y(t_j) - \bar y)
+!>    e^{-2 \pi i j k/n} \right|, \quad w_j = \sin^2 \frac{\pi j}{n}, \quad f_k = \frac{k}{T} $$
+!>
+!> so that an oscillation with whole periods in the window has its amplitude in its line.
+module gfb_spectra
+  use gfb_kinds, only: wp
+  implicit none (type, external)
+  private
+  public :: spectra_of
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  integer, parameter :: most_turns = 8     !! of a window
+  integer, parameter :: least_turns = 2    !! below which there is none
+  integer, parameter :: most_windows = 40  !! they overlap by half or less
+  integer, parameter :: turn_samples = 64  !! in a turn
+  integer, parameter :: highest = 8        !! frequency over that of the turns
+  integer, parameter :: points = 4         !! of a cubic
+
+  !> Spectra of windows one after the other.
+  type, public :: spectra_type
+    real(wp), allocatable :: time(:)            !! (windows) in the middle of each [s]
+    real(wp), allocatable :: speed(:)           !! (windows) mean one [rad/s]
+    real(wp), allocatable :: frequency(:, :)    !! (lines, windows) [Hz]
+    real(wp), allocatable :: amplitude(:, :, :) !! (lines, windows, values) in the values' unit [SI]
+  end type spectra_type
+
+contains
+
+  !> The spectra of values; none where there are less than two turns.
+  pure function spectra_of(time, turns, values) result(spectra)
+    real(wp), intent(in) :: time(:)      !! (instants) that does not fall [s]
+    real(wp), intent(in) :: turns(:)     !! (instants) so far [1]
+    real(wp), intent(in) :: values(:, :) !! (values, instants) [SI]
+    type(spectra_type) :: spectra
+    integer, allocatable :: kept(:)
+    real(wp), allocatable :: sample(:)
+    real(wp) :: first, span, ends(2)
+    integer :: windows, length, lines, i, k
+
+    kept = [(i, i=1, size(time))]
+    kept = pack(kept, [(i == 1 .or. time(i) > time(max(1, i - 1)), i=1, size(time))])
+    span = 0.0_wp
+    if (size(kept) >= points) span = turns(kept(size(kept))) - turns(kept(1))
+    if (.not. span >= real(least_turns, wp)) then
+      allocate (spectra%time(0), spectra%speed(0), spectra%frequency(0, 0), &
+                spectra%amplitude(0, 0, 0))
+      return
+    end if
+    length = min(most_turns, int(span))
+    windows = max(1, min(most_windows, int(2.0_wp*span/real(length, wp)) - 1))
+    lines = highest*length
+    allocate (spectra%time(windows), spectra%speed(windows), spectra%frequency(0:lines, windows), &
+              spectra%amplitude(0:lines, windows, size(values, 1)))
+    do i = 1, windows
+      first = turns(kept(1)) + (span - length)*real(i - 1, wp)/real(max(1, windows - 1), wp)
+      ends = interpolated(turns(kept), time(kept), [first, first + real(length, wp)])
+      spectra%time(i) = 0.5_wp*sum(ends)
+      spectra%speed(i) = 2.0_wp*pi*real(length, wp)/(ends(2) - ends(1))
+      spectra%frequency(:, i) = [(real(k, wp), k=0, lines)]/(ends(2) - ends(1))
+      do k = 1, size(values, 1)
+        sample = samples_of(time(kept), values(k, kept), ends, turn_samples*length)
+        spectra%amplitude(:, i, k) = amplitudes(sample, lines)
+      end do
+    end do
+  end function spectra_of
+
+  !> Values at even times between two, the second one left out.
+  pure function samples_of(time, value, ends, samples) result(sample)
+    real(wp), intent(in) :: time(:), value(:) !! (instants) [s], [SI]
+    real(wp), intent(in) :: ends(2) !! [s]
+    integer, intent(in) :: samples
+    real(wp) :: sample(samples)
+    real(wp) :: share(samples)
+    integer :: j
+
+    share = [(real(j, wp), j=0, samples - 1)]/real(samples, wp)
+    sample = interpolated(time, value, ends(1) + (ends(2) - ends(1))*share)
+  end function samples_of
+
+  !> Amplitudes of the first lines of samples.
+  pure function amplitudes(sample, lines) result(amplitude)
+    real(wp), intent(in) :: sample(0:)
+    integer, intent(in) :: lines !! from 0 on
+    real(wp) :: amplitude(0:lines)
+    real(wp), dimension(0:size(sample) - 1) :: weighted, angle, weight
+    integer :: j, k
+
+    angle = pi*[(real(j, wp), j=0, size(sample) - 1)]/real(size(sample), wp)
+    weight = sin(angle)**2
+    weighted = weight*(sample - sum(sample)/real(size(sample), wp))
+    do k = 0, lines
+      amplitude(k) = hypot(sum(weighted*cos(2.0_wp*k*angle)), sum(weighted*sin(2.0_wp*k*angle)))
+    end do
+    amplitude = 2.0_wp*amplitude/sum(weight)
+  end function amplitudes
+
+  !> Values of a table on cubics through the four places around each place asked for.
+  pure function interpolated(place, value, asked) result(found)
+    real(wp), intent(in) :: place(:), value(:) !! (four or more) rising; [SI]
+    real(wp), intent(in) :: asked(:) !! rising
+    real(wp) :: found(size(asked))
+    real(wp) :: weight
+    integer :: first, i, j, k
+
+    first = 1
+    do i = 1, size(asked)
+      do while (first < size(place) - points + 1 .and. asked(i) > place(first + 2))
+        first = first + 1
+      end do
+      found(i) = 0.0_wp
+      do j = first, first + points - 1
+        weight = 1.0_wp
+        do k = first, first + points - 1
+          if (k /= j) weight = weight*(asked(i) - place(k))/(place(j) - place(k))
+        end do
+        found(i) = found(i) + weight*value(j)
+      end do
+    end do
+  end function interpolated
+end module gfb_spectra
