@@ -118,12 +118,12 @@ def value_difference(one, other):
     if one is None or other is None:
         return "a group in one, a dataset in the other", math.inf
     one, other = numpy.asarray(one), numpy.asarray(other)
+    if one.dtype.kind in "SO" and other.dtype.kind in "SO":  # texts; an array of them holds where they are, not what
+        return ("", 0.0) if one.tolist() == other.tolist() else ("other words", math.inf)
     if one.dtype != other.dtype:
         return f"type {one.dtype} before, {other.dtype} after", math.inf
     if one.shape != other.shape:
         return f"shape {one.shape} before, {other.shape} after", math.inf
-    if one.dtype.kind == "O":  # strings of variable length: the array holds where they are, not what
-        return ("", 0.0) if one.tolist() == other.tolist() else ("other words", math.inf)
     if one.tobytes() == other.tobytes():
         return "", 0.0
     if one.dtype.kind not in "fiu":
