@@ -178,6 +178,35 @@ def check_ends(checks, folder):
     checks.that("and the older file as it was", (folder/"pressed.film.steps.vtkhdf").read_bytes() == kept)
 
 
+def check_shaft_in_time(checks, folder):
+    """Fields at chosen times are those of runs that end there, on any ranks; none before the first of the times."""
+    def content(duration, **keys):
+        made = case(scene={"analysis": "transient"}, rotor={"mass": 1.0},
+                    transient={"duration": duration, "steps_per_turn": 40, "unbalance": 1.0e-6, **keys})
+        del made["sweep"]
+        made["operation"] = {"speed_rpm": 30000.0, "load": (-60.0, 0.0)}
+        return made
+
+    end, fields = 5.0e-4, {"field_interval": 2.5e-4}
+    whole = solve(folder, "moves", content(end, **fields))
+    two = solve(folder, "moves_2", content(end, **fields), ranks=2)
+    late = solve(folder, "moves_late", content(end, **fields, field_start=4.0e-4))
+    ends = [solve(folder, f"moves_{number}", content(duration)) for number, duration in ((3, 0.5*end), (4, end))]
+    for surface in SURFACES:
+        path, unit, found, (name, _) = steps_of(whole.stem, surface)
+        checks.that(f"shaft in time, {surface}: at {found} {unit}", name == "time" and unit == "s" and len(found) == 3 and found[0] == 0.0)
+        checks.below(f"shaft in time, {surface}: at the times asked for", largest_difference(numpy.array(found[1:]), [0.5*end, end], end), 1.0e-9)
+        other = steps_of(two.stem, surface)[0]
+        for step, short in ((1, ends[0]), (2, ends[1])):
+            one, alone = read_step(path, step), read_alone(f"{short.stem}.{surface}.vtkhdf")
+            name = "PointData/gap" if surface == "film" else "PointData/displacement"
+            size = numpy.abs(alone[name]).max()
+            checks.below(f"{surface}, step {step}: of a run that ends there", largest_difference(one[name], alone[name], size), 1.0e-9)
+            checks.below(f"{surface}, step {step}: two ranks", largest_difference(read_step(other, step)[name], one[name], size), RANKS)
+        times = steps_of(late.stem, surface)[2]
+        checks.below(f"{surface}: one time from 0.4 ms on", abs(times[0] - 4.0e-4)/end if len(times) == 1 else 1.0, 1.0e-9)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -189,6 +218,7 @@ def main():
                     [grids_of(heights.stem, surface) for surface in SURFACES] == [1, len(HEIGHTS), len(HEIGHTS)])
         check_others(checks, folder, whole)
         check_ends(checks, folder)
+        check_shaft_in_time(checks, folder)
     checks.close()
 
 

@@ -38,6 +38,8 @@ module gfb_transient_case
     real(wp) :: orbit_frequency = 0.0_wp    !! [rad/s]
     real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
     integer :: output_every = 1             !! steps
+    real(wp) :: field_interval = 0.0_wp     !! between stored fields; 0: the last ones alone [s]
+    real(wp) :: field_start = 0.0_wp        !! first of these times [s]
     real(wp) :: steady_tolerance = 0.0_wp   !! 0: all turns are computed [1]
     real(wp) :: largest_orbit = 0.0_wp      !! 0: however large [m]
   end type transient_case_type
@@ -67,6 +69,11 @@ contains
                        not_negative)
     call keys%integer_key('output_every', transient%output_every, &
                           'steps from one line of the history to the next', positive)
+    call keys%real_key('field_interval', transient%field_interval, 's', &
+                       'time from one stored film and foil to the next, each at the step that '// &
+                       'reaches it; 0: those of the end alone', not_negative)
+    call keys%real_key('field_start', transient%field_start, 's', 'first of these times', &
+                       not_negative)
     call keys%real_key('steady_tolerance', transient%steady_tolerance, '1', &
                        'ends when two turns of the shaft differ by no more than this part of '// &
                        'the clearance; 0: never', not_negative)

@@ -36,6 +36,9 @@ contains
         max(operation%speed_rpm, transient%final_speed_rpm) > 0.0_wp) then
       call keys%complain(group, 'turns', 'needs a shaft that turns: give duration')
     end if
+    if (keys%meant(group, 'field_start') .and. .not. transient%field_interval > 0.0_wp) then
+      call keys%complain(group, 'field_start', 'has no use without field_interval')
+    end if
     if (state == analysis_equilibrium) then
       call check_free_shaft(keys, rotor)
       call check_tilts(keys, model)

@@ -21,6 +21,7 @@ module gfb_transient
   use gfb_bearing_record, only: bearing_record_type
   use gfb_restart, only: restart_type
   use gfb_transient_restart, only: keep_march, recall_march
+  use gfb_transient_fields, only: keep_fields
   implicit none (type)
   private
   public :: duration_of, drive_of
@@ -51,7 +52,7 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(bearing_system_type), target, intent(inout) :: bearing !! where the shaft begins; left at its end
     type(newton_type), target, intent(inout) :: newton !! its solver
-    type(bearing_record_type), intent(inout) :: record !! of where the shaft begins, for restart files
+    type(bearing_record_type), intent(inout) :: record !! of where the shaft begins, for restart files; gets fields
     type(reason_type), intent(inout) :: reason !! why the time has no end
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(march_settings_type) :: settings
@@ -64,7 +65,9 @@ contains
     newton%log%verbose = .false.
     call begin_march(drive_of(scene), settings, bearing, self%march)
     call self%history%add(self%march, bearing, newton)
-    if (context%restart%goes_on) then
+    if (.not. context%restart%goes_on) then
+      call keep_fields(scene, self%march, bearing, record%series)
+    else
       call recall_march(context%restart, bearing, self%march, self%history, error)
       if (.not. allocated(error)) call context%log%line('restart: resumed from '//place_in_time(self%march))
     end if
@@ -95,6 +98,7 @@ contains
         call take_step(march, bearing, newton, report)
         if (report%converged) then
           call self%history%see_gap(bearing)
+          call keep_fields(scene, march, bearing, record%series)
           call self%look_for_limits(scene)
           if (modulo(march%steps, every) == 0 .or. march%time >= march%settings%end_time .or. self%ending /= '') then
             call self%history%add(march, bearing, newton)
@@ -126,6 +130,9 @@ contains
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
                     text(self%history%smallest_gap*1.0e6_wp, 4)//' um')
+      if (allocated(record%series%value)) then
+        call log%line('film and foils are stored at '//text(size(record%series%value))//' times')
+      end if
     end associate
   end subroutine follow_shaft
 
