@@ -3,8 +3,9 @@ module gfb_scene_reading
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_changed_text, only: changed_text
+  use gfb_changed_text, only: changed_text, changed_list_text
   use gfb_case_text, only: read_case_text
+  use gfb_listed_keys, only: list_length
   use gfb_key_notes, only: noted_key_type
   use gfb_scene, only: scene_type
   use gfb_scene_checks, only: check_groups
@@ -103,9 +104,9 @@ contains
   !> The bearing of a scene with another value of a key, on its mesh.
   !>
   !> Fails where the value breaks a rule.
-  subroutine scene_with_key(scene, group, key, value, there, error, at)
+  subroutine scene_with_key(scene, key, value, there, error, at)
     type(scene_type), intent(in) :: scene !! what is asked for
-    character(len=*), intent(in) :: group, key !! names in the case file
+    type(swept_key_type), intent(in) :: key !! of the case file
     real(wp), intent(in) :: value !! [its unit] of the key
     type(scene_type), intent(out) :: there !! the scene with the value in it
     type(error_type), allocatable, intent(out) :: error !! which rule is broken
@@ -114,7 +115,7 @@ contains
 
     words = scene%verbatim
     if (present(at) .and. scene%sweep%parameter == sweep_keys) words = text_at_value(scene, at)
-    call read_bearing(changed_text(words, group, key, value), scene, there, error)
+    call read_bearing(text_with_key(scene, words, key, value), scene, there, error)
   end subroutine scene_with_key
 
   !> The bearing of a scene as another text describes it.
@@ -146,7 +147,7 @@ contains
   end subroutine read_bearing
 
   !> The text of a case file with a value of the keys that its sweep changes, as its only value.
-  pure function text_at_value(scene, value) result(changed)
+  function text_at_value(scene, value) result(changed)
     type(scene_type), intent(in) :: scene
     real(wp), intent(in) :: value !! [the sweep's unit]
     character(len=:), allocatable :: changed
@@ -156,9 +157,24 @@ contains
     changed = changed_text(scene%verbatim, 'sweep', 'values', value) ! long lists take long to read
     list = swept_keys(scene%sweep)
     do i = 1, size(list)
-      changed = changed_text(changed, list(i)%group, list(i)%name, value)
+      changed = text_with_key(scene, changed, list(i), value)
     end do
   end function text_at_value
+
+  !> The text of a case file with another value of a key, or of a value of a list.
+  function text_with_key(scene, words, key, value) result(changed)
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: words
+    type(swept_key_type), intent(in) :: key
+    real(wp), intent(in) :: value !! [its unit]
+    character(len=:), allocatable :: changed
+
+    if (key%element > 0) then
+      changed = changed_list_text(words, key%group, key%name, key%element, list_length(key, scene%bump_foil), value)
+    else
+      changed = changed_text(words, key%group, key%name, value)
+    end if
+  end function text_with_key
 
   !> All groups and keys there are, as a Markdown table.
   function key_table() result(table)

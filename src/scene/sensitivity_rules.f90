@@ -6,8 +6,9 @@ module gfb_sensitivity_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sensitivity_case, only: parameter_type
-  use gfb_sweep_case, only: swept_key_type, named_keys
-  use gfb_swept_key_rules, only: use_problem
+  use gfb_listed_keys, only: list_values, is_gap
+  use gfb_sweep_case, only: swept_key_type, named_keys, every_element
+  use gfb_swept_key_rules, only: look_up
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -23,18 +24,23 @@ contains
     type(scene_type), intent(inout) :: scene !! gets the parameters
     type(swept_key_type), allocatable :: list(:)
     character(len=:), allocatable :: problem
+    real(wp) :: tolerance
     integer :: i, k
+    logical :: tolerated
 
     associate (asked => scene%sensitivity)
       allocate (asked%parameter(0))
       if (.not. asked%present) return
       list = named_keys(asked%names)
       if (asked%names == '') list = list(:0)
+      tolerated = size(asked%tolerances) == size(list)
+      tolerance = 0.0_wp
       do i = 1, size(list)
-        call add_parameter(keys, scene, list(i), problem)
+        if (tolerated) tolerance = asked%tolerances(i)
+        call add_parameter(keys, scene, list(i), tolerance, problem)
         do k = 1, i - 1
-          if (full_name(list(k)) /= full_name(list(i))) cycle
-          problem = full_name(list(i))//' is given twice'
+          if (.not. is_same(list(k), list(i))) cycle
+          problem = list(i)%label()//' is given twice'
         end do
         if (problem == '') cycle
         if (asked%strings == size(list)) then
@@ -43,11 +49,9 @@ contains
           call keys%complain(group, parameters, problem)
         end if
       end do
-      if (size(asked%tolerances) > 0 .and. size(asked%tolerances) /= size(list)) then
+      if (size(asked%tolerances) > 0 .and. .not. tolerated) then
         call keys%complain(group, 'tolerances', 'must have one value a parameter: '// &
                            text(size(list))//', not '//text(size(asked%tolerances)))
-      else if (size(asked%tolerances) == size(asked%parameter)) then
-        asked%parameter%tolerance = asked%tolerances
       end if
     end associate
     call check_beside(keys, scene)
@@ -83,42 +87,55 @@ contains
     end if
   end subroutine check_beside
 
-  !> Adds a parameter with its unit and value.
-  subroutine add_parameter(keys, scene, key, problem)
+  !> Adds a parameter with its unit and value; of a whole list all its values.
+  subroutine add_parameter(keys, scene, key, tolerance, problem)
     type(case_keys_type), intent(in) :: keys
     type(scene_type), intent(inout) :: scene
     type(swept_key_type), intent(in) :: key
+    real(wp), intent(in) :: tolerance !! of each value [its unit]
     character(len=:), allocatable, intent(out) :: problem !! empty where it can be one
     type(parameter_type) :: one
+    real(wp), allocatable :: value(:)
+    integer :: i
 
-    one%group = key%group
-    one%name = key%name
-    if (key%group == 'operation' .and. key%name == 'load') then
+    one%key = key
+    one%tolerance = tolerance
+    allocate (value(0))
+    if (key%label() == 'operation%load') then
       one%unit = 'N'
-      one%value = norm2(scene%operation%load)
+      value = [norm2(scene%operation%load)]
       problem = ''
       if (scene%general%analysis /= analysis_equilibrium) then
         problem = 'operation%load has no effect here: the position is given'
       end if
     else
-      call keys%book%look_up_real(key%group, key%name, one%unit, problem)
-      if (problem == '') problem = use_problem(keys, scene, key%group, key%name)
-      if (problem == '') one%value = value_of(keys, key)
+      call look_up(keys, scene, key, one%unit, problem)
+      if (problem /= '') return
+      if (key%element == 0) then
+        value = [value_of(keys, key)]
+      else
+        value = list_values(keys, key, scene%bump_foil)
+      end if
     end if
-    if (problem == '' .and. .not. abs(one%value) > 0.0_wp) then
-      problem = full_name(key)//' is 0: it has no size by which it could change'
-    end if
-    associate (asked => scene%sensitivity)
-      if (problem == '') asked%parameter = [asked%parameter, one]
-    end associate
+    do i = 1, size(value)
+      if (key%element > 0 .and. key%element /= i) cycle
+      if (key%element /= 0) one%key%element = i
+      one%value = value(i)
+      if (problem == '' .and. .not. (abs(one%value) > 0.0_wp .or. is_gap(key))) then
+        problem = one%key%label()//' is 0: it has no size by which it could change'
+      end if
+      if (problem == '') scene%sensitivity%parameter = [scene%sensitivity%parameter, one]
+    end do
   end subroutine add_parameter
 
-  !> A key's group and name.
-  pure function full_name(key) result(name)
-    type(swept_key_type), intent(in) :: key
-    character(len=:), allocatable :: name
-    name = key%group//'%'//key%name
-  end function full_name
+  !> Whether two names mean the same key, or one a value of the other.
+  pure function is_same(one, other) result(same)
+    type(swept_key_type), intent(in) :: one, other
+    logical :: same
+
+    same = one%group == other%group .and. one%name == other%name .and. &
+           (one%element == other%element .or. one%element == every_element .or. other%element == every_element)
+  end function is_same
 
   !> Value of a real key, given or by default; 0 where it has none.
   function value_of(keys, key) result(value)

@@ -4,10 +4,11 @@ module gfb_swept_key_rules
   use gfb_dynamics_case, only: mass_off
   use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
+  use gfb_listed_keys, only: index_problem
+  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys, every_element
   implicit none (type, external)
   private
-  public :: check_swept_keys, use_problem
+  public :: check_swept_keys, look_up
 
   character(len=*), parameter :: word_needed = &
     'needs a parameter that is a word, such as ''load'': '
@@ -28,11 +29,13 @@ contains
     if (.not. right) return
     list = swept_keys(scene%sweep)
     do i = 1, size(list)
-      call keys%book%look_up_real(list(i)%group, list(i)%name, unit, problem)
+      call look_up(keys, scene, list(i), unit, problem)
       if (i == 1) scene%sweep%unit = unit
-      if (problem == '') problem = use_problem(keys, scene, list(i)%group, list(i)%name)
+      if (problem == '' .and. list(i)%element == every_element) then
+        problem = list(i)%label()//': the values of a sweep are those of one element'
+      end if
       if (problem == '' .and. unit /= scene%sweep%unit .and. scene%sweep%unit /= '') then
-        problem = list(i)%group//'%'//list(i)%name//' is in '//unit//', the first key in '// &
+        problem = list(i)%label()//' is in '//unit//', the first key in '// &
                   scene%sweep%unit//': one value cannot be both'
       end if
       if (problem == '') cycle
@@ -45,6 +48,19 @@ contains
       right = right .and. .not. sweep%hold_position
     end associate
   end subroutine check_swept_keys
+
+  !> Looks up a real key, or a value of a list, that answers of the scene follow.
+  subroutine look_up(keys, scene, key, unit, problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(swept_key_type), intent(in) :: key !! as it was typed
+    character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
+    character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
+
+    call keys%book%look_up_real(key%group, key%name, key%element /= 0, unit, problem)
+    if (problem == '') problem = use_problem(keys, scene, key%group, key%name)
+    if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
+  end subroutine look_up
 
   !> What cannot stand beside keys, because the bearing is built anew for each value.
   subroutine check_beside(keys, scene)

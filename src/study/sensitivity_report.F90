@@ -10,6 +10,7 @@ module gfb_sensitivity_report
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_sensitivity_case, only: quantity_words, parameter_type
+  use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, find_determinant_sign
   use gfb_sensitivity, only: sensitivity_type, find_sensitivities, changed_evaluation
@@ -63,9 +64,9 @@ contains
     associate (asked => scene%sensitivity)
       do i = 1, size(derivative)
         associate (key => asked%parameter(i))
-          full = 'd_'//name//'_d_'//key%group//'_'//key%name
+          full = 'd_'//name//'_d_'//result_part(key%key)
           call add_quantity(list, number_quantity(full, derivative(i), quotient_unit(result_unit(name), key%unit), &
-                                                  result_meaning(full, name//' by '//key%group//'%'//key%name)))
+                                                  result_meaning(full, name//' by '//key%key%label())))
         end associate
       end do
       if (size(asked%tolerances) == 0) return
@@ -75,6 +76,15 @@ contains
       end associate
     end associate
   end subroutine add_results
+
+  !> A key as part of a result's name.
+  pure function result_part(key) result(words)
+    type(swept_key_type), intent(in) :: key
+    character(len=:), allocatable :: words
+
+    words = key%group//'_'//key%name
+    if (key%element > 0) words = words//'_'//text(key%element)
+  end function result_part
 
   !> Variance that independent deviations of the parameters cause, to first order.
   pure function variance_of(scene, derivative) result(variance)
@@ -120,9 +130,9 @@ contains
     logical, intent(in) :: tolerated !! tolerances are given
     character(len=:), allocatable :: words
 
-    words = 'by '//key%group//'%'//key%name
+    words = 'by '//key%key%label()
     words = words//repeat(' ', max(0, 32 - len(words)))//text(derivative, digits)//' '//quotient_unit(unit, key%unit)
-    if (abs(value) > 0.0_wp) then
+    if (abs(value) > 0.0_wp .and. abs(key%value) > 0.0_wp) then
       words = words//'; by 1 % of it: '//text(percent*derivative*(key%value/percent)/value, few_digits)//' %'
     end if
     if (tolerated) words = words//'; by its tolerance: '//text(abs(derivative)*key%tolerance, few_digits)//' '//unit

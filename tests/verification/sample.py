@@ -12,6 +12,7 @@ SMALL = {"arc_elements": 8, "flat_elements": 2, "axial_elements": 4}
 LEVELS = (5, 25, 50, 75, 95)
 COUNT = 6
 PLACE = ("eccentricity_x", "eccentricity_y", "minimum_gap", "friction_torque", "maximum_pressure")
+SMOOTH = ("eccentricity_x", "minimum_gap", "friction_torque")
 FOIL = {"youngs_modulus": 2.14e11, "poissons_ratio": 0.29}
 BUMPS = 8
 
@@ -78,14 +79,32 @@ def check_statistics(checks, many):
 
 def check_small_spread(checks, folder):
     """Deviation and shift of the mean (gaps have a mean) are linear in a small spread, what is left of both is quadratic."""
-    nominal = bearing(folder, "nominal")
-    samples = [bearing(folder, "spread", sampled(3), random(spread*MICROMETRE)) for spread in (0.1, 0.01, 0.001)]
-    for name in ("eccentricity_x", "minimum_gap", "friction_torque"):
+    nominal = bearing(folder, "nominal", {"sensitivity": {"quantity": SMOOTH, "parameters": "bump_foil%crest_gap(:)"}})
+    samples = [bearing(folder, f"spread_{spread}", sampled(3), random(spread*MICROMETRE)) for spread in (0.1, 0.01, 0.001)]
+    check_adjoint(checks, nominal, samples)
+    for name in SMOOTH:
         for words, values in (("deviation", [answer[f"{name}_deviation"] for answer in samples]),
                               ("mean's shift", [answer[f"{name}_mean"] - nominal[name] for answer in samples])):
             checks.below(f"{name}: a tenth of the spread, a tenth of the {words}", 10.0*values[2]/values[1] - 1.0, 2.0e-2)
             left = [wide - 10.0*narrow for wide, narrow in zip(values, values[1:])]
             checks.below(f"{name}: and a hundredth of what is not linear", 100.0*left[1]/left[0] - 1.0, 0.1)
+
+
+def check_adjoint(checks, nominal, samples):
+    """Members, their mean and deviation tend to what the derivatives by single gaps predict, with the square of the spread."""
+    gaps = numpy.array([drawn(seed, BUMPS) for seed in (5, 6, 7)])*MICROMETRE
+    for name in SMOOTH:
+        slope = numpy.array([nominal[f"d_{name}_d_bump_foil_crest_gap_{bump}"] for bump in range(1, BUMPS + 1)])
+        off = []
+        for spread, answer in zip((0.1, 0.01, 0.001), samples):
+            predicted = nominal[name] + spread*gaps @ slope
+            size = numpy.ptp(predicted)
+            off.append([largest_difference(answer.history()[name], predicted, size),
+                        abs(answer[f"{name}_mean"] - predicted.mean())/size,
+                        abs(answer[f"{name}_deviation"] - predicted.std(ddof=1))/size])
+        for words, values in zip(("members", "mean", "deviation"), zip(*off)):
+            checks.below(f"{name}: {words} by the adjoint, spread of a thousandth of a micrometre", values[2], 2.0e-3)
+            checks.below(f"{name}: {words} by the adjoint, a tenth of the spread", 10.0*values[2]/values[1] - 1.0, 0.2)
 
 
 def check_first_order(checks, folder):

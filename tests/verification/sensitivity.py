@@ -133,6 +133,33 @@ def check_foils(checks, folder):
                       {"bump_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
 
 
+def check_lists(checks, folder):
+    """Single values of lists: gaps of 0 against one-sided differences of second order, thicknesses against central ones."""
+    step, bumps = 1.0e-9, 13
+    content = foils("shell", 0.1)
+    answer = derived(folder, content, ("bump_foil%crest_gap(:)", "bump_foil%corner_gap(9)"), NAMES)
+    for key, bump in (("crest_gap", 7), ("crest_gap", 9), ("corner_gap", 9)):
+        there = [solve(folder, "differ", with_keys(content, bump_foil={
+            key: [times*step if i == bump else 0.0 for i in range(1, bumps + 1)]})).summary for times in (1, 2)]
+        for name in ("eccentricity_x", "eccentricity_y", "minimum_gap"):
+            difference = (4.0*there[0][name] - 3.0*answer[name] - there[1][name])/(2.0*step)
+            checks.below(f"{name} by {key}({bump})", answer[f"d_{name}_d_bump_foil_{key}_{bump}"]/difference - 1.0, LIMIT)
+    listed = with_keys(content, bump_foil={"bump_thickness": (*[1.02e-4]*6, 1.05e-4, *[1.02e-4]*6)})
+    del listed["bump_foil"]["thickness"]
+    part = 1.0e-4
+    answer = derived(folder, listed, ("bump_foil%bump_thickness(7)", "bump_foil%bump_thickness(8)"), NAMES)
+    for bump, value in ((7, 1.05e-4), (8, 1.02e-4)):
+        there = []
+        for side in (1.0 + part, 1.0 - part):
+            thickness = list(listed["bump_foil"]["bump_thickness"])
+            thickness[bump - 1] *= side
+            there.append(solve(folder, "differ", with_keys(listed, bump_foil={"bump_thickness": thickness})).summary)
+        for name in ("eccentricity_x", "minimum_gap"):
+            difference = (there[0][name] - there[1][name])/(2.0*part*value)
+            checks.below(f"{name} by bump_thickness({bump})",
+                         answer[f"d_{name}_d_bump_foil_bump_thickness_{bump}"]/difference - 1.0, LIMIT)
+
+
 def check_tolerances_and_sweep(checks, folder):
     """The variance is the sum of squares; a sweep, also one over the very key, has the derivatives of its points."""
     keys, tolerances = ("bearing%clearance", "gas%viscosity"), (1.0e-6, 2.0e-7)
@@ -159,6 +186,7 @@ def main():
         check_film(checks, folder)
         check_tolerances_and_sweep(checks, folder)
         check_foils(checks, folder)
+        check_lists(checks, folder)
     checks.close()
 
 

@@ -63,6 +63,18 @@ def check_alone(checks, folder, words, content, parameter, values):
     checks.that(f"{words}: no point was started anew", not history["started_anew"].any())
 
 
+def check_list(checks, folder, content):
+    """A sweep over one value of a list."""
+    shims = {"shim_angle": (1.0, 3.0), "shim_arc": 0.6, "shim_ramp": 0.1}
+    heights = (4.0e-6, 6.0e-6)
+    log, history = swept(folder, "swept", with_keys(content, {"bore": {**shims, "shim_height": 2.0e-6}}), "bore%shim_height(2)",
+                         heights)
+    for point, height in enumerate(heights):
+        alone = solve(folder, "alone", with_keys(content, {"bore": {**shims, "shim_height": (2.0e-6, height)}}))
+        worst = max(abs(history[name][point]/alone.summary[name] - 1.0) for name in ("minimum_gap", "eccentricity_x"))
+        checks.below(f"height of the second shim {height:.3g}: the answer of that scene", worst, LIMIT)
+
+
 def largest_bend(history, name):
     """How far a history departs from straight lines through neighbours, over the clearance."""
     return float(numpy.abs(numpy.diff(history[name], 2)).max()/CLEARANCE)
@@ -139,6 +151,7 @@ def main():
                               groups={"model": SPRINGS})
         check_alone(checks, folder, "rigid, clearance", rigid, "bearing%clearance", (2.0e-5, 2.5e-5, 1.5e-5))
         check_alone(checks, folder, "rigid, length", rigid, "bearing%length", (0.04, 0.05))
+        check_list(checks, folder, rigid)
         check_alone(checks, folder, "springs, stiffness", springs, "model%foundation_stiffness", STIFFNESSES)
         check_alone(checks, folder, "springs, viscosity", springs, "gas%viscosity", (2.0e-5, 3.0e-5))
         check_smooth(checks, folder, "thickness of the bumps", "bump_foil%thickness",

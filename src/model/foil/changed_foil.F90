@@ -9,7 +9,7 @@ module gfb_changed_foil
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: gap_of_crest
+  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, strip_at
   use gfb_mesh_dm, only: columns_window
@@ -61,6 +61,8 @@ contains
         associate (point => foil%contacts%point(i))
           if (point%law == contact_top) then
             point%gap = gap_of_crest(scene%bump_foil, point%line, strip_at(foil%bumps%mesh, point%node))
+          else
+            point%gap = gap_of_corner(scene%bump_foil, point%line)
           end if
         end associate
       end do

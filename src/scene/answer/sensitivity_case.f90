@@ -3,6 +3,7 @@ module gfb_sensitivity_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, misplaced_group
+  use gfb_sweep_case, only: swept_key_type
   use gfb_value_rules, only: not_negative
   implicit none (type, external)
   private
@@ -18,7 +19,7 @@ module gfb_sensitivity_case
 
   !> A key by which results are derived.
   type, public :: parameter_type
-    character(len=:), allocatable :: group, name !! in lower case
+    type(swept_key_type) :: key
     character(len=:), allocatable :: unit
     real(wp) :: value = 0.0_wp     !! in the case file [its unit]
     real(wp) :: tolerance = 0.0_wp !! standard deviation [its unit]
@@ -54,6 +55,7 @@ contains
     end if
     call keys%names_key('parameters', sensitivity%names, sensitivity%strings, &
                         'keys by which they are derived, such as `''bump_foil%thickness''`; '// &
+                        'of a list a value, `''bump_foil%crest_gap(2)''`, or all, `(:)`; '// &
                         '`''operation%load''` is its magnitude')
     call keys%real_list_key('tolerances', sensitivity%tolerances, most_tolerances, &
                             'those of parameters', 'standard deviation of each of them: the '// &

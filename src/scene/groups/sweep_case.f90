@@ -5,6 +5,7 @@ module gfb_sweep_case
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_text, only: text
   use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
   private
@@ -25,9 +26,14 @@ module gfb_sweep_case
                                                'that of parameter', 'N', 'rpm', 'rad', 'rad', &
                                                'm', 'm', 'that of parameter']
 
-  !> A key of the case file.
+  integer, parameter, public :: every_element = -1 !! of a list
+
+  !> A key of the case file, or a value of one that is a list.
   type, public :: swept_key_type
     character(len=:), allocatable :: group, name !! in lower case
+    integer :: element = 0 !! number of the value in its list, or `every_element`; 0: no index is given
+  contains
+    procedure :: label
   end type swept_key_type
 
   !> The sweep.
@@ -99,10 +105,43 @@ contains
       sign = index(left(:comma - 1), '%')
       one%group = trim(adjustl(left(:max(sign, 1) - 1)))
       one%name = trim(adjustl(left(sign + 1:comma - 1)))
+      call take_index(one)
       list = [list, one]
       left = left(comma + 1:)
     end do
   end function named_keys
+
+  !> Takes the index off a key's name; what is no index stays part of the name.
+  pure subroutine take_index(key)
+    type(swept_key_type), intent(inout) :: key
+    character(len=:), allocatable :: words
+    integer :: open, status
+
+    key%element = 0
+    open = index(key%name, '(')
+    if (open < 2 .or. index(key%name, ')') /= len(key%name)) return
+    words = trim(adjustl(key%name(open + 1:len(key%name) - 1)))
+    if (words == ':') then
+      key%element = every_element
+    else if (words == '' .or. verify(words, '0123456789') > 0) then
+      return
+    else
+      read (words, *, iostat=status) key%element
+      if (status /= 0) key%element = huge(0) ! longer than any list
+      if (key%element == 0) return           ! lists begin with 1
+    end if
+    key%name = trim(key%name(:open - 1))
+  end subroutine take_index
+
+  !> Group, name and index of a key.
+  pure function label(self) result(words)
+    class(swept_key_type), intent(in) :: self !! the key
+    character(len=:), allocatable :: words
+
+    words = self%group//'%'//self%name
+    if (self%element == every_element) words = words//'(:)'
+    if (self%element > 0) words = words//'('//text(self%element)//')'
+  end function label
 
   !> The operating point with one of the sweep's values in it.
   pure function operation_at(operation, sweep, point) result(there)

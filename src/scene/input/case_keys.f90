@@ -6,7 +6,7 @@
 module gfb_case_keys
   use gfb_kinds, only: wp
   use gfb_case_reader, only: case_reader_type, longest_list
-  use gfb_key_notes, only: no_default, real_words, quoted, value_list, choices, &
+  use gfb_key_notes, only: no_default, real_words, list_words, quoted, value_list, choices, &
                            chosen_word, chosen_words
   use gfb_namelist_values, only: read_integer, read_logical, value_string
   use gfb_text, only: exact_text, lower_case, text
@@ -97,7 +97,7 @@ contains
 
     must = .true.
     if (present(required)) must = required
-    call self%describe(name, 'list of reals', unit, meaning)
+    call self%describe(name, list_words, unit, meaning)
     call self%begin_key('', most, elements, required=must, default=default)
     allocate (values(size(elements)), source=0.0_wp)
     do i = 1, size(values)

@@ -1,13 +1,15 @@
 !> The text of a case file with another value of a key, every line where it was.
 module gfb_changed_text
   use gfb_kinds, only: wp
+  use gfb_case_reader, only: longest_list
   use gfb_complaints, only: complaints_type
+  use gfb_key_elements, only: find_elements
   use gfb_namelist_file, only: namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
-  use gfb_text, only: exact_text
+  use gfb_text, only: exact_text, text
   implicit none (type, external)
   private
-  public :: changed_text
+  public :: changed_text, changed_list_text
 
 contains
 
@@ -38,12 +40,77 @@ contains
         return
       end associate
     end do
+    changed = text_with(words, file, group, key//' = '//exact_text(value))
+  end function changed_text
+
+  !> A case file's text as if one value of a list had another value. The list keeps its other values; one that stands for
+  !> all is repeated, and a list that is absent is 0 but for the one value.
+  function changed_list_text(words, group, key, element, length, value) result(changed)
+    character(len=*), intent(in) :: words !! the whole file
+    character(len=*), intent(in) :: group, key !! names in the case file, in lower case
+    integer, intent(in) :: element !! of the list
+    integer, intent(in) :: length !! of the list where one value may stand for all, 0 where none may
+    real(wp), intent(in) :: value !! [its unit] of the element
+    character(len=:), allocatable :: changed
+    type(namelist_file_type) :: file
+    type(complaints_type) :: complaints ! of who reads the file
+    character(len=:), allocatable :: typed
+    integer, allocatable :: owner(:)
+    integer :: i
+
+    call scan_namelist(words, file, complaints)
+    call find_elements(file, group, key, longest_list, owner)
+    if (size(owner) == 0) then
+      changed = text_with(words, file, group, key//' = '//repeated(element - 1, '0.0')//exact_text(value)// &
+                          following(length - element, '0.0'))
+      return
+    end if
+    if (size(owner) == 1) owner = spread(owner(1), 1, max(length, 1))
+    i = owner(element)
+    typed = file%value_text(i)
+    associate (item => file%values(i))
+      changed = words(:item%first - 1)
+      if (item%repeats > 1) changed = changed(:verify(changed(:item%first - 2), '0123456789', back=.true.))
+      changed = changed//repeated(count(owner(:element - 1) == i), typed)//exact_text(value)// &
+                following(count(owner(element + 1:) == i), typed)//words(item%last + 1:)
+    end associate
+  end function changed_list_text
+
+  !> So many equal values before another one.
+  pure function repeated(times, value) result(words)
+    integer, intent(in) :: times !! 0 or less: none
+    character(len=*), intent(in) :: value
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (times > 0) words = text(times)//'*'//value//', '
+  end function repeated
+
+  !> So many equal values behind another one.
+  pure function following(times, value) result(words)
+    integer, intent(in) :: times !! 0 or less: none
+    character(len=*), intent(in) :: value
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (times > 0) words = ', '//text(times)//'*'//value
+  end function following
+
+  !> A case file's text with a key more: behind its group's name, else in a group behind the last line.
+  pure function text_with(words, file, group, key) result(changed)
+    character(len=*), intent(in) :: words
+    type(namelist_file_type), intent(in) :: file !! the text, scanned
+    character(len=*), intent(in) :: group
+    character(len=*), intent(in) :: key !! with its values
+    character(len=:), allocatable :: changed
+    integer :: i, last
+
     do i = 1, size(file%groups)
       if (file%group_name(i) /= group) cycle
       last = file%groups(i)%last
-      changed = words(:last)//' '//key//' = '//exact_text(value)//words(last + 1:)
+      changed = words(:last)//' '//key//words(last + 1:)
       return
     end do
-    changed = words//new_line('a')//'&'//group//' '//key//' = '//exact_text(value)//' /'
-  end function changed_text
+    changed = words//new_line('a')//'&'//group//' '//key//' /'
+  end function text_with
 end module gfb_changed_text

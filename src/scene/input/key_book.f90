@@ -1,7 +1,7 @@
 !> The groups and keys there are, against the names that stand in a file.
 module gfb_key_book
   use gfb_complaints, only: complaints_type, shown
-  use gfb_key_notes, only: key_type, real_words
+  use gfb_key_notes, only: key_type, real_words, list_words
   use gfb_namelist_file, only: namelist_file_type, namelist_group_type
   use gfb_text, only: join, lower_case, nearest_word, text
   implicit none (type, external)
@@ -17,6 +17,7 @@ module gfb_key_book
     logical :: given = .false.       !! it stands in the file
     logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
     logical :: is_real = .false.     !! of a key: its value is one real number
+    logical :: is_list = .false.     !! of a key: its values are a list of real numbers
     character(len=:), allocatable :: unit    !! of a key
     character(len=:), allocatable :: meaning
   end type name_type
@@ -69,6 +70,7 @@ contains
     name%given = given
     name%missing = required .and. .not. given
     name%is_real = key%type_words == real_words
+    name%is_list = key%type_words == list_words
     name%unit = key%unit
     name%meaning = key%meaning
     self%key_groups = [character(len=name_length) :: self%key_groups, group]
@@ -88,10 +90,11 @@ contains
     if (i > 0) line = self%groups(i)%line
   end function group_line
 
-  !> Looks up a key whose value is to be one real number.
-  pure subroutine look_up_real(self, group, key, unit, problem)
+  !> Looks up a key whose value is to be one real number, or a value of a list.
+  pure subroutine look_up_real(self, group, key, in_list, unit, problem)
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names as they were typed, in lower case
+    logical, intent(in) :: in_list !! a value of a list is meant
     character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
     character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
     character(len=2*name_length) :: known(size(self%keys))
@@ -107,12 +110,16 @@ contains
       do i = 1, size(known)
         known(i) = trim(self%key_groups(i))//'%'//trim(self%key_names(i))
       end do
-      near = nearest_word(group//'%'//key, pack(known, self%keys%is_real))
+      near = nearest_word(group//'%'//key, pack(known, self%keys%is_real .or. self%keys%is_list))
       is_key = is_key .and. self%keys%is_real
       if (any(is_key)) near = join(pack(known, is_key), ''' or ''')
       problem = 'there is no key '//shown(group//'%'//key)
       if (near /= '') problem = problem//', did you mean '''//near//'''?'
-    else if (.not. self%keys(i)%is_real) then
+    else if (self%keys(i)%is_list .and. .not. in_list) then
+      problem = group//'%'//key//' is a list: name one of its values, such as '//key//'(2)'
+    else if (self%keys(i)%is_real .and. in_list) then
+      problem = group//'%'//key//' is a single value and takes no index'
+    else if (.not. (self%keys(i)%is_real .or. self%keys(i)%is_list)) then
       problem = group//'%'//key//' is not one real number'
     else
       unit = self%keys(i)%unit

@@ -8,6 +8,7 @@ module gfb_key_notes
             chosen_word, chosen_words
 
   character(len=*), parameter, public :: real_words = 'real' !! a key that is one real number
+  character(len=*), parameter, public :: list_words = 'list of reals'
   character(len=*), parameter, public :: no_default = 'none' !! nothing holds without the key
 
   integer, parameter :: values_a_line = 8 !! of a long list in the echo

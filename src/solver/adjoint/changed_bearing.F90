@@ -8,7 +8,9 @@ module gfb_changed_bearing
   use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
+  use gfb_listed_keys, only: is_gap
   use gfb_sensitivity_case, only: parameter_type
+  use gfb_sweep_case, only: swept_key_type
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -40,16 +42,16 @@ contains
     number = 0.0_wp
     problem = ''
     valid = .true.
-    if (parameter%group == 'operation') then
+    if (parameter%key%group == 'operation') then
       call evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
     else
-      call scene_with_key(scene, parameter%group, parameter%name, value, there, error, at)
+      call scene_with_key(scene, parameter%key, value, there, error, at)
       if (allocated(error)) then
         problem = error%message
         return
       end if
-      if (keeps_meshes(scene, parameter) .and. takes_numbers(bearing%pad(1)%foil)) then
-        call evaluate_in_place(scene, there, parameter%group, bearing, unknown, nodes, residual, number, valid, error)
+      if (keeps_meshes(scene, parameter%key) .and. takes_numbers(bearing%pad(1)%foil)) then
+        call evaluate_in_place(scene, there, parameter%key, bearing, unknown, nodes, residual, number, valid, error)
       else
         call evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
       end if
@@ -71,7 +73,7 @@ contains
     type(operating_point_type) :: point
 
     point = bearing%point
-    if (parameter%name == 'load') then
+    if (parameter%key%name == 'load') then
       point%load = point%load*(value/norm2(point%load))
     else
       point%speed = angular_speed(value)
@@ -81,13 +83,13 @@ contains
   end subroutine evaluate_operation
 
   !> Whether a key moves neither the film's mesh nor the crests.
-  pure function keeps_meshes(scene, parameter) result(keeps)
+  pure function keeps_meshes(scene, key) result(keeps)
     type(scene_type), intent(in) :: scene
-    type(parameter_type), intent(in) :: parameter
+    type(swept_key_type), intent(in) :: key
     logical :: keeps
 
-    associate (name => parameter%name)
-      select case (parameter%group)
+    associate (name => key%name)
+      select case (key%group)
       case ('gas', 'bore', 'contact', 'shaft_contact')
         keeps = .true.
       case ('bearing')
@@ -96,7 +98,7 @@ contains
         keeps = name == 'preload' .or. name == 'preload_offset'
       case ('top_foil', 'bump_foil')
         keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height' .or. &
-                name == 'free_radius'
+                name == 'free_radius' .or. is_gap(key)
         ! else the first crest stands as far from the weld as half a bump is long
         if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
       case default
@@ -107,9 +109,9 @@ contains
 
   !> The same bearing with other numbers. Elastic forces as they were are part of the residual, beside those of a foil that
   !> has changed: differences do not see them.
-  subroutine evaluate_in_place(scene, there, group, bearing, unknown, nodes, residual, number, valid, error)
+  subroutine evaluate_in_place(scene, there, key, bearing, unknown, nodes, residual, number, valid, error)
     type(scene_type), intent(in) :: scene, there !! as it is; with the key changed
-    character(len=*), intent(in) :: group !! of the key
+    type(swept_key_type), intent(in) :: key !! that is changed
     type(bearing_system_type), intent(inout) :: bearing
     real(wp), intent(in) :: unknown(:) !! in SI
     type(extreme_nodes_type), intent(in) :: nodes
@@ -124,11 +126,11 @@ contains
     call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
     number = measure(bearing, unknown, bearing%point, nodes)
     call take_numbers(scene, bearing)
-    if (group /= 'top_foil' .and. group /= 'bump_foil') return
+    if (is_gap(key) .or. key%group /= 'top_foil' .and. key%group /= 'bump_foil') return
     value = 0.0_wp
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        call add_changed_force(pad%foil, there, pad%whole, group == 'bump_foil', unknown(pad%first + 1:pad%last), &
+        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(pad%first + 1:pad%last), &
                                value(pad%first + 1:pad%last), error)
       end associate
       if (allocated(error)) return

@@ -15,6 +15,8 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_sensitivity_case, only: parameter_type, quantity_words
+  use gfb_listed_keys, only: is_gap
+  use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -34,6 +36,7 @@ module gfb_sensitivity
   end type difference_type
 
   real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
+  real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp] !! exact where all is linear
   real(wp), parameter :: enough = 1.0e-12_wp    !! residual of an adjoint, over its right side [1]
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
@@ -109,7 +112,7 @@ contains
       do i = 1, size(parameter)
         call find_change(scene, parameter(i), bearing, unknown, nodes, evaluate, change, slope, problem, at)
         if (problem /= '') then
-          found%problem = parameter(i)%group//'%'//parameter(i)%name//': '//problem
+          found%problem = parameter(i)%key%label()//': '//problem
           cycle
         end if
         do k = 1, size(quantity_words)
@@ -249,8 +252,9 @@ contains
     PetscCallA(VecSet(change, 0.0_wp, ierr))
     slope = 0.0_wp
     value = present_value(scene, parameter, bearing%point, at)
-    difference = difference_of(parameter)
+    difference = difference_of(parameter%key)
     step = difference%part*abs(value)
+    if (is_gap(parameter%key)) step = difference%part*scene%bearing%clearance
     problem = ''
     if (.not. step > 0.0_wp) problem = 'it is 0 here'
     do steps = -2, 2
@@ -266,19 +270,22 @@ contains
   !> The differences that suit a key. Where it leaves the foils' stiffness alone little is lost to rounding. In thickness
   !> and material stiffness is a polynomial, or nearly one, of low degree. The shape of bumps is neither, and a pitch adds
   !> up along the strip.
-  pure function difference_of(parameter) result(difference)
-    type(parameter_type), intent(in) :: parameter
+  !> Gaps of contacts that stay as they are are part of the equations in proportion.
+  pure function difference_of(key) result(difference)
+    type(swept_key_type), intent(in) :: key
     type(difference_type) :: difference
     real(wp), parameter :: small = 4.0e-6_wp, large = 5.0e-4_wp
 
-    select case (parameter%group)
+    select case (key%group)
     case ('operation', 'gas', 'bore', 'contact', 'shaft_contact')
       difference = difference_type(small, central)
     case default
-      select case (parameter%name)
+      select case (key%name)
       case ('clearance', 'preload')
         difference = difference_type(small, central)
-      case ('thickness', 'youngs_modulus', 'poissons_ratio')
+      case ('crest_gap', 'corner_gap')
+        difference = difference_type(0.01_wp, forward)
+      case ('thickness', 'bump_thickness', 'strip_thickness', 'youngs_modulus', 'poissons_ratio')
         difference = difference_type(large, central)
       case default
         return
@@ -293,13 +300,18 @@ contains
     type(operating_point_type), intent(in) :: point
     real(wp), intent(in), optional :: at !! [the sweep's unit]
     real(wp) :: value !! [its unit]
+    type(swept_key_type), allocatable :: list(:)
+    integer :: i
 
     value = parameter%value
-    if (parameter%group == 'operation') then
+    if (parameter%key%group == 'operation') then
       value = point%speed/angular_speed(1.0_wp)
-      if (parameter%name == 'load') value = norm2(point%load)
+      if (parameter%key%name == 'load') value = norm2(point%load)
     else if (present(at) .and. allocated(scene%sweep%keys)) then
-      if (index(', '//scene%sweep%keys//',', ' '//parameter%group//'%'//parameter%name//',') > 0) value = at
+      list = swept_keys(scene%sweep)
+      do i = 1, size(list)
+        if (list(i)%label() == parameter%key%label()) value = at
+      end do
     end if
   end function present_value
 end module gfb_sensitivity
