@@ -170,7 +170,8 @@ contains
     character(len=:), allocatable :: changed
 
     if (key%element > 0) then
-      changed = changed_list_text(words, key%group, key%name, key%element, list_length(key, scene%bump_foil), value)
+      changed = changed_list_text(words, key%group, key%name, key%element, &
+                                  list_length(key, scene%bump_foil), value)
     else
       changed = changed_text(words, key%group, key%name, value)
     end if

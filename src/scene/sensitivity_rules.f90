@@ -134,7 +134,8 @@ contains
     logical :: same
 
     same = one%group == other%group .and. one%name == other%name .and. &
-           (one%element == other%element .or. one%element == every_element .or. other%element == every_element)
+           (one%element == other%element .or. &
+            any([one%element, other%element] == every_element))
   end function is_same
 
   !> Value of a real key, given or by default; 0 where it has none.

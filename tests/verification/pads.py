@@ -105,6 +105,45 @@ def check_three(checks, folder):
                      math.hypot(*centred.force)/math.hypot(centred["force_x_1"], centred["force_y_1"]), 1.0e-10)
 
 
+def with_free_edges(bearing, load):
+    """Beams of three pads whose leading edges are free, so that suction may draw them up."""
+    sheet = {"youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "fixed_edge": "trailing"}
+    shape, preload, speed, top, bumps, friction = bearing
+    return {"scene": {"analysis": "equilibrium"}, "bearing": dict(zip(("radius", "length", "clearance"), shape)),
+            "pads": {"count": 3, "arc": 2.007, "preload": preload, "preload_offset": 0.5},
+            "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101350.0},
+            "operation": {"speed_rpm": speed, "load": load}, "model": {"foil": "beam"}, "output": {"fields": "none"},
+            "top_foil": {**sheet, "thickness": top}, "bump_foil": {**sheet, **bumps, "fixed_line": "half_flat"},
+            "contact": {"friction_top": friction, "friction_sleeve": 0.0},
+            "mesh": {"circumferential_elements": 6*bumps["bumps"], "axial_elements": 8, "arc_elements": 8, "flat_elements": 2}}
+
+
+def turned(vector, times):
+    """A vector, on by so many of three pads."""
+    angle = times*TURN
+    return (vector[0]*math.cos(angle) - vector[1]*math.sin(angle), vector[0]*math.sin(angle) + vector[1]*math.cos(angle))
+
+
+def check_free_edges(checks, folder):
+    """Where suction draws at an edge a cold start finds the answer, or names the pad; by symmetry whatever pad it is."""
+    load = (21.3, 38.1)
+    found = ((0.04736, 0.1249, 6.99e-5), 0.2, 12120.0, 6.63e-5,
+             {"thickness": 1.004e-4, "half_length": 4.04e-3, "height": 1.18e-3, "bumps": 10}, 0.255)
+    answers = [solve(folder, "edges", with_free_edges(found, turned(load, times))) for times in range(3)]
+    place, gap = (answers[0]["eccentricity_x"], answers[0]["eccentricity_y"]), answers[0]["minimum_gap"]
+    checks.below("free edges: the force is the load", math.dist(answers[0].force, load)/math.hypot(*load), 1.0e-9)
+    for times, one in enumerate(answers[1:], 1):
+        off = math.dist((one["eccentricity_x"], one["eccentricity_y"]), turned(place, times))
+        checks.below(f"free edges, turned by {times} pads: position", off/math.hypot(*place), 1.0e-6)
+        checks.below(f"free edges, turned by {times} pads: smallest gap", one["minimum_gap"]/gap - 1.0, 1.0e-6)
+    drawn = ((0.02025, 0.0571, 2.378e-5), 0.0, 46670.0, 5.81e-5,
+             {"thickness": 1.605e-4, "half_length": 2.1e-3, "height": 4.05e-4, "bumps": 8}, 0.0)
+    for times, pad in ((0, 3), (1, 1)):
+        log = solve(folder, "drawn", with_free_edges(drawn, turned((2.82, 6.35), times)), status=2).log
+        checks.that(f"free edges: that of pad {pad} is drawn to the shaft",
+                    f"the film draws the free edge of the top foil of pad {pad} to the shaft" in log)
+
+
 def check_bore(checks, folder):
     """Each pad has the bore at its own angles, and the gas' laws."""
     more = {"bore": {"waves": 2, "wave_amplitude": 2.0e-6, "wave_angle": 0.3},
@@ -143,7 +182,7 @@ def check_sweep(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_reference, check_order, check_preload, check_three, check_bore, check_film, check_sweep):
+        for check in (check_reference, check_order, check_preload, check_three, check_free_edges, check_bore, check_film, check_sweep):
             check(checks, folder)
     checks.close()
 

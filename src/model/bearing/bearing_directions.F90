@@ -4,47 +4,85 @@ module gfb_bearing_directions
   use petscvec
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank
+  use gfb_text, only: text
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
-  public :: edge_lift, edge_room, edge_force, edge_direction, contact_direction, foil_unit
+  public :: has_free_edge, edge_words, edge_lift, edge_room, edge_force, edge_direction, contact_direction, foil_unit
 
 contains
 
-  !> Mean displacement of the top foil's free edge towards the shaft at the present state, over all ranks [m].
-  function edge_lift(bearing) result(lift)
+  !> Whether the top foil has an edge that is fixed nowhere.
+  function has_free_edge(bearing) result(has)
+    class(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
+    logical :: has
+
+    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
+  end function has_free_edge
+
+  !> The free edge of a pad.
+  pure function edge_words(bearing, pad) result(words)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    integer, intent(in) :: pad !! its number
+    character(len=:), allocatable :: words
+
+    words = 'the free edge of the top foil'
+    if (size(bearing%pad) > 1) words = words//' of pad '//text(pad)
+  end function edge_words
+
+  !> Mean displacement of the top foil's free edge towards the shaft at the present state, of a pad or of all, over all
+  !> ranks [m].
+  function edge_lift(bearing, only) result(lift)
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    integer, intent(in), optional :: only !! pad
     real(wp) :: lift
     real(wp) :: unknown(bearing%local_size()), total(1)
-    integer :: i
+    integer :: first, last, i
 
     call bearing%get_unknowns(unknown)
     total = 0.0_wp
-    do i = 1, size(bearing%pad)
+    call asked_pads(bearing, first, last, only)
+    do i = first, last
       total = total + bearing%pad(i)%edge%lift(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last))
     end do
     total = sum_over_ranks(total)
-    lift = total(1)/size(bearing%pad)
+    lift = total(1)/(last - first + 1)
   end function edge_lift
 
-  !> Smallest gap over the top foil's free edge at the present state, over all ranks [m].
-  function edge_room(bearing) result(room)
+  !> The pads that are asked about: one, or all.
+  pure subroutine asked_pads(bearing, first, last, only)
+    class(bearing_system_type), intent(in) :: bearing
+    integer, intent(out) :: first, last
+    integer, intent(in), optional :: only
+
+    first = 1
+    last = size(bearing%pad)
+    if (.not. present(only)) return
+    first = only
+    last = only
+  end subroutine asked_pads
+
+  !> Smallest gap over the top foil's free edge at the present state, of a pad or of all, over all ranks [m].
+  function edge_room(bearing, only) result(room)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    integer, intent(in), optional :: only !! pad
     real(wp) :: room
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), smallest(1)
-    integer :: i
+    integer :: first, last, i
 
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
-    smallest = largest_over_ranks([maxval([(-gap(bearing%pad(i)%first_node + bearing%pad(i)%edge%node), i=1, size(bearing%pad))])])
+    call asked_pads(bearing, first, last, only)
+    smallest = largest_over_ranks([maxval([(-gap(bearing%pad(i)%first_node + bearing%pad(i)%edge%node), i=first, last)])])
     room = -smallest(1)
   end function edge_room
 
-  !> Force of the spring that fixes the top foil's free edge at the point's height, towards the shaft [N].
-  function edge_force(bearing) result(force)
+  !> Force of the spring that fixes the free edge of a pad's top foil at the point's height, towards the shaft [N].
+  function edge_force(bearing, pad) result(force)
     class(bearing_system_type), intent(in) :: bearing !! at a point with a fixed edge
+    integer, intent(in) :: pad !! its number
     real(wp) :: force
-    force = bearing%point%edge_hold*(bearing%point%edge_height - edge_lift(bearing))
+    force = bearing%point%edge_hold(pad)*(bearing%point%edge_height(pad) - edge_lift(bearing, pad))
   end function edge_force
 
   !> The vector whose product with a state is that lift, of all pads or of one, over the clearance.

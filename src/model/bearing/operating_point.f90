@@ -1,6 +1,6 @@
 !> Speed, load and position of the shaft.
 module gfb_operating_point
-  use gfb_kinds, only: wp
+  use gfb_kinds, only: wp, most_pads
   use gfb_memory, only: memory_type
   use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
@@ -21,8 +21,8 @@ module gfb_operating_point
     real(wp) :: tilt_inertia(2, 2) = 0.0_wp
     real(wp) :: edge_pull = 0.0_wp       !! fictitious, lifts the top foil's free edge [N]
     real(wp) :: edge_tension = 0.0_wp    !! fictitious, keeps that edge straight [N]
-    real(wp) :: edge_hold = 0.0_wp       !! fictitious, keeps that edge at a height [N/m]
-    real(wp) :: edge_height = 0.0_wp     !! it, above the edge at rest [m]
+    real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]
+    real(wp) :: edge_height(most_pads) = 0.0_wp !! it, above the edge at rest [m]
   contains
     procedure :: place
     procedure :: add_other_forces

@@ -40,6 +40,7 @@ module gfb_pad
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
     real(wp), allocatable :: held(:)       !! at its nodes, a deflection that no unknown moves [m]
+    integer :: number = 1                  !! of the bearing's pads
     integer :: first = 0, last = 0         !! local unknown of the bearing before the pad's, and their last
     integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads
   contains
@@ -129,6 +130,7 @@ contains
     unknowns = first%last - first%first
     nodes = first%last_node - first%first_node
     pad = first
+    pad%number = before%number + 1
     pad%first = before%last
     pad%last = pad%first + unknowns
     pad%first_node = before%last_node
@@ -200,7 +202,7 @@ contains
       call self%foil%add_residual(loading, residual)
       call self%edge%add_pull(point%edge_pull, residual)
       call self%edge%add_tension(point%edge_tension, unknown, residual)
-      call self%edge%add_hold(point%edge_hold, point%edge_height, unknown, residual)
+      call self%edge%add_hold(point%edge_hold(self%number), point%edge_height(self%number), unknown, residual)
       PetscCallA(PetscLogEventEnd(events%foil, ierr))
     end associate
   end subroutine pad_residual

@@ -11,7 +11,8 @@ module gfb_listed_keys
 
 contains
 
-  !> How many values a list means to have whose one value stands for all; 0 where it has as many as the file gives.
+  !> How many values a list means to have whose one value stands for all; 0 where it has as many as
+  !> the file gives.
   pure function list_length(key, foil) result(length)
     type(swept_key_type), intent(in) :: key !! a list
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for

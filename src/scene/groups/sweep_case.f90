@@ -31,7 +31,7 @@ module gfb_sweep_case
   !> A key of the case file, or a value of one that is a list.
   type, public :: swept_key_type
     character(len=:), allocatable :: group, name !! in lower case
-    integer :: element = 0 !! number of the value in its list, or `every_element`; 0: no index is given
+    integer :: element = 0 !! of the list, or `every_element`; 0: no index is given
   contains
     procedure :: label
   end type swept_key_type

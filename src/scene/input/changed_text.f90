@@ -43,8 +43,9 @@ contains
     changed = text_with(words, file, group, key//' = '//exact_text(value))
   end function changed_text
 
-  !> A case file's text as if one value of a list had another value. The list keeps its other values; one that stands for
-  !> all is repeated, and a list that is absent is 0 but for the one value.
+  !> A case file's text as if one value of a list had another value. The list keeps its other
+  !> values; one that stands for all is repeated, and a list that is absent is 0 but for the one
+  !> value.
   function changed_list_text(words, group, key, element, length, value) result(changed)
     character(len=*), intent(in) :: words !! the whole file
     character(len=*), intent(in) :: group, key !! names in the case file, in lower case
@@ -61,8 +62,8 @@ contains
     call scan_namelist(words, file, complaints)
     call find_elements(file, group, key, longest_list, owner)
     if (size(owner) == 0) then
-      changed = text_with(words, file, group, key//' = '//repeated(element - 1, '0.0')//exact_text(value)// &
-                          following(length - element, '0.0'))
+      changed = text_with(words, file, group, key//' = '//repeated(element - 1, '0.0')// &
+                          exact_text(value)//following(length - element, '0.0'))
       return
     end if
     if (size(owner) == 1) owner = spread(owner(1), 1, max(length, 1))
@@ -70,7 +71,9 @@ contains
     typed = file%value_text(i)
     associate (item => file%values(i))
       changed = words(:item%first - 1)
-      if (item%repeats > 1) changed = changed(:verify(changed(:item%first - 2), '0123456789', back=.true.))
+      if (item%repeats > 1) then
+        changed = changed(:verify(changed(:item%first - 2), '0123456789', back=.true.))
+      end if
       changed = changed//repeated(count(owner(:element - 1) == i), typed)//exact_text(value)// &
                 following(count(owner(element + 1:) == i), typed)//words(item%last + 1:)
     end associate
@@ -96,7 +99,8 @@ contains
     if (times > 0) words = ', '//text(times)//'*'//value
   end function following
 
-  !> A case file's text with a key more: behind its group's name, else in a group behind the last line.
+  !> A case file's text with a key more: behind its group's name, else in a group behind the last
+  !> line.
   pure function text_with(words, file, group, key) result(changed)
     character(len=*), intent(in) :: words
     type(namelist_file_type), intent(in) :: file !! the text, scanned

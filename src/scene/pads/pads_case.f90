@@ -1,6 +1,6 @@
 !> `&pads`: several equal pads, and their preload.
 module gfb_pads_case
-  use gfb_kinds, only: wp
+  use gfb_kinds, only: wp, most_pads
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic, full_turn
   use gfb_case_keys, only: case_keys_type
   use gfb_text, only: text
@@ -10,7 +10,6 @@ module gfb_pads_case
   public :: read_pads_case
 
   character(len=*), parameter :: group = 'pads'
-  integer, parameter :: most_pads = 24
   real(wp), parameter :: rounding = 1.0e-9_wp !! of angles that are meant to be equal [rad]
 
 contains

@@ -7,12 +7,12 @@ module gfb_branch_end
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift
+  use gfb_bearing_directions, only: edge_lift, has_free_edge
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_heights, only: has_free_edge, ask_edge
+  use gfb_edge_heights, only: ask_edges
   implicit none (type)
   private
   public :: follow_branch, ask_beyond, path_settings_type, path_report_type
@@ -51,6 +51,7 @@ contains
     type(path_report_type) :: beyond
     type(kept_state_type) :: last
     logical :: ends
+    integer :: pad
 
     if (report%has_cause() .or. .not. bearing%floats .or. bearing%shaft_fixed) return
     if (.not. bearing%pad(1)%foil%has_contacts()) return
@@ -63,13 +64,13 @@ contains
     problem%settings = settings
     problem%bearing => bearing
     problem%newton => newton
-    call ask_edge(problem, beyond, ends)
+    call ask_edges(problem, beyond, ends)
     report%drawn = ends
     if (ends) then
       report%reason = report%reason//'; '//where//' '//beyond%reason
     else if (beyond%converged) then
       report%reason = report%reason//'; '//where//' another equilibrium was found, with its free edge at '// &
-        text(edge_lift(bearing)*micrometres, 3)//' um: a branch of its own'
+        text(maxval([(edge_lift(bearing, pad), pad=1, size(bearing%pad))])*micrometres, 3)//' um: a branch of its own'
     end if
     call last%put_back(bearing)
     call last%destroy()

@@ -1,5 +1,6 @@
 #include "gfb_petsc.h"
-!> The height at which the top foil's free edge stays by itself, from where it is fixed.
+!> The height at which the top foil's free edge stays by itself, from where it is fixed; of several pads each has one, and
+!> they are released one after the other.
 !>
 !> The force that fixes the edge is followed from height to height. Where it changes its sense the edge needs none, and is
 !> released; where it never does below the shaft the edge is drawn up everywhere, and stays nowhere.
@@ -9,20 +10,18 @@ module gfb_edge_heights
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift, edge_room, edge_force
+  use gfb_bearing_directions, only: edge_lift, edge_room, edge_force, edge_words
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at
-  use gfb_start_problem, only: start_problem_type, trial_settings
+  use gfb_start_problem, only: start_problem_type, with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
   use gfb_kept_state, only: kept_state_type
   implicit none (type)
   private
-  public :: ask_edge, release_edge, release, with_fixed_edge, settings_with_fixed_edge, has_free_edge, clearance_of
+  public :: ask_edges, release_edges, release, release_pressed
 
   real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
-  real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   real(wp), parameter :: first_step = 0.25_wp    !! of a path with the edge fixed, to the target [1]
-  character(len=*), parameter :: suction = 'the film draws the free edge of the top foil to the shaft'
   real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
   real(wp), parameter, public :: lowest = -0.5_wp !! where the film still presses it down, the same [1]
   real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
@@ -45,53 +44,86 @@ module gfb_edge_heights
 
 contains
 
-  !> Whether the top foil has an edge that is fixed nowhere.
-  function has_free_edge(bearing) result(has)
-    type(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
-    logical :: has
-
-    has = any_rank(size(bearing%pad(1)%edge%unknown) > 0) .and. size(bearing%pad) == 1 ! each of several has its own
-  end function has_free_edge
-
-  !> The target with the edge fixed at its height at rest.
-  function with_fixed_edge(problem) result(target)
-    type(start_problem_type), intent(in) :: problem
-    type(operating_point_type) :: target
-
-    target = problem%target
-    target%edge_hold = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
-    target%edge_height = 0.0_wp
-  end function with_fixed_edge
-
-  !> Limits of a path along which the edge is fixed.
-  pure function settings_with_fixed_edge(settings) result(fixed)
-    type(path_settings_type), intent(in) :: settings
-    type(path_settings_type) :: fixed
-
-    fixed = trial_settings(settings)
-    fixed%look_for_folds = .false.
-  end function settings_with_fixed_edge
-
-  !> From an answer short of the target: fixes the edge where it is, goes to the target with it, and seeks the height where
-  !> it stays by itself.
-  subroutine ask_edge(problem, report, ends)
+  !> From an answer short of the target: fixes the edges where they are, goes to the target with them, and seeks the heights
+  !> where they stay by themselves.
+  subroutine ask_edges(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved, at an answer
     type(path_report_type), intent(out) :: report !! how it ended; converged: with the edge released
-    logical, intent(out) :: ends !! the edge stays nowhere
+    logical, intent(out) :: ends !! an edge stays nowhere
     type(operating_point_type) :: fixed
+    integer :: pad
 
     ends = .false.
-    fixed = with_fixed_edge(problem)
-    fixed%edge_height = edge_lift(problem%bearing)
+    fixed = with_fixed_edges(problem)
+    do pad = 1, size(problem%bearing%pad)
+      fixed%edge_height(pad) = edge_lift(problem%bearing, pad)
+    end do
     problem%bearing%point%edge_hold = fixed%edge_hold
     problem%bearing%point%edge_height = fixed%edge_height
     call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
-    if (report%converged) call release_edge(problem, report, ends)
-  end subroutine ask_edge
+    if (report%converged) call release_edges(problem, report, ends)
+  end subroutine ask_edges
 
-  !> At the target: releases the edge where it stays by itself.
-  subroutine release_edge(problem, report, ends)
+  !> At the target: releases all edges that are fixed; those of several pads at once, or one after the other, first those
+  !> that the film presses down.
+  subroutine release_edges(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! one stays nowhere
+    real(wp), allocatable :: force(:) ! that fixes each edge [N]
+    integer, allocatable :: held(:)
+    integer :: pad
+
+    ends = .false.
+    associate (bearing => problem%bearing)
+      held = pack([(pad, pad=1, size(bearing%pad))], bearing%point%edge_hold(:size(bearing%pad)) > 0.0_wp)
+      if (size(held) > 1) then
+        call release(problem, problem%target, problem%newton%settings, [lowest, resting]*clearance_of(bearing), report)
+        if (report%converged) return
+      end if
+      force = [(edge_force(bearing, held(pad)), pad=1, size(held))]
+      do while (size(held) > 0)
+        pad = minloc(force, 1)
+        call release_edge(problem, held(pad), report, ends)
+        if (.not. report%converged) exit
+        held = [held(:pad - 1), held(pad + 1:)]
+        force = [force(:pad - 1), force(pad + 1:)]
+      end do
+    end associate
+  end subroutine release_edges
+
+  !> Of several edges that are fixed, releases those that the film presses down, at the present point: without a hold they
+  !> lie lower.
+  subroutine release_pressed(problem)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: free
+    type(path_report_type) :: report
+    integer :: pad
+
+    do pad = 1, size(problem%bearing%pad)
+      if (.not. edge_force(problem%bearing, pad) > 0.0_wp) cycle
+      free = problem%bearing%point
+      free%edge_hold(pad) = 0.0_wp
+      free%edge_height(pad) = 0.0_wp
+      call release(problem, free, problem%newton%settings, [lowest, resting]*clearance_of(problem%bearing), report)
+    end do
+  end subroutine release_pressed
+
+  !> The target with a pad's edge released, and the others as they are.
+  pure function released(problem, pad) result(target)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! its number
+    type(operating_point_type) :: target
+
+    target = with_same_edges(problem)
+    target%edge_hold(pad) = 0.0_wp
+    target%edge_height(pad) = 0.0_wp
+  end function released
+
+  !> At the target: releases the edge of a pad where it stays by itself.
+  subroutine release_edge(problem, pad, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    integer, intent(in) :: pad !! its number
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! it stays nowhere
     real(wp) :: highest !! edge that is accepted, over the clearance [1]
@@ -100,17 +132,18 @@ contains
     ends = .false.
     report%converged = .false.
     ! It moves the way the film presses it.
-    drawn_up = edge_force(problem%bearing) < 0.0_wp
+    drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     highest = merge(resting, 0.0_wp, drawn_up)
-    call release(problem, problem%target, problem%newton%settings, &
+    call release(problem, released(problem, pad), problem%newton%settings, &
                  [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
-    if (.not. report%converged) call seek_height(problem, settings_with_fixed_edge(problem%settings), report, ends)
+    if (.not. report%converged) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
 
   !> From where the edge is fixed at its height at rest, seeks the height where it needs no force, and releases it there:
   !> below, where it lies on its bumps, before above.
-  subroutine seek_height(problem, path, report, ends)
+  subroutine seek_height(problem, pad, path, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved, with an answer at a fixed edge
+    integer, intent(in) :: pad !! whose edge it is
     type(path_settings_type), intent(in) :: path !! limits of paths with the edge fixed
     type(path_report_type), intent(inout) :: report !! how it ended
     logical, intent(out) :: ends !! it stays nowhere
@@ -124,20 +157,21 @@ contains
     wanted = problem%newton%settings
     call be_rough(problem%newton%settings)
     ends = .false.
-    drawn_up = edge_force(problem%bearing) < 0.0_wp
+    drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     call at_rest%keep(problem%bearing)
-    call seek_below(problem, settings, wanted, lower, report)
+    call seek_below(problem, pad, settings, wanted, lower, report)
     if (drawn_up .and. .not. (lower .or. report%converged)) then
       call at_rest%put_back(problem%bearing)
-      call seek_above(problem, settings, wanted, report, ends)
+      call seek_above(problem, pad, settings, wanted, report, ends)
     end if
     call at_rest%destroy()
     problem%newton%settings = wanted
   end subroutine seek_height
 
   !> Lowers the edge to where the bumps push it back: there it needs no force, if it needed one that lifts it before.
-  subroutine seek_below(problem, settings, wanted, lower, report)
+  subroutine seek_below(problem, pad, settings, wanted, lower, report)
     type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! whose edge it is
     type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
     type(newton_settings_type), intent(in) :: wanted !! at the target
     logical, intent(out) :: lower !! at the lowest height it is still to be lifted
@@ -147,38 +181,39 @@ contains
 
     lower = .false.
     associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
-      force = edge_force(bearing)
+      force = edge_force(bearing, pad)
       largest = abs(force)
-      call note_height(problem%newton, bearing, force)
+      call note_height(problem%newton, bearing, pad, force)
       do
-        height_before = bearing%point%edge_height
+        height_before = bearing%point%edge_height(pad)
         force_before = force
         next = bearing%point
-        next%edge_height = height_before - merge(2.0_wp, 1.0_wp, height_before < low_edge*clearance)*lower_step*clearance
+        next%edge_height(pad) = height_before - merge(2.0_wp, 1.0_wp, height_before < low_edge*clearance)*lower_step*clearance
         call follow_path(bearing, problem%newton, next, 1.0_wp, settings, report)
-        force = edge_force(bearing)
-        call note_height(problem%newton, bearing, force)
+        force = edge_force(bearing, pad)
+        call note_height(problem%newton, bearing, pad, force)
         if (force_before > 0.0_wp .and. .not. force > 0.0_wp) then
-          call release_between(problem, settings, wanted, height_before, force_before, force, report)
+          call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
           return
         end if
         if (.not. report%converged .or. force < -firm*largest .or. &
-            bearing%point%edge_height < merge(lowest, low_edge, force > 0.0_wp)*clearance) exit
+            bearing%point%edge_height(pad) < merge(lowest, low_edge, force > 0.0_wp)*clearance) exit
         largest = max(largest, force)
       end do
       lower = force > 0.0_wp
     end associate
     report%converged = .false.
     if (report%has_cause()) then
-      report%reason = report%reason//', as the film presses the free edge of the top foil down'
+      report%reason = report%reason//', as the film presses '//edge_words(problem%bearing, pad)//' down'
     else
       report%reason = 'the edge of the top foil stays at no height below that at rest'
     end if
   end subroutine seek_below
 
   !> Raises the edge to where it needs no force; where there is none below the shaft, that is the end.
-  subroutine seek_above(problem, settings, wanted, report, ends)
+  subroutine seek_above(problem, pad, settings, wanted, report, ends)
     type(start_problem_type), intent(inout) :: problem
+    integer, intent(in) :: pad !! whose edge it is
     type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
     type(newton_settings_type), intent(in) :: wanted !! at the target
     type(path_report_type), intent(inout) :: report
@@ -186,28 +221,28 @@ contains
     type(kept_state_type) :: nearest !! where the edge needs the least force
     type(operating_point_type) :: next
     real(wp) :: force, force_before, height_before, highest, least, room, step
-    character(len=:), allocatable :: heights
+    character(len=:), allocatable :: heights, suction
     integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
 
     ends = .false.
     associate (bearing => problem%bearing, newton => problem%newton, clearance => clearance_of(problem%bearing))
-      force = edge_force(bearing)
+      force = edge_force(bearing, pad)
       least = abs(force)
       call nearest%keep(bearing)
-      room = edge_room(bearing)
+      room = edge_room(bearing, pad)
       rising = 0
       do number = 1, most_heights
         step = merge(1.0_wp, 2.0_wp, number <= near_heights)*next_height*clearance
-        height_before = bearing%point%edge_height
+        height_before = bearing%point%edge_height(pad)
         force_before = force
         next = bearing%point
-        next%edge_height = height_before + min(step, 0.5_wp*room)
+        next%edge_height(pad) = height_before + min(step, 0.5_wp*room)
         call follow_path(bearing, newton, next, 1.0_wp, settings, report)
-        force = edge_force(bearing)
-        room = edge_room(bearing)
-        call note_height(newton, bearing, force)
+        force = edge_force(bearing, pad)
+        room = edge_room(bearing, pad)
+        call note_height(newton, bearing, pad, force)
         if (force > 0.0_wp) then
-          call release_between(problem, settings, wanted, height_before, force_before, force, report)
+          call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
           call nearest%destroy()
           return
         end if
@@ -220,7 +255,8 @@ contains
         ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
         if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
       end do
-      highest = bearing%point%edge_height
+      highest = bearing%point%edge_height(pad)
+      suction = 'the film draws '//edge_words(bearing, pad)//' to the shaft'
       heights = ': fixed at '//text(number + 1)//' heights up to '//text(highest*micrometres, 3)//' um, '// &
         text(room*micrometres, 2)//' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
       ends = report%converged .and. room < near_shaft*clearance .or. report%touched .and. rising >= long_rise
@@ -233,7 +269,7 @@ contains
         report%reason = suction//heights
       else
         if (highest > 0.0_wp) problem%suspicion = suction//', as far as it was followed'//heights//'; higher up '//report%reason
-        report%reason = 'fixed at '//text(number + 1)//' heights the free edge of the top foil needs '// &
+        report%reason = 'fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
           text(least, 2)//' N or more; '//report%reason
       end if
       report%converged = .false.
@@ -243,8 +279,9 @@ contains
 
   !> Between two heights with forces of opposite senses: goes where there is none by false position, with the weights of
   !> the Illinois rule where contacts make the force bend, and releases the edge there.
-  subroutine release_between(problem, settings, wanted, height_before, force_before, force_here, report)
+  subroutine release_between(problem, pad, settings, wanted, height_before, force_before, force_here, report)
     type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! whose edge it is
     type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
     type(newton_settings_type), intent(in) :: wanted !! at the target
     real(wp), intent(in) :: height_before !! of the edge, on the other side [m]
@@ -254,41 +291,42 @@ contains
     real(wp) :: height(2), force(2), force_next, tried, share
     integer :: trial, side, side_before
 
-    height = [height_before, problem%bearing%point%edge_height]
+    height = [height_before, problem%bearing%point%edge_height(pad)]
     force = [force_before, force_here]
     tried = minval(abs(force))
     side_before = 0
     do trial = 1, most_trials
       next = problem%bearing%point
       share = force(1)/(force(1) - force(2))
-      next%edge_height = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
+      next%edge_height(pad) = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
       call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
       if (.not. report%converged) exit
-      force_next = edge_force(problem%bearing)
-      call note_height(problem%newton, problem%bearing, force_next)
+      force_next = edge_force(problem%bearing, pad)
+      call note_height(problem%newton, problem%bearing, pad, force_next)
       side = merge(1, 2, (force_next > 0.0_wp) .eqv. (force(1) > 0.0_wp))
       if (side == side_before) force(3 - side) = 0.5_wp*force(3 - side)
       side_before = side
-      height(side) = next%edge_height
+      height(side) = next%edge_height(pad)
       force(side) = force_next
       report%converged = .false.
       if (abs(force_next) > least_fall*tried) cycle
       tried = abs(force_next)
-      call release(problem, problem%target, wanted, height, report)
+      call release(problem, released(problem, pad), wanted, height, report)
       if (report%converged) exit
     end do
   end subroutine release_between
 
-  !> Releases the edge; where that does not succeed, or leads to an edge elsewhere, the state stays as it was.
+  !> Releases edges; where that does not succeed, or leads to an edge elsewhere, the state stays as it was.
   subroutine release(problem, free, wanted, between, report)
     type(start_problem_type), intent(in) :: problem !! what is to be solved, with an answer at a fixed edge
-    type(operating_point_type), intent(in) :: free !! the point without a force on the edge
+    type(operating_point_type), intent(in) :: free !! the point without a force on them
     type(newton_settings_type), intent(in) :: wanted !! when Newton's method stops there
-    real(wp), intent(in) :: between(2) !! heights where the edge should stay [m]
+    real(wp), intent(in) :: between(2) !! heights where they should stay [m]
     type(path_report_type), intent(inout) :: report !! how it ended
     type(newton_settings_type) :: rough
     type(kept_state_type) :: fixed
     real(wp) :: lift, slack
+    integer :: pad
 
     rough = problem%newton%settings
     problem%newton%settings = wanted
@@ -297,10 +335,15 @@ contains
     call fixed%keep(problem%bearing)
     call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
     if (report%converged) then
-      lift = edge_lift(problem%bearing)
       slack = same_height*clearance_of(problem%bearing)
-      report%converged = lift > minval(between) - slack .and. lift < maxval(between) + slack
-      if (.not. report%converged) report%reason = 'the released edge moves to '//text(lift*micrometres, 4)//' um'
+      do pad = 1, size(problem%bearing%pad)
+        if (.not. fixed%point%edge_hold(pad) > 0.0_wp .or. free%edge_hold(pad) > 0.0_wp) cycle
+        lift = edge_lift(problem%bearing, pad)
+        report%converged = lift > minval(between) - slack .and. lift < maxval(between) + slack
+        if (report%converged) cycle
+        report%reason = 'the released edge moves to '//text(lift*micrometres, 4)//' um'
+        exit
+      end do
     end if
     if (.not. report%converged) call fixed%put_back(problem%bearing)
     call fixed%destroy()
@@ -317,19 +360,13 @@ contains
   end subroutine be_rough
 
   !> Tells a height and its force.
-  subroutine note_height(newton, bearing, force)
+  subroutine note_height(newton, bearing, pad, force)
     type(newton_type), intent(in) :: newton
     type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: pad
     real(wp), intent(in) :: force
 
-    call newton%log%detail('free edge fixed at '//text(bearing%point%edge_height*micrometres, 4)//' um by '// &
-                           text(force, 4)//' N')
+    call newton%log%detail(edge_words(bearing, pad)//': fixed at '//text(bearing%point%edge_height(pad)*micrometres, 4)// &
+                           ' um by '//text(force, 4)//' N')
   end subroutine note_height
-
-  !> The bearing's clearance [m].
-  pure function clearance_of(bearing) result(clearance)
-    type(bearing_system_type), intent(in) :: bearing !! a bearing
-    real(wp) :: clearance
-    clearance = bearing%pad(1)%film%clearance
-  end function clearance_of
 end module gfb_edge_heights

@@ -14,9 +14,10 @@ module gfb_edge_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_bearing_directions, only: edge_force
   use gfb_start_position, only: guess_position
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings, with_fixed_edges, with_same_edges, &
+                               settings_with_fixed_edge, clearance_of
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_heights, only: release_edge, release, with_fixed_edge, settings_with_fixed_edge, clearance_of, lowest
+  use gfb_edge_heights, only: release_edges, release, release_pressed, lowest
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
@@ -48,7 +49,7 @@ contains
     ends = .false.
     settings = settings_with_fixed_edge(problem%settings)
     do number = 1, merge(size(shares), 1, problem%bearing%floats)
-      easier = with_fixed_edge(problem)
+      easier = with_fixed_edges(problem)
       easier%load = shares(number)*problem%target%load
       call guess_position(problem%bearing, problem%scene, easier, usual_contacts%eccentricity)
       call approach(problem%bearing, problem%newton, easier, settings, usual_contacts, report)
@@ -62,8 +63,8 @@ contains
       if (.not. (report%converged .or. ends)) call go_on_fixed(problem, settings, fixed, report, ends)
       call fixed%destroy()
     end if
-    if (report%converged .and. problem%bearing%point%edge_hold > 0.0_wp) then
-      call release_edge(problem, report, ends)
+    if (report%converged .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
+      call release_edges(problem, report, ends)
       bends = edge_bends(problem%bearing)
       if (ends .and. bends) call try_with_bent_edge(problem, report, ends)
     end if
@@ -107,7 +108,7 @@ contains
     free%edge_hold = 0.0_wp
     free%edge_height = 0.0_wp
     call release(problem, free, problem%newton%settings, &
-                 [lowest*clearance_of(problem%bearing), problem%bearing%point%edge_height], report)
+                 [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
     if (.not. report%converged) return
     call problem%anchor%keep(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
@@ -128,8 +129,16 @@ contains
     released = report
     call last%keep(problem%bearing)
     call fixed%put_back(problem%bearing)
-    call follow_path(problem%bearing, problem%newton, with_fixed_edge(problem), first_step, settings, report)
-    sunk = edge_force(problem%bearing) > 0.0_wp ! without a hold the edge lies lower, and the path may lead on
+    call follow_path(problem%bearing, problem%newton, with_fixed_edges(problem), first_step, settings, report)
+    if (size(problem%bearing%pad) > 1 .and. .not. report%converged) then
+      call fixed%put_back(problem%bearing)
+      call release_pressed(problem)
+      call follow_path(problem%bearing, problem%newton, with_same_edges(problem), first_step, &
+                       trial_settings(problem%settings), report)
+    end if
+    ! Without a hold the edge lies lower, and the path may lead on; of several such edges were released before.
+    sunk = edge_force(problem%bearing, 1) > 0.0_wp
+    sunk = sunk .and. size(problem%bearing%pad) == 1
     ends = .not. report%converged .and. (report%has_cause() .and. .not. sunk .or. released%folded)
     if (ends .and. released%folded) then
       report = released
@@ -159,7 +168,7 @@ contains
     problem%target%edge_height = 0.0_wp
     call last%keep(problem%bearing)
     share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
-    call release_edge(problem, short, ends)
+    call release_edges(problem, short, ends)
     problem%target = target
     if (short%converged) then
       call problem%anchor%keep(problem%bearing)

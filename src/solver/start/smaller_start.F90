@@ -52,6 +52,7 @@ contains
     type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! this system refuses the target, too
+    integer :: pad
 
     call transfer_answer(problem%smaller, problem%bearing)
     call solve_at(problem%bearing, problem%newton, problem%smaller%point, .false., problem%settings, report)
@@ -59,8 +60,8 @@ contains
     report%converged = .false.
     if (.not. ends) return
     call problem%anchor%keep(problem%bearing)
-    if (problem%bearing%point%edge_hold > 0.0_wp) then
-      ends = edge_force(problem%bearing) < 0.0_wp
+    if (any(problem%bearing%point%edge_hold > 0.0_wp)) then
+      ends = any([(edge_force(problem%bearing, pad), pad=1, size(problem%bearing%pad))] < 0.0_wp)
       report%reason = problem%refusal%reason
       report%drawn = problem%refusal%drawn
     else

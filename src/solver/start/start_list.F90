@@ -12,7 +12,7 @@ module gfb_start_list
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
-  use gfb_edge_heights, only: has_free_edge
+  use gfb_bearing_directions, only: has_free_edge
   use gfb_edge_start, only: try_free_edge
   use gfb_interference_start, only: press, set_interference
   implicit none (type)
@@ -41,8 +41,10 @@ contains
       cold_start_type("the smaller system's position, with the shaft fixed", floats_with_smaller, try_smaller_position), &
       cold_start_type("the end of the smaller system's search", is_refused, try_smaller_refusal), &
       cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
+      cold_start_type('soft contacts of several pads, released early under a load', floats_with_free_edges, &
+                      try_soft_contacts, usual_contacts, .true.), &
       cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_free_edge), &
-      cold_start_type('soft contacts, released early under a load', has_contacts, try_soft_contacts, &
+      cold_start_type('soft contacts, released early under a load', has_other_contacts, try_soft_contacts, &
                       usual_contacts, .true.), &
       cold_start_type('soft contacts, released after the shaft in growing steps', has_contacts, try_soft_contacts, &
                       soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp), .true.), &
@@ -242,6 +244,21 @@ contains
     applies = .false.
     if (floats_on_contacts(problem)) applies = has_free_edge(problem%bearing)
   end function floats_with_free_edge
+
+  !> The top foils of several pads have such edges, few of which are ever drawn up.
+  function floats_with_free_edges(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = floats_with_free_edge(problem) .and. size(problem%bearing%pad) > 1
+  end function floats_with_free_edges
+
+  !> Top foil, bumps and sleeve touch each other, of one pad or with fixed edges.
+  function has_other_contacts(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = has_contacts(problem)
+    if (applies) applies = .not. floats_with_free_edges(problem)
+  end function has_other_contacts
 
   !> The top foil has an edge that nothing holds, and the shaft is fixed.
   function fixed_with_free_edge(problem) result(applies)

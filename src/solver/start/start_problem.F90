@@ -10,6 +10,7 @@ module gfb_start_problem
   use gfb_path_report, only: path_settings_type, path_report_type
   implicit none (type)
   private
+  public :: with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
   public :: trial_settings, drop_bearing, count_spent
 
   integer, parameter, public :: never = 0        !! no soft contacts
@@ -19,6 +20,7 @@ module gfb_start_problem
   integer, parameter, public :: before = 4       !! before it
 
   real(wp), parameter :: shortest_trial = 0.02_wp !! step of a path of such a start [1]
+  real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   integer, parameter :: most_steps = 20           !! of it
   integer, parameter :: straight_steps = 8        !! Newton's, of one of its steps, before they are bent
 
@@ -75,6 +77,42 @@ module gfb_start_problem
     end subroutine try_start
   end interface
 contains
+
+  !> The target with all edges fixed at their height at rest.
+  function with_fixed_edges(problem) result(target)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: target
+
+    target = problem%target
+    target%edge_hold(:size(problem%bearing%pad)) = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
+    target%edge_height = 0.0_wp
+  end function with_fixed_edges
+
+  !> The target with the edges fixed that are fixed now.
+  pure function with_same_edges(problem) result(target)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: target
+
+    target = problem%target
+    target%edge_hold = problem%bearing%point%edge_hold
+    target%edge_height = problem%bearing%point%edge_height
+  end function with_same_edges
+
+  !> Limits of a path along which the edge is fixed.
+  pure function settings_with_fixed_edge(settings) result(fixed)
+    type(path_settings_type), intent(in) :: settings
+    type(path_settings_type) :: fixed
+
+    fixed = trial_settings(settings)
+    fixed%look_for_folds = .false.
+  end function settings_with_fixed_edge
+
+  !> The bearing's clearance [m].
+  pure function clearance_of(bearing) result(clearance)
+    type(bearing_system_type), intent(in) :: bearing !! a bearing
+    real(wp) :: clearance
+    clearance = bearing%pad(1)%film%clearance
+  end function clearance_of
 
   !> Frees a bearing and its solver.
   subroutine drop_bearing(bearing, newton, spent)

@@ -119,6 +119,7 @@ contains
     starts = cold_starts()
     do i = 1, size(starts)
       if (starts(i)%soft%release == never) cycle ! the others follow from these
+      if (.not. starts(i)%applies(problem)) cycle
       call log%stage('start "'//trim(starts(i)%name)//'":')
       call starts(i)%try(problem, starts(i)%soft, report, ends)
       if (report%converged) then
