@@ -16,7 +16,8 @@
 !> round-off, because the weights of an element add up to one.
 module gfb_squeeze_term
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: film_geometry_type, film_shapes
+  use gfb_film_geometry, only: film_geometry_type, film_shapes, film_shape, film_nodes, &
+                               biquadratic_shape, biquadratic_nodes
   use gfb_gas_law, only: gas_law_type, gas_density
   use gfb_general_film, only: general_peclet, peclet_slopes
   use gfb_film_flow, only: film_flow_type, upwind_weight, upwind_weight_derivative
@@ -133,18 +134,57 @@ contains
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! viscosity, speed and weighting of the film
     type(gas_law_type), intent(in) :: law !! of the gas
-    real(wp), intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)       !! film thickness at the nodes [m]
-    real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
-    real(wp), intent(in) :: factor       !! a_0 [1/s]
-    real(wp), intent(in) :: past(:)      !! s, what earlier products add (points) [Pa m/s]
+    real(wp), contiguous, intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
+    real(wp), contiguous, intent(in) :: gap(:)       !! film thickness at the nodes [m]
+    real(wp), contiguous, intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
+    real(wp), intent(in) :: factor                   !! a_0 [1/s]
+    real(wp), contiguous, intent(in) :: past(:) !! s, what earlier products add (points) [Pa m/s]
     real(wp) :: residual(size(pressure)) !! one a node [Pa m3/s]
-    real(wp) :: rate(size(pressure)), weight(size(pressure), size(pressure))
 
-    rate = factor*stored_gas(law, pressure, gap, excess) + past
-    weight = squeeze_weights(geometry, flow, law, pressure, gap, excess)
-    residual = matmul(weight, geometry%area(:size(rate))*rate)
+    if (size(pressure) == film_nodes) then
+      call sum_storage(film_nodes, film_shape, geometry%gradient, geometry%area, &
+                       geometry%stream_length, flow, law, pressure, gap, excess, factor, past, &
+                       residual)
+    else
+      call sum_storage(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
+                       geometry%stream_length, flow, law, pressure, gap, excess, factor, past, &
+                       residual)
+    end if
   end function storage_residual
+
+  !> Its sum over the Gauss points, of which there are as many as nodes.
+  pure subroutine sum_storage(nodes, shapes, gradients, area, stream_length, flow, law, pressure, &
+                              gap, excess, factor, past, residual)
+    integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
+    real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
+    real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
+    real(wp), intent(in) :: area(nodes)                !! of the points [m2]
+    real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    type(film_flow_type), intent(in) :: flow
+    type(gas_law_type), intent(in) :: law
+    real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
+    real(wp), intent(in) :: excess(nodes)               !! at the points [m]
+    real(wp), intent(in) :: factor                      !! a_0 [1/s]
+    real(wp), intent(in) :: past(nodes)                 !! at the points [Pa m/s]
+    real(wp), intent(out) :: residual(nodes)            !! [Pa m3/s]
+    real(wp) :: p, h, r, r_p, r_pp, gain, lean
+    integer :: point
+
+    residual = 0.0_wp
+    do point = 1, nodes
+      associate (shape => shapes(:, point), length => stream_length(point))
+        p = dot_product(shape, pressure)
+        h = dot_product(shape, gap) + excess(point)
+        call gas_density(law, p, r, r_p, r_pp)
+        gain = area(point)*(factor*r*h + past(point))
+        residual = residual + gain*shape
+        if (flow%upwind) then
+          lean = 0.5_wp*length*upwind_weight(general_peclet(law, flow, length, p, h))
+          residual = residual + gain*lean*gradients(1, :, point)
+        end if
+      end associate
+    end do
+  end subroutine sum_storage
 
   !> Adds the exact derivatives of `storage_residual` by the nodal pressures and gaps, and by the
   !> excess; the weights change with the state.

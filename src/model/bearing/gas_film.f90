@@ -4,7 +4,7 @@ module gfb_gas_film
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
   use gfb_bore_profile, only: bore_profile_type, bore_height
-  use gfb_film_gap, only: rigid_gap
+  use gfb_film_gap, only: gap_towards
   use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns, shaft_motion, point_motions, &
                               motion_excess, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
@@ -207,9 +207,9 @@ contains
     real(wp) :: gap(size(deflection)), eccentricity(2)
 
     eccentricity = point%eccentricity + self%shift
-    gap = deflection + rigid_gap(self%angle, self%axial + self%offset, &
-                                 self%clearance - self%interference, eccentricity(1), &
-                                 eccentricity(2), point%tilt(1), point%tilt(2))
+    gap = deflection + gap_towards(self%motion(1, :), self%motion(2, :), self%axial + self%offset, &
+                                   self%clearance - self%interference, eccentricity(1), &
+                                   eccentricity(2), point%tilt(1), point%tilt(2))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
