@@ -46,23 +46,29 @@ module gfb_bearing_answer
 contains
 
   !> Reads the answer off the present state.
-  function bearing_answer(bearing) result(answer)
+  function bearing_answer(bearing, brief) result(answer)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    !> without the force of no suction, gaps at midplane and edge, cell Peclet numbers and lifts;
+    !> default: with all of them
+    logical, intent(in), optional :: brief
     type(bearing_answer_type) :: answer
 
     real(wp) :: unknown(bearing%local_size())
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
     real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(7, size(bearing%pad))
     real(wp) :: total(size(sums, 1)), largest(size(most, 1))
+    logical :: whole
     integer :: i
 
+    whole = .true.
+    if (present(brief)) whole = .not. brief
     call bearing%get_unknowns(unknown)
     gap = bearing%gap(unknown)
     pressure = bearing%film_pressure(unknown)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call read_film(bearing, pad, pressure(pad%first_node + 1:pad%last_node), &
-                       gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), &
+                       gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), whole, &
                        sums(:, i), most(:, i))
       end associate
     end do
@@ -77,7 +83,7 @@ contains
       answer%pad_force = sums(1:2, :)
       answer%pad_gap = -most(1, :)
     end if
-    if (bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
+    if (whole .and. bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
     if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces) + answer%solid_force
@@ -94,23 +100,28 @@ contains
   end function bearing_answer
 
   !> Sums and largest values of this rank's part of a pad's film.
-  subroutine read_film(bearing, pad, pressure, gap, position, sums, largest)
+  subroutine read_film(bearing, pad, pressure, gap, position, all_of_it, sums, largest)
     type(bearing_system_type), intent(in) :: bearing
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: pressure(:) !! at the pad's nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the pad's nodes [m]
     type(operating_point_type), intent(in) :: position !! with the shaft's position
+    logical, intent(in) :: all_of_it    !! else zero where a brief answer has nothing
     real(wp), intent(out) :: sums(:)    !! force, that without suction, drag
     real(wp), intent(out) :: largest(:) !! in the order of the answer's parts
 
     associate (film => pad%film, whole => pad%whole)
-      sums = [film%force(pressure), force_without_suction(film, pressure), &
-              film_drag(film, pressure, gap, position)]
+      sums = 0.0_wp
+      sums(:film_forces) = film%force(pressure)
+      sums(size(sums)) = film_drag(film, pressure, gap, position)
+      largest = 0.0_wp
       largest(1) = -minval(gap)
-      largest(2) = -film_midplane_gap(film, gap)
-      largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
       largest(4) = maxval(pressure)
       largest(5) = -minval(pressure)
+      if (.not. all_of_it) return
+      sums(film_forces + 1:2*film_forces) = force_without_suction(film, pressure)
+      largest(2) = -film_midplane_gap(film, gap)
+      largest(3) = -minval(gap, abs(film%axial) >= whole%row_axial(whole%rows()))
       largest(6) = film_peclet(film, bearing%point, pressure, gap, 0.0_wp)
       largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
     end associate

@@ -82,7 +82,7 @@ contains
       grown(:, :self%lines) = self%values
       call move_alloc(grown, self%values)
     end if
-    answer = bearing_answer(bearing)
+    answer = bearing_answer(bearing, brief=.true.)
     gas = gas_balance(bearing)
     self%lines = self%lines + 1
     self%smallest_gap = min(self%smallest_gap, answer%minimum_gap)
