@@ -12,9 +12,10 @@ module gfb_line_search
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_bent_step, only: bent_step_type, bend_step, state_on_path, destroy_bent_step
   use gfb_linear_solver, only: linear_solver_type, judge_linear, choose_factors
+  use gfb_secant_steps, only: secants_type, improve_step, expect_next
   implicit none (type)
   private
-  public :: take_step
+  public :: take_step, remaining_error
 
   integer, parameter :: memory = 5                 !! residuals that the line search remembers
   integer, parameter :: halvings = 24              !! shortest trial is 2^-24 of a step
@@ -47,9 +48,10 @@ module gfb_line_search
 contains
 
   !> Takes what can be taken of the step that SNES has found.
-  subroutine take_step(line, solver, system, search, residual_goal, ierr)
+  subroutine take_step(line, solver, secants, system, search, residual_goal, ierr)
     type(line_search_type), intent(inout) :: line !! what the steps have been
     type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+    type(secants_type), intent(inout) :: secants !! what steps with them have taught
     class(nonlinear_system_type), target, intent(inout) :: system !! the equations
     SNESLineSearch, intent(in) :: search !! SNES' line search
     real(wp), intent(in) :: residual_goal !! norm of the scaled residual that is small enough [1]
@@ -64,6 +66,8 @@ contains
     PetscCall(SNESLineSearchGetSNES(search, snes, ierr))
     PetscCall(SNESLineSearchGetVecs(search, x, f, y, trial, trial_residual, ierr))
     PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_SUCCEEDED, ierr))
+    if (secants%used) call improve_step(secants, y, ierr)
+    CHKERRQ(ierr)
     call measure_step(line, x, f, y, before, ierr)
     CHKERRQ(ierr)
     if (system%slow_change) then
@@ -80,7 +84,11 @@ contains
       end if
     end if
     found = .false.
-    if (solver%fresh .and. .not. system%slow_change .and. line%steps > line%straight) then
+    if (secants%used .and. system%settled) then
+      call take_whole(line, system, snes, x, f, y, trial, trial_residual, found, ierr)
+      CHKERRQ(ierr)
+    end if
+    if (.not. found .and. solver%fresh .and. .not. system%slow_change .and. line%steps > line%straight) then
       call bend_step(snes, system, x, y, path, ierr)
       CHKERRQ(ierr)
       call go_along_path(line, system, snes, path, x, f, y, trial, trial_residual, found, ierr)
@@ -100,12 +108,56 @@ contains
       line%impossible = line%impossible .and. solver%fresh
     end if
     PetscCall(VecNorm(f, NORM_2, after, ierr))
+    if (secants%used) then
+      call expect_next(secants, y, found .and. line%length >= 1.0_wp .and. system%settled, ierr)
+      CHKERRQ(ierr)
+    end if
     ! Where contacts have changed their state the matrix has, too.
     call choose_factors(solver, .not. (line%length < 1.0_wp .or. .not. system%settled .or. path%changes > 0), &
                         line%steps == 1, line%step, line%step_before, .not. after > residual_goal, before, after)
     call destroy_bent_step(path)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine take_step
+
+  !> Takes a whole step where contacts that follow it leave a residual that is small enough: one residual does.
+  subroutine take_whole(line, system, snes, x, f, y, trial, trial_residual, found, ierr)
+    type(line_search_type), intent(inout) :: line
+    class(nonlinear_system_type), target, intent(inout) :: system
+    SNES, intent(in) :: snes
+    Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
+    Vec, intent(in) :: trial, trial_residual !! are overwritten
+    logical, intent(out) :: found            !! else all is as it was, but for the trial
+    PetscErrorCode, intent(out) :: ierr
+    PetscReal :: after
+    logical :: moved
+
+    PetscCall(VecWAXPY(trial, -1.0_wp, y, x, ierr))
+    call system%settle(trial, moved)
+    PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
+    PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
+    found = .false.
+    if (after <= huge(1.0_wp)) found = after <= (1.0_wp - sufficient)*maxval(line%past) .or. line%step <= stagnation
+    if (found) then
+      line%impossible = .false.
+      line%blocked = 0
+      PetscCall(VecCopy(trial, x, ierr))
+      PetscCall(VecCopy(trial_residual, f, ierr))
+    else
+      call system%settle(x, moved)
+    end if
+  end subroutine take_whole
+
+  !> Error that is left after steps that shrink in proportion, as the last two of them have shrunk [1].
+  pure function remaining_error(line) result(error)
+    type(line_search_type), intent(in) :: line !! what the steps have been
+    real(wp) :: error
+    real(wp), parameter :: most = 0.5_wp !! of a step over the one before
+
+    error = huge(error)
+    if (line%step < most*line%step_before .and. line%step_before < huge(error)) then
+      error = line%step*line%step/(line%step_before - line%step)
+    end if
+  end function remaining_error
 
   !> Sizes of a step and of the residual where it begins.
   subroutine measure_step(line, x, f, y, before, ierr)

@@ -14,12 +14,15 @@ module gfb_linear_solver
   use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
   implicit none (type)
   private
-  public :: choose_solver, begin_solve, decide_factors, keep_ready, judge_linear, choose_factors, linear_failure, &
+  public :: choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, linear_failure, &
             drop_failed_factors, forget_solver
 
   real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
   real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
   real(wp), parameter :: chord_fall = 0.9_wp        !! and the residual by this [1]
+
+  real(wp), parameter :: jump = 5.0_wp              !! of the residual at the start of nearby solves, where contacts have changed [1]
+  real(wp), parameter :: growth = 2.0_wp            !! of what is usual there, from one to the next [1]
 
   !> What is known of the present factors.
   type, public :: linear_solver_type
@@ -30,6 +33,7 @@ module gfb_linear_solver
     logical :: forgotten = .true.             !! there are no factors since the beginning, or since they were dropped
     logical, private :: ready = .false.       !! they belong to an answer, and no solve has begun since
     integer, private :: filled = 0            !! times that the matrix had been filled then
+    real(wp), private :: usual = 0.0_wp       !! residual at the start of nearby solves; 0: not known [1]
     type(lagged_factors_type), private :: lagged !! what GMRES has cost with the present factors
     type(coarse_level_type), private :: level !! of multigrid
   end type linear_solver_type
@@ -67,6 +71,20 @@ contains
     solver%ready = .false.
     solver%unsolved = ''
   end subroutine begin_solve
+
+  !> A solve of nearly the same equations begins with a residual. Where it is far above the usual one contacts have opened or
+  !> closed, and a step by the factors at hand would lead nowhere.
+  pure subroutine judge_start(solver, residual)
+    type(linear_solver_type), intent(inout) :: solver !! its factors are kept or not
+    real(wp), intent(in) :: residual !! root mean square, scaled [1]
+
+    if (solver%usual > 0.0_wp) then
+      solver%keep = solver%keep .and. residual <= jump*solver%usual
+      solver%usual = min(residual, growth*solver%usual)
+    else
+      solver%usual = residual
+    end if
+  end subroutine judge_start
 
   !> The present factors belong to an answer: the next solve may use them.
   subroutine keep_ready(solver, ready, times_filled)
@@ -191,6 +209,7 @@ contains
     PetscCallA(KSPReset(linear, ierr))
     solver%ready = .false.
     solver%forgotten = .true.
+    solver%usual = 0.0_wp
     solver%lagged = none
   end subroutine forget_solver
 end module gfb_linear_solver

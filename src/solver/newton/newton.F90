@@ -22,14 +22,15 @@ module gfb_newton
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: factor_matrix
-  use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, decide_factors, keep_ready, &
+  use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, &
                                linear_failure, drop_failed_factors, forget_solver
-  use gfb_line_search, only: line_search_type, take_step, stagnation
+  use gfb_line_search, only: line_search_type, take_step, remaining_error, stagnation
+  use gfb_secant_steps, only: secants_type, begin_secants, forget_secants, destroy_secants
   use gfb_backward_error, only: backward_error
   use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
   implicit none (type)
   private
-  public :: create_newton, solve_newton, find_determinant_sign, solve_with_factors, solve_transposed, keep_factors, &
+  public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
             forget_factors, destroy_newton, newton_report_type
 
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
@@ -59,6 +60,7 @@ module gfb_newton
     class(nonlinear_system_type), pointer, private :: system => null()
     type(linear_solver_type), private :: linear
     type(line_search_type), private :: line  !! of the present solve
+    type(secants_type), private :: secants   !! what steps with kept factors have taught
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
     logical, private :: rounded = .false.    !! the present solve has ended at round-off
     real(wp), private :: unknowns = 1.0_wp   !! their number
@@ -103,6 +105,26 @@ contains
     type(newton_type), target, intent(inout) :: newton !! the solver
     type(newton_report_type), intent(out) :: report !! how it ended
 
+    call begin_secants(newton%secants, newton%system%state, .false.)
+    call solve_on(newton, report)
+  end subroutine solve_newton
+
+  !> The same of equations that are nearly those of the solve before: with the factors at hand, if there are any, and with
+  !> what steps have taught since they were made.
+  subroutine solve_nearby(newton, report)
+    type(newton_type), target, intent(inout) :: newton !! the solver
+    type(newton_report_type), intent(out) :: report !! how it ended
+
+    call keep_ready(newton%linear, .not. newton%linear%forgotten, newton%system%times_filled)
+    call begin_secants(newton%secants, newton%system%state, .not. newton%system%slow_change)
+    call solve_on(newton, report)
+  end subroutine solve_nearby
+
+  !> Runs SNES, again where factors had too little room.
+  subroutine solve_on(newton, report)
+    type(newton_type), target, intent(inout) :: newton
+    type(newton_report_type), intent(out) :: report
+
     integer :: before
     logical :: enlarged
 
@@ -117,7 +139,7 @@ contains
       call show_enlargements(newton%log, newton%enlargements)
     end do
     report%iterations = newton%iterations - before
-  end subroutine solve_newton
+  end subroutine solve_on
 
   !> One run of SNES.
   subroutine run_newton(newton, report)
@@ -164,6 +186,7 @@ contains
     integer :: before
 
     call newton%system%linearise(newton%system%state)
+    call forget_secants(newton%secants)
     newton%factorizations = newton%factorizations + 1
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
@@ -198,19 +221,13 @@ contains
     PetscCallA(KSPSolveTranspose(linear, right, solution, ierr))
   end subroutine solve_transposed
 
-  !> The next solve begins with the factors at hand, if there are any: its equations are nearly the same.
-  subroutine keep_factors(newton)
-    type(newton_type), intent(inout) :: newton !! the solver
-
-    call keep_ready(newton%linear, .not. newton%linear%forgotten, newton%system%times_filled)
-  end subroutine keep_factors
-
   !> Forgets all factors and how they were found, as if no solve had been before: what follows depends
   !> on the system's state alone, and so does a run that is resumed from that state.
   subroutine forget_factors(newton)
     type(newton_type), intent(inout) :: newton !! the solver
 
     call forget_solver(newton%linear, newton%snes)
+    call forget_secants(newton%secants)
   end subroutine forget_factors
 
   !> How a solve ended, in words.
@@ -264,6 +281,7 @@ contains
     CHKERRQ(ierr)
     if (.not. fill) return
     if (newton%linear%fresh) newton%factorizations = newton%factorizations + 1
+    call forget_secants(newton%secants)
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%linearise(x)
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
@@ -275,7 +293,7 @@ contains
     type(newton_type), intent(inout) :: newton
     PetscErrorCode, intent(out) :: ierr
 
-    call take_step(newton%line, newton%linear, newton%system, search, &
+    call take_step(newton%line, newton%linear, newton%secants, newton%system, search, &
                    newton%settings%residual_tolerance*sqrt(newton%unknowns), ierr)
   end subroutine search_line
 
@@ -309,11 +327,13 @@ contains
     residual = norm/sqrt(newton%unknowns)
     call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh)
     if (iteration == 0) then
+      if (newton%secants%used) call judge_start(newton%linear, residual)
       if (residual <= 10.0_wp*epsilon(1.0_wp) .and. newton%system%settled) reason = SNES_CONVERGED_FNORM_ABS
       return
     end if
     if (newton%line%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%line%step <= newton%settings%step_tolerance
+    if (newton%secants%used) small = small .or. remaining_error(newton%line) <= newton%settings%step_tolerance
     if ((newton%linear%fresh .or. newton%system%slow_change) .and. newton%line%step <= stagnation) then
       small = small .or. newton%line%step > 0.5_wp*newton%line%step_before
     end if
@@ -352,6 +372,7 @@ contains
     if (.not. newton%created) return
     PetscCallA(SNESDestroy(newton%snes, ierr))
     PetscCallA(VecDestroy(newton%residual, ierr))
+    call destroy_secants(newton%secants)
     newton%created = .false.
   end subroutine destroy_newton
 end module gfb_newton

@@ -165,7 +165,7 @@ contains
       if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
     end do
     if (done) then
-      call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
+      call pack_point(map, bearing, march%unknown(:, :2), march%velocity(:2, :), y)
     else
       map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
       if (.not. report%converged) map%problem = map%problem//': '//report%reason

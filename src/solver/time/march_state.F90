@@ -42,10 +42,10 @@ module gfb_march_state
     real(wp) :: place(shaft_coordinates, kept_times) = 0.0_wp !! of them, now and before [m], [rad]
     real(wp) :: first_place(shaft_coordinates) = 0.0_wp !! of them at the beginning [m], [rad]
     real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
-    real(wp), allocatable :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
+    real(wp), allocatable :: unknown(:, :) !! (local unknowns, kept_times) now and before [SI]
     type(pad_history_type), allocatable :: pad(:)
     type(operating_point_type) :: start !! whose tilt and fixed position stay
-    Vec :: state(2) !! scaled, now and one step ago, with all their digits
+    Vec :: state(kept_times) !! scaled, now and before, with all their digits
   contains
     procedure :: turns
     procedure :: outer_load

@@ -14,14 +14,14 @@ module gfb_time_march
   use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_backward_difference, only: difference_weights, next_step, kept_times
+  use gfb_backward_difference, only: difference_weights, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
                              place_ahead, error_of
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, newton_report_type, solve_newton, keep_factors
+  use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
   private
   public :: march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march
@@ -44,7 +44,7 @@ contains
 
     march%drive = drive
     march%settings = settings
-    do i = 1, 2
+    do i = 1, kept_times
       PetscCallA(VecDuplicate(bearing%state, march%state(i), ierr))
       PetscCallA(VecCopy(bearing%state, march%state(i), ierr))
     end do
@@ -54,9 +54,9 @@ contains
     march%past_step = march%next
     march%first_place = place_of(bearing)
     march%place = spread(march%first_place, 2, kept_times)
-    allocate (march%unknown(bearing%local_size(), 2), march%pad(size(bearing%pad)))
+    allocate (march%unknown(bearing%local_size(), kept_times), march%pad(size(bearing%pad)))
     call bearing%get_unknowns(march%unknown(:, 1))
-    march%unknown(:, 2) = march%unknown(:, 1)
+    march%unknown(:, 2:) = spread(march%unknown(:, 1), 2, kept_times - 1)
     do i = 1, size(bearing%pad)
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
@@ -73,6 +73,8 @@ contains
     real(wp) :: weight(0:2)
     PetscErrorCode :: ierr
 
+    call bearing%set_unknowns(2.0_wp*unknown(:, 2) - unknown(:, 1)) ! the first step is predicted along a line
+    PetscCallA(VecCopy(bearing%state, march%state(3), ierr))
     call bearing%set_unknowns(unknown(:, 2))
     PetscCallA(VecCopy(bearing%state, march%state(2), ierr))
     call bearing%set_unknowns(unknown(:, 1))
@@ -113,7 +115,9 @@ contains
 
     PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
     call bearing%get_unknowns(march%unknown(:, 1))
-    call bearing%get_unknowns(march%unknown(:, 2), march%state(2))
+    do step = 2, kept_times
+      call bearing%get_unknowns(march%unknown(:, step), march%state(step))
+    end do
     do step = 2, 1, -1
       if (.not. bearing%floats) bearing%point%eccentricity = march%place(:2, step)
       do i = 1, size(bearing%pad)
@@ -159,8 +163,7 @@ contains
     do trial = 1, most_trials
       call put_terms(march, step, bearing)
       call predict(march, step, bearing)
-      call keep_factors(newton)
-      call solve_newton(newton, report)
+      call solve_nearby(newton, report)
       if (report%converged) then
         place = place_of(bearing)
         error = error_of(march, step, place)/(march%settings%tolerance*bearing%pad(1)%film%clearance)
@@ -216,9 +219,11 @@ contains
     if (abs(march%settings%end_time - march%time) < 1.0e-9_wp*step) march%time = march%settings%end_time
     march%step = step
     march%steps = march%steps + 1
-    march%unknown(:, 2) = march%unknown(:, 1)
+    march%unknown(:, 2:) = march%unknown(:, :kept_times - 1)
     call bearing%get_unknowns(march%unknown(:, 1))
-    PetscCallA(VecCopy(march%state(1), march%state(2), ierr))
+    do i = kept_times, 2, -1
+      PetscCallA(VecCopy(march%state(i - 1), march%state(i), ierr))
+    end do
     PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
     do i = 1, size(bearing%pad)
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
@@ -337,8 +342,14 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     real(wp) :: ahead(size(march%unknown, 1)), place(film_forces)
     logical :: open
+    integer :: i
 
-    ahead = march%unknown(:, 1) + step/march%past_step(1)*(march%unknown(:, 1) - march%unknown(:, 2))
+    ahead = matmul(march%unknown, extrapolation_weights([step, march%past_step(:2)]))
+    do i = 1, size(bearing%pad)
+      associate (first => bearing%pad(i)%first + bearing%pad(i)%foil%first + 1, last => bearing%pad(i)%last)
+        ahead(first:last) = march%unknown(first:last, 1) + step/march%past_step(1)*(march%unknown(first:last, 1) - march%unknown(first:last, 2))
+      end associate
+    end do
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
       place = place_ahead(march, step)
       ahead(bearing%first_shaft + 1:) = place(:bearing%blocks%border%scalars)
@@ -359,7 +370,7 @@ contains
     integer :: i
     PetscErrorCode :: ierr
 
-    do i = 1, 2
+    do i = 1, kept_times
       PetscCallA(VecDestroy(march%state(i), ierr))
     end do
     bearing%point%inertia = 0.0_wp

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> The restart file of a shaft over time: the bearing, the last two states, and the lines so far.
+!> The restart file of a shaft over time: the bearing, the last three states, and the lines so far.
 module gfb_transient_restart
   use petscvec
   use gfb_memory, only: memory_type
@@ -46,6 +46,7 @@ contains
       call history%remember(memory)
       call put_memory(memory, '/march', 'place and speed of the shaft, steps, lines so far', file)
       call put_vector(bearing_order(bearing), march%state(2), '/march/before', 'scaled unknowns one step ago', file)
+      call put_vector(bearing_order(bearing), march%state(3), '/march/before_that', 'scaled unknowns two steps ago', file)
     end if
     call end_restart_file(file, log, error)
   end subroutine keep_march
@@ -69,6 +70,7 @@ contains
     call history%remember(memory)
     call end_memory(memory, file)
     call read_vector(bearing_order(bearing), '/march/before', file, march%state(2))
+    call read_vector(bearing_order(bearing), '/march/before_that', file, march%state(3))
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error)) return
