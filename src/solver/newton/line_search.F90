@@ -147,15 +147,16 @@ contains
     end if
   end subroutine take_whole
 
-  !> Error that is left after steps that shrink in proportion, as the last two of them have shrunk [1].
+  !> Error that is left after a step at most: ten times what it is if steps go on to shrink as the last two have.
   pure function remaining_error(line) result(error)
     type(line_search_type), intent(in) :: line !! what the steps have been
-    real(wp) :: error
-    real(wp), parameter :: most = 0.5_wp !! of a step over the one before
+    real(wp) :: error !! relative [1]
+    real(wp), parameter :: steady = 0.5_wp !! a step over the one before, where that can be told [1]
+    real(wp), parameter :: caution = 10.0_wp !! two steps are few [1]
 
     error = huge(error)
-    if (line%step < most*line%step_before .and. line%step_before < huge(error)) then
-      error = line%step*line%step/(line%step_before - line%step)
+    if (line%step < steady*line%step_before .and. line%step_before < huge(error)) then
+      error = caution*line%step*line%step/(line%step_before - line%step)
     end if
   end function remaining_error
 

@@ -9,7 +9,7 @@
 !>
 !> so that a pair of steps is all that is kept. What was learned serves the next equations, too, as long as the factors do.
 !>
-!> Source: C. T. Kelley, Iterative methods for linear and nonlinear equations, SIAM 1995, section 7.3.
+!> Source: [Kelley1995] section 7.3.
 module gfb_secant_steps
   use petscvec
   use gfb_kinds, only: wp
