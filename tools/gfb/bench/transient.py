@@ -38,8 +38,8 @@ shaft's motion in x in the last turn, over the clearance. Times depend on the ma
 A step is Newton's method for film, foils and shaft together, with the factors of steps before as long as they serve, and with
 what the steps since then have taught of the matrix
 ([method.md](../manual/method.md#finding-a-state)). Where contacts open, close or turn back the matrix is factored anew, once or
-twice each time: with shells that is half of the time at the larger orbit, with beams a quarter. The rest goes into triangular
-solves and residuals, in equal parts with beams. When stiffness and damping coefficients do in place of all this:
+twice each time: that is two thirds of the time with shells at the larger orbit, two fifths with beams. The rest goes into triangular
+solves and residuals. When stiffness and damping coefficients do in place of all this:
 [transient.md](../manual/transient.md#when-the-linear-theory-suffices).
 """
 
