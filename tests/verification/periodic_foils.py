@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Orbits that close, of a small bearing of eight bumps: beams without friction against the last turn of a march in the same
+steps; multipliers of the rotor's modes.
+"""
+
+import cmath
+import tempfile
+
+import numpy
+
+from dynamics import beams
+from gfb_run import Bearing, Checks, case_groups, largest_difference, solve
+from periodic import orbits
+from rotor import modes_of, speed_of
+from transient import history, stepped
+
+CLEARANCE = 15.0e-6
+SMALL = Bearing(5.85e-3, 12.0e-3, CLEARANCE, 1.95e-5, 1.0135e5)
+MASS, STEPS = 0.02, 24
+
+
+def small_case(analysis, **keys):
+    """Eight bumps without friction under a load, and the keys of the analysis's group."""
+    groups = {group: dict(values) for group, values in beams(0.0)["groups"].items() if group != "model"}
+    groups["bump_foil"]["bumps"] = 8
+    content = case_groups(SMALL, (32, 4), "beam", load=(-6.0, 0.0), speed_rpm=60000.0, groups=groups | {"rotor": {"mass": MASS}})
+    content["scene"]["analysis"] = analysis
+    content["dynamics" if analysis == "linear_dynamics" else analysis] = keys
+    if analysis == "transient":
+        content["solver"] = {"residual_tolerance": 1.0e-11, "step_tolerance": 1.0e-11}
+    return content
+
+
+def check_march(checks, folder, words, turns):
+    """The orbit is that which a long march with the same steps ends in; what the march still changes in a turn is left."""
+    keys = {"unbalance": 1.0e-8, "steps_per_turn": STEPS}
+    answer = solve(folder, "closed", small_case("periodic", **keys))
+    found = orbits(answer)
+    rows = history(solve(folder, "march", small_case("transient", turns=turns, **keys)))
+    checks.that(f"{words}: stable, and no small motion", answer["orbit_stable"] == "true" and found["orbit_x"][0] > 0.1*CLEARANCE)
+    for axis in "xy":
+        values = rows[f"eccentricity_{axis}"]
+        left = largest_difference(values[-STEPS - 1:], values[-2*STEPS - 1:-STEPS], CLEARANCE)
+        print(f"{words}, {axis}: the march changes by {left:.1e} of the clearance in its last turn")
+        checks.below(f"{words}, {axis}: the last turn of a long march", largest_difference(
+            found[f"eccentricity_{axis}"][0], values[-STEPS - 1:], CLEARANCE), 1.0e-7)
+
+
+def check_modes(checks, folder):
+    """Beams without friction: multipliers of a tiny orbit are those of the rotor's modes."""
+    unbalance, steps = 1.0e-12, 48
+    linear = small_case("linear_dynamics", foil_mass="off")
+    omega = speed_of(linear)
+    linear["dynamics"]["frequencies"] = (omega,)
+    growth, frequency, *_ = modes_of(solve(folder, "linear", linear))
+    found = orbits(solve(folder, "tiny", small_case("periodic", unbalance=unbalance, steps_per_turn=steps)))
+    rates = [rate for rate in growth + 1j*frequency if rate.imag > 0.0 and rate.real > -0.1*omega]
+    for rate in rates:
+        multiplier = cmath.exp(stepped(rate, found["period"][0]/steps)*found["period"][0])
+        checks.below(f"beams: multiplier of the mode at {rate.imag/omega:.2f} of the speed",
+                     min(abs(found["multipliers"][0] - multiplier)), 1.0e-4)
+    checks.that("beams: a mode that whirls", len(rates) > 0)
+
+
+def main():
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_modes(checks, folder)
+        check_march(checks, folder, "beams", 60)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
