@@ -67,7 +67,7 @@ def check_list(checks, folder, content):
     """A sweep over one value of a list."""
     shims = {"shim_angle": (1.0, 3.0), "shim_arc": 0.6, "shim_ramp": 0.1}
     heights = (4.0e-6, 6.0e-6)
-    log, history = swept(folder, "swept", with_keys(content, {"bore": {**shims, "shim_height": 2.0e-6}}), "bore%shim_height(2)",
+    log, history = swept(folder, "swept", with_keys(content, {"bore": {**shims, "shim_height": (2.0e-6, 2.0e-6)}}), "bore%shim_height(2)",
                          heights)
     for point, height in enumerate(heights):
         alone = solve(folder, "alone", with_keys(content, {"bore": {**shims, "shim_height": (2.0e-6, height)}}))

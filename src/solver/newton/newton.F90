@@ -33,6 +33,7 @@ module gfb_newton
   public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
             forget_factors, destroy_newton, newton_report_type
 
+  real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing tells how steps shrink [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
 
   !> When to stop.
@@ -333,7 +334,10 @@ contains
     end if
     if (newton%line%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%line%step <= newton%settings%step_tolerance
-    if (newton%secants%used) small = small .or. remaining_error(newton%line) <= newton%settings%step_tolerance
+    if (newton%secants%used) then ! errors of steps of time add up
+      small = newton%line%step <= careful*newton%settings%step_tolerance
+      small = small .or. remaining_error(newton%line) <= newton%settings%step_tolerance
+    end if
     if ((newton%linear%fresh .or. newton%system%slow_change) .and. newton%line%step <= stagnation) then
       small = small .or. newton%line%step > 0.5_wp*newton%line%step_before
     end if
