@@ -2,11 +2,12 @@
 module gfb_bump_contacts
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_contact_set, only: contact_set_type, contact_point_type
-  use gfb_quad_mesh, only: quad_mesh_type, solid_rows
+  use gfb_contact_point, only: contact_point_type
+  use gfb_contact_set, only: contact_set_type
+  use gfb_quad_mesh, only: quad_mesh_type, solid_rows, node_thickness
   implicit none (type, external)
   private
-  public :: bump_contact, crest_name, line_shares, line_length, normal_line_force
+  public :: bump_contact, touch_with_face, touch_top_face, crest_name, line_shares, line_length, normal_line_force
 
   integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! laws of a set of bumps
   !> of a corner line among the node sets, before its number
@@ -33,6 +34,43 @@ contains
     point%frame(radial, 3) = merge(1.0_wp, -1.0_wp, law == contact_sleeve)
     allocate (point%master(axial, 0), point%share(0))
   end function bump_contact
+
+  !> The bump's face touches in place of its mid-surface: the upper face at crests, the lower at corners.
+  !>
+  !> A turn moves the face by its axis times the way from the node to the face.
+  pure subroutine touch_with_face(mesh, thickness, turn, point)
+    type(quad_mesh_type), intent(in) :: mesh !! of the strip
+    real(wp), intent(in) :: thickness        !! where the mesh has none of its own [m]
+    integer, intent(in) :: turn(2)           !! the set's unknowns that turn the node; 0: fixed
+    type(contact_point_type), intent(inout) :: point !! of a bump
+    real(wp) :: way(2), lever(axial, 2)
+
+    associate (node => point%node)
+      way = 0.5_wp*node_thickness(mesh, thickness, node)*mesh%face(:, node)
+      if (point%law == contact_sleeve) way = -way
+      lever(:, 1) = [-way(2), way(1), 0.0_wp] ! about the bearing's axis
+      lever(:, 2) = [0.0_wp, 0.0_wp, mesh%axis_2(1, node)*way(2) - mesh%axis_2(2, node)*way(1)]
+    end associate
+    point%turn = turn
+    point%lever = lever
+  end subroutine touch_with_face
+
+  !> The top foil's lower face is touched, after the bump's face; it is flat.
+  pure subroutine touch_top_face(thickness, turn, point)
+    real(wp), intent(in) :: thickness  !! of the top foil [m]
+    integer, intent(in) :: turn(:, :)  !! (2, nodes) the set's unknowns that turn the master's nodes
+    type(contact_point_type), intent(inout) :: point !! of a crest
+    real(wp) :: lever(axial, 2*size(point%share))
+    integer :: k
+
+    lever = 0.0_wp
+    do k = 1, size(point%share)
+      lever(tangential, 2*k - 1) = -0.5_wp*thickness*point%share(k)
+      lever(axial, 2*k) = 0.5_wp*thickness*point%share(k)
+    end do
+    point%turn = [point%turn, reshape(turn, [size(turn)])]
+    point%lever = reshape([point%lever, lever], [axial, size(point%turn)])
+  end subroutine touch_top_face
 
   !> Name of a bump's crest line among the mesh's node sets.
   pure function crest_name(bump) result(name)

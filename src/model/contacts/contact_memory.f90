@@ -2,7 +2,8 @@
 module gfb_contact_memory
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type, open_memory
-  use gfb_contact_set, only: contact_set_type, contact_point_type
+  use gfb_contact_point, only: contact_point_type
+  use gfb_contact_set, only: contact_set_type
   implicit none (type, external)
   private
   public :: pack_contacts, unpack_contacts

@@ -6,7 +6,8 @@
 module gfb_contact_path
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, friction_force
-  use gfb_contact_set, only: contact_set_type, add_at_node
+  use gfb_contact_point, only: add_at_contact
+  use gfb_contact_set, only: contact_set_type
   implicit none (type, external)
   private
   public :: begin_contact_path, next_contact, switch_contact
@@ -58,7 +59,6 @@ contains
     real(wp), intent(inout) :: rate(:)  !! added: derivative of the penetration by the unknowns [1]
     type(contact_law_type) :: law
     real(wp) :: stiffness, change(normal), rubbing(2), by_slip(2, 2), by_pressing(2)
-    integer :: k
 
     associate (point => contacts%point(number))
       law = contacts%law_of(point)
@@ -74,10 +74,7 @@ contains
       contacts%closed(number) = .not. contacts%closed(number)
       if (.not. contacts%closed(number)) change = -change
       change = matmul(point%frame, change)
-      call add_at_node(point%slave, -change, force)
-      do k = 1, size(point%share)
-        call add_at_node(point%master(:, k), point%share(k)*change, force)
-      end do
+      call add_at_contact(point, -change, force)
     end associate
     call contacts%add_penetration_rate(number, 1.0_wp, rate)
   end subroutine switch_contact

@@ -9,34 +9,12 @@ module gfb_contact_set
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &
                              next_place, contact_state
+  use gfb_contact_point, only: contact_point_type, spatial, moved_apart, add_at_contact, unknowns_of, &
+                               block_of
   implicit none (type, external)
   private
-  public :: add_at_node
 
-  integer, parameter :: spatial = 3
   real(wp), parameter :: touching = 1.0e-8_wp !! penetration that counts, over the typical one
-
-  !> A slave node and what it touches.
-  type, public :: contact_point_type
-    integer :: law = 1                         !! which of the set's laws applies
-    integer :: node = 0                        !! slave, number in its mesh
-    integer :: line = 0                        !! number of the contact line it lies on
-    integer :: slave(spatial) = 0              !! the set's unknowns at the slave (u, v, w); 0: fixed
-    integer, allocatable :: master(:, :)       !! (3, nodes) the same at the master's nodes
-    real(wp), allocatable :: share(:)          !! (nodes) master's shape functions
-    real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
-    real(wp) :: length = 0.0_wp                !! of contact line the node stands for [m]
-    real(wp) :: gap = 0.0_wp                   !! between the unloaded foils at rest, or where a plate has been moved to [m]
-    logical :: pressed = .false.               !! the normal force is given, not a matter of contact
-    real(wp) :: pressing = 0.0_wp              !! it [N]
-    real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]
-    real(wp) :: place(spatial) = 0.0_wp        !! approach where the law is linearised [m]
-    real(wp) :: anchor(spatial) = 0.0_wp       !! linearisation point that the step began at [m]
-    real(wp) :: force(spatial) = 0.0_wp        !! (t_1, t_2, f_n) there [N]
-    real(wp) :: derivative(spatial, spatial) = 0.0_wp !! of the force by the approach there [N/m]
-    real(wp) :: old_slip(2) = 0.0_wp           !! tangential displacement at the last commit [m]
-    real(wp) :: old_force(2) = 0.0_wp          !! friction then [N]
-  end type contact_point_type
 
   !> All contacts of this rank, and the unknowns they touch.
   type, public :: contact_set_type
@@ -92,15 +70,9 @@ contains
     integer, intent(in) :: i                    !! contact
     real(wp), intent(in) :: displacement(:)     !! of the set's unknowns [m]
     real(wp) :: value(spatial)
-    real(wp) :: relative(spatial)
-    integer :: k
 
     associate (point => self%point(i))
-      relative = at_node(point%slave, displacement)
-      do k = 1, size(point%share)
-        relative = relative - point%share(k)*at_node(point%master(:, k), displacement)
-      end do
-      value = matmul(relative, point%frame)
+      value = matmul(moved_apart(point, displacement), point%frame)
       value(:2) = value(:2) - point%shift
       if (self%law(point%law)%one_way) value(2) = 0.0_wp
       value(3) = -value(3) - point%gap
@@ -130,28 +102,9 @@ contains
     integer, intent(in) :: i !! contact
     real(wp), intent(in) :: factor !! of the derivatives [1]
     real(wp), intent(inout) :: rate(:) !! by each of the set's unknowns [1]
-    integer :: k
 
-    associate (point => self%point(i))
-      call add_at_node(point%slave, -factor*point%frame(:, 3), rate)
-      do k = 1, size(point%share)
-        call add_at_node(point%master(:, k), factor*point%share(k)*point%frame(:, 3), rate)
-      end do
-    end associate
+    call add_at_contact(self%point(i), -factor*self%point(i)%frame(:, 3), rate)
   end subroutine add_penetration_rate
-
-  !> Displacement at a node, zero where it is fixed.
-  pure function at_node(unknown, displacement) result(value)
-    integer, intent(in) :: unknown(spatial)
-    real(wp), intent(in) :: displacement(:)
-    real(wp) :: value(spatial)
-    integer :: k
-
-    value = 0.0_wp
-    do k = 1, spatial
-      if (unknown(k) > 0) value(k) = displacement(unknown(k))
-    end do
-  end function at_node
 
   !> Moves every contact's linearisation point to where the foils are now.
   pure subroutine settle(self, displacement)
@@ -253,41 +206,23 @@ contains
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
     real(wp), intent(inout) :: force(:)     !! on them [N]
     real(wp) :: on_slave(spatial)
-    integer :: i, k
+    integer :: i
 
     do i = 1, size(self%point)
       associate (point => self%point(i))
         on_slave = point%force + matmul(point%derivative, self%approach(i, displacement) - point%place)
-        on_slave = matmul(point%frame, on_slave)
-        call add_at_node(point%slave, on_slave, force)
-        do k = 1, size(point%share)
-          call add_at_node(point%master(:, k), -point%share(k)*on_slave, force)
-        end do
+        call add_at_contact(point, matmul(point%frame, on_slave), force)
       end associate
     end do
   end subroutine add_forces
 
-  !> Adds a node's force where it is free.
-  pure subroutine add_at_node(unknown, value, force)
-    integer, intent(in) :: unknown(spatial)
-    real(wp), intent(in) :: value(spatial)
-    real(wp), intent(inout) :: force(:)
-    integer :: k
-
-    do k = 1, spatial
-      if (unknown(k) > 0) force(unknown(k)) = force(unknown(k)) + value(k)
-    end do
-  end subroutine add_at_node
-
-  !> The set's unknowns of a contact: slave, then master nodes; 0 where they are fixed.
+  !> The set's unknowns of a contact: slave, then master nodes, then turns; 0 where they are fixed.
   pure function point_unknowns(self, i) result(unknown)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
     integer, allocatable :: unknown(:)
 
-    associate (point => self%point(i))
-      unknown = [point%slave, reshape(point%master, [size(point%master)])]
-    end associate
+    unknown = unknowns_of(self%point(i))
   end function point_unknowns
 
   !> Stiffness of a contact, -(force by displacement), in the order of `point_unknowns` [N/m].
@@ -295,8 +230,7 @@ contains
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
     real(wp), allocatable :: block(:, :)
-    real(wp) :: own(spatial, spatial), weight(size(self%point(i)%share) + 1)
-    integer :: k, m
+    real(wp) :: own(spatial, spatial)
 
     associate (point => self%point(i))
       own = -point%derivative
@@ -307,13 +241,7 @@ contains
       own(1, 1) = own(1, 1) + self%floor_tangential*point%length
       own(2, 2) = own(2, 2) + self%floor_tangential*point%length
       own = matmul(point%frame, matmul(own, transpose(point%frame)))
-      weight = [1.0_wp, -point%share]
-      allocate (block(spatial*size(weight), spatial*size(weight)))
-      do m = 1, size(weight)
-        do k = 1, size(weight)
-          block(spatial*(k - 1) + 1:spatial*k, spatial*(m - 1) + 1:spatial*m) = weight(k)*weight(m)*own
-        end do
-      end do
+      block = block_of(point, own)
     end associate
   end function point_block
 

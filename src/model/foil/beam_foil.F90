@@ -16,7 +16,8 @@ module gfb_beam_foil
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_bump_contacts, only: line_shares, line_length
-  use gfb_contact_set, only: contact_set_type, contact_point_type
+  use gfb_contact_point, only: contact_point_type
+  use gfb_contact_set, only: contact_set_type
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_planar_beam, only: beam_unknowns, beam_mass
   use gfb_condensed_piece, only: condensed_piece_type

@@ -79,6 +79,7 @@ contains
         do k = 1, size(point%share)
           point%master(:, k) = place_of(foil%global_unknown, point%master(:, k))
         end do
+        if (allocated(point%turn)) point%turn = place_of(foil%global_unknown, point%turn)
       end associate
     end do
     foil%contacts%global = foil%global_unknown

@@ -152,7 +152,7 @@ contains
   subroutine count_entries(foil, film)
     type(shell_foil_type), intent(inout) :: foil
     type(film_mesh_type), intent(in) :: film
-    integer, parameter :: per_crest = 15 !! unknowns of a contact
+    integer, parameter :: per_crest = 25 !! unknowns of a contact
     integer :: around, crests
 
     around = (2*film%order + 1)**2 ! a node and those of the elements around it

@@ -6,7 +6,7 @@ module gfb_foil_mesh
   use gfb_kinds, only: wp
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
   use gfb_text, only: text
-  use gfb_quad_mesh, only: quad_mesh_type, add_node_set, solid_rows
+  use gfb_quad_mesh, only: quad_mesh_type, add_node_set, solid_rows, corner_face
   use gfb_bump_profile, only: arc_point, arc_normal
   use gfb_substructures, only: substructure_type
   implicit none (type, external)
@@ -270,16 +270,14 @@ contains
     !> first and last station of the stretch; default: all
     integer, intent(in), optional :: window(2)
     type(quad_mesh_type) :: mesh
-    real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2)
+    real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2), face(2)
     logical :: kink(size(station))
-    integer :: i, j, node, element, here, first, last
+    integer :: i, j, node, element, here, first, last, stretch(2)
 
-    first = 1
-    last = size(station)
-    if (present(window)) then
-      first = window(1)
-      last = window(2)
-    end if
+    stretch = [1, size(station)]
+    if (present(window)) stretch = window
+    first = stretch(1)
+    last = stretch(2)
     v = station%height
     kink = station%corner > 0
     do i = 1, size(station)
@@ -303,14 +301,16 @@ contains
     mesh%row_axial = rows
     node = (first - 1)*mesh%rows
     allocate (mesh%position(3, node + 1:last*mesh%rows), mesh%axis_1(3, node + 1:last*mesh%rows))
-    allocate (mesh%axis_2(3, node + 1:last*mesh%rows))
+    allocate (mesh%axis_2(3, node + 1:last*mesh%rows), mesh%face(2, node + 1:last*mesh%rows))
     do i = first, last
       mean = normal(:, 1, i)
+      face = merge(corner_face(normal(:, :, i)), mean, kink(i))
       ! At corners the flat's, also at an end without a flat: pieces stay congruent.
       if (kink(i)) mean = [0.0_wp, 1.0_wp]
       do j = 1, size(rows)
         node = node + 1
         mesh%position(:, node) = [x(i), v(i), rows(j)]
+        mesh%face(:, node) = face
         mesh%axis_1(:, node) = [0.0_wp, 0.0_wp, 1.0_wp]
         mesh%axis_2(:, node) = [mean(2), -mean(1), 0.0_wp] ! normal x axis_1
       end do

@@ -23,6 +23,7 @@ contains
       mesh%position(:, node) = other%position(:, node)
       mesh%axis_1(:, node) = other%axis_1(:, node)
       mesh%axis_2(:, node) = other%axis_2(:, node)
+      mesh%face(:, node) = other%face(:, node)
     end do
     do element = lbound(mesh%element_nodes, 2), ubound(mesh%element_nodes, 2)
       row = modulo(element - 1, mesh%rows - 1) + 1 ! over a cut nothing asks for it

@@ -7,7 +7,7 @@ module gfb_quad_mesh
   implicit none (type, external)
   private
   public :: node_set, set_count, add_node_set, sub_mesh, own_thickness, solid_rows, &
-            loose_rows, strip_at
+            loose_rows, strip_at, corner_face, node_thickness
 
   !> Nodes that have a name, such as a line of crests.
   type, public :: node_set_type
@@ -26,6 +26,8 @@ module gfb_quad_mesh
     !> (3, nodes) unit rotation axis along the bearing's axis
     real(wp), allocatable :: axis_1(:, :)
     real(wp), allocatable :: axis_2(:, :)        !! (3, nodes) unit rotation axis across it
+    !> (2, nodes) where the upper face is, over half the thickness: along the motion, and up [1]
+    real(wp), allocatable :: face(:, :)
     type(node_set_type), allocatable :: sets(:)
     !> of every column of elements of the whole mesh; not allocated: the section's [m]
     real(wp), allocatable :: column_thickness(:)
@@ -75,6 +77,36 @@ contains
     if (.not. allocated(mesh%column_thickness)) return
     thickness = mesh%column_thickness((element - 1)/(mesh%rows - 1) + 1)
   end function own_thickness
+
+  !> Where the upper face is at a line where plates meet, from it, over half the thickness: on both
+  !> faces, and as high as a flat's. At an end it is as if a flat followed.
+  pure function corner_face(normal) result(face)
+    real(wp), intent(in) :: normal(2, 2) !! (component, plate) unit normals, one twice at an end [1]
+    real(wp) :: face(2)
+
+    face = normal(:, 1) + normal(:, 2)
+    if (all(abs(normal(:, 1) - normal(:, 2)) <= 0.0_wp)) face = normal(:, 1) + [0.0_wp, 1.0_wp]
+    face = face/face(2)
+  end function corner_face
+
+  !> Thickness at a node: the mean of the columns beside it, or of its row, or what all have [m].
+  pure function node_thickness(mesh, of_all, node) result(thickness)
+    type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
+    real(wp), intent(in) :: of_all           !! where the mesh has none of its own [m]
+    integer, intent(in) :: node              !! of the whole mesh
+    real(wp) :: thickness
+    integer :: station
+
+    thickness = of_all
+    if (allocated(mesh%column_thickness)) then
+      station = (node - 1)/mesh%rows + 1
+      associate (before => max(1, station - 1), behind => min(station, mesh%stations - 1))
+        thickness = 0.5_wp*(mesh%column_thickness(before) + mesh%column_thickness(behind))
+      end associate
+    else if (allocated(mesh%row_thickness)) then
+      thickness = mesh%row_thickness(min(modulo(node - 1, mesh%rows) + 1, mesh%rows - 1))
+    end if
+  end function node_thickness
 
   !> Which of the strips side by side a node belongs to; 1 where they do not differ.
   pure function strip_at(mesh, node) result(strip)
@@ -174,9 +206,11 @@ contains
     allocate (part%position(3, first - before:last - before))
     allocate (part%axis_1(3, first - before:last - before))
     allocate (part%axis_2(3, first - before:last - before))
+    allocate (part%face(2, first - before:last - before))
     part%position(:, :) = mesh%position(:, first:last)
     part%axis_1(:, :) = mesh%axis_1(:, first:last)
     part%axis_2(:, :) = mesh%axis_2(:, first:last)
+    part%face(:, :) = mesh%face(:, first:last)
     associate (elements => (stretch(1) - 1)*(mesh%rows - 1))
       first = max(elements + 1, lbound(mesh%element_nodes, 2))
       last = max(first - 1, min((stretch(2) - 1)*(mesh%rows - 1), ubound(mesh%element_nodes, 2)))

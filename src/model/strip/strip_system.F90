@@ -128,7 +128,7 @@ contains
   subroutine create_matrices(strip)
     type(strip_system_type), intent(inout) :: strip
 
-    PetscInt, parameter :: of_contact = 2 !! a node's other displacements, where the foil does not couple them
+    PetscInt, parameter :: of_contact = 4 !! a node's other unknowns, where the foil does not couple them
     PetscInt, allocatable :: inside(:), outside(:), column(:)
     PetscScalar, allocatable :: value(:)
     PetscInt :: first, last, row, entries, begin, finish

@@ -19,8 +19,12 @@ module gfb_contact_case
   integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
+  integer, parameter, public :: surface_mid = 1  !! mid-surfaces touch, as [Gu2020] has it; the default
+  integer, parameter, public :: surface_face = 2 !! faces touch, half a thickness off
+
   character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', &
     'motion']
+  character(len=*), parameter :: surface_words(*) = [character(len=4) :: 'mid', 'face']
   !> In the order of the laws' numbers in `gfb_contact_law`.
   character(len=*), parameter :: law_words(*) = [character(len=10) :: 'tanh_drag', 'tanh_reset', &
                                                  'coulomb']
@@ -42,6 +46,7 @@ module gfb_contact_case
     logical :: may_rub = .false.              !! a coefficient is positive, or complained about
     integer :: friction_law = law_tanh_drag
     integer :: friction_direction = direction_tangent_plane
+    integer :: contact_surface = surface_mid
   end type contact_case_type
 
 contains
@@ -94,6 +99,9 @@ contains
     call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
                          'friction opposes the slip in the tangent plane, or acts along the '// &
                          "shaft's motion alone, as in planar models")
+    call keys%choice_key('contact_surface', contact%contact_surface, surface_words, &
+                         'forces act where the mid-surfaces are, or at the faces, half a '// &
+                         'thickness off: rubbing turns the foils, and their turning rubs')
     call keys%finish_group()
 
   contains

@@ -4,7 +4,7 @@
 module gfb_last_answer
   use petscvec
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_contact_set, only: contact_point_type
+  use gfb_contact_point, only: contact_point_type
   use gfb_kept_state, only: kept_state_type
   use gfb_newton, only: newton_type
   implicit none (type)

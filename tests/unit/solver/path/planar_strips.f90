@@ -10,7 +10,7 @@ module planar_strips
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_assembly, only: create_foil_structure
   use gfb_contact_law, only: contact_law_type, law_coulomb
-  use gfb_contact_set, only: contact_point_type
+  use gfb_contact_point, only: contact_point_type
   use gfb_strip_system, only: strip_system_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top, crest_name, line_shares
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
