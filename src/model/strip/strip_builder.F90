@@ -38,7 +38,7 @@ module gfb_strip_builder
 
   !> Lent to slaves in the matrix alone, over a bump's stiffness: a free strip that slides everywhere at
   !> its friction limit leaves it regular.
-  real(wp), parameter :: tangential_floor = 1.0e-7_wp
+  real(wp), parameter :: tangential_floor = 1.0e-5_wp
 
 contains
 
