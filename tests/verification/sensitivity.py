@@ -129,8 +129,9 @@ def check_foils(checks, folder):
             checks.below(f"shells with friction, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
     check_differences(checks, folder, "shells without friction", foils("shell", 0.0),
                       {"bump_foil%half_length": 2.0e-5, "operation%load": 5.0e-5})
-    check_differences(checks, folder, "beams with friction", foils("beam", 0.1),
-                      {"bump_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
+    check_differences(checks, folder, "beams with friction at their faces",
+                      with_keys(foils("beam", 0.1), contact={"contact_surface": "face"}),
+                      {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
 
 
 def check_lists(checks, folder):

@@ -7,7 +7,8 @@ module gfb_bump_contacts
   use gfb_quad_mesh, only: quad_mesh_type, solid_rows, node_thickness
   implicit none (type, external)
   private
-  public :: bump_contact, touch_with_face, touch_top_face, crest_name, line_shares, line_length, normal_line_force
+  public :: bump_contact, touch_with_face, touch_top_face, crest_name, line_shares, line_length, &
+            normal_line_force
 
   integer, parameter, public :: contact_sleeve = 1, contact_top = 2 !! laws of a set of bumps
   !> of a corner line among the node sets, before its number
@@ -35,7 +36,8 @@ contains
     allocate (point%master(axial, 0), point%share(0))
   end function bump_contact
 
-  !> The bump's face touches in place of its mid-surface: the upper face at crests, the lower at corners.
+  !> The bump's face touches in place of its mid-surface: the upper face at crests, the lower at
+  !> corners.
   !>
   !> A turn moves the face by its axis times the way from the node to the face.
   pure subroutine touch_with_face(mesh, thickness, turn, point)

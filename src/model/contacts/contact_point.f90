@@ -1,4 +1,4 @@
-!> A contact's point: a slave node and what it touches, and how the foils' unknowns move the two apart.
+!> A contact's point: a slave node and what it touches, how the foils' unknowns move the two apart.
 module gfb_contact_point
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -12,15 +12,16 @@ module gfb_contact_point
     integer :: law = 1                         !! which of the set's laws applies
     integer :: node = 0                        !! slave, number in its mesh
     integer :: line = 0                        !! number of the contact line it lies on
-    integer :: slave(spatial) = 0              !! the set's unknowns at the slave (u, v, w); 0: fixed
+    integer :: slave(spatial) = 0         !! the set's unknowns at the slave (u, v, w); 0: fixed
     integer, allocatable :: master(:, :)       !! (3, nodes) the same at the master's nodes
     real(wp), allocatable :: share(:)          !! (nodes) master's shape functions
     !> the set's unknowns that turn the faces about the nodes; not allocated: mid-surfaces touch
     integer, allocatable :: turn(:)
-    real(wp), allocatable :: lever(:, :)       !! (3, turns) how a turn moves slave against master [m]
+    real(wp), allocatable :: lever(:, :)  !! (3, turns) how a turn moves slave against master [m]
     real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
     real(wp) :: length = 0.0_wp                !! of contact line the node stands for [m]
-    real(wp) :: gap = 0.0_wp                   !! between the unloaded foils at rest, or where a plate has been moved to [m]
+    !> between the unloaded foils at rest, or where a plate has been moved to [m]
+    real(wp) :: gap = 0.0_wp
     logical :: pressed = .false.               !! the normal force is given, not a matter of contact
     real(wp) :: pressing = 0.0_wp              !! it [N]
     real(wp) :: shift(2) = 0.0_wp              !! u_s, of the tangents' zero [m]
@@ -114,7 +115,7 @@ contains
     real(wp), intent(in) :: own(spatial, spatial) !! global components [N/m]
     real(wp), allocatable :: block(:, :)          !! [N/m], [N], [N m]
     real(wp) :: weight(size(point%share) + 1)
-    real(wp), allocatable :: turning(:, :)
+    real(wp), allocatable :: turning(:, :), turned(:, :)
     integer :: k, m, moved, turns
 
     weight = [1.0_wp, -point%share]
@@ -124,15 +125,20 @@ contains
     allocate (block(moved + turns, moved + turns))
     do m = 1, size(weight)
       do k = 1, size(weight)
-        block(spatial*(k - 1) + 1:spatial*k, spatial*(m - 1) + 1:spatial*m) = weight(k)*weight(m)*own
+        associate (row => spatial*(k - 1), column => spatial*(m - 1))
+          block(row + 1:row + spatial, column + 1:column + spatial) = weight(k)*weight(m)*own
+        end associate
       end do
     end do
     if (turns == 0) return
     turning = matmul(own, point%lever)
     block(moved + 1:, moved + 1:) = matmul(transpose(point%lever), turning)
+    turned = matmul(transpose(point%lever), own)
     do k = 1, size(weight)
-      block(spatial*(k - 1) + 1:spatial*k, moved + 1:) = weight(k)*turning
-      block(moved + 1:, spatial*(k - 1) + 1:spatial*k) = weight(k)*matmul(transpose(point%lever), own)
+      associate (row => spatial*(k - 1))
+        block(row + 1:row + spatial, moved + 1:) = weight(k)*turning
+        block(moved + 1:, row + 1:row + spatial) = weight(k)*turned
+      end associate
     end do
   end function block_of
 end module gfb_contact_point

@@ -21,6 +21,7 @@ module gfb_contact_set
     type(contact_law_type), allocatable :: law(:)
     type(contact_point_type), allocatable :: point(:)
     integer :: rows = 1                        !! nodes of a contact line, in the slaves' mesh
+    logical :: at_faces = .false.              !! faces touch, not mid-surfaces
     integer, allocatable :: global(:)          !! numbers, from 0, of the unknowns they touch
     real(wp) :: secant_penetration = 0.0_wp    !! glued contacts are as stiff as at this one [m]
     real(wp) :: floor_tangential = 0.0_wp      !! stiffness lent to a slave in the matrix, per length

@@ -20,7 +20,6 @@ module gfb_beam_foil_builder
   use gfb_shell_geometry, only: node_unknowns, shell_section_type
   use gfb_foil_pieces, only: element_section
   use gfb_contact_point, only: contact_point_type
-  use gfb_contact_case, only: surface_face
   use gfb_bump_contacts, only: bump_contact, touch_with_face, touch_top_face, crest_name, line_length, &
                                contact_sleeve, contact_top
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of, strip_on_pad
@@ -195,32 +194,29 @@ contains
 
     integer, allocatable :: line(:)
     integer :: bump, i
-    logical :: faces
 
-    faces = scene%contact%contact_surface == surface_face
     allocate (foil%contacts%point(0))
     if (foil%owned == 0) return
     associate (mesh => foil%bumps%mesh)
       line = node_set(mesh, 'corners')
       do i = 1, size(line)/mesh%rows
-        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, faces, 0.0_wp, &
+        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp, &
                       gap_of_corner(scene%bump_foil, i))
       end do
       do bump = 1, scene%bump_foil%bumps
         line = node_set(mesh, crest_name(bump))
-        call add_line(foil, line(1), contact_top, bump, faces, rounding*scene%bump_foil%pitch, &
+        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch, &
                       gap_of_crest(scene%bump_foil, bump))
       end do
     end associate
   end subroutine add_contacts
 
   !> Contact of a line that is not fixed, nor beyond the top foil.
-  subroutine add_line(foil, node, law, number, faces, overhang, gap)
+  subroutine add_line(foil, node, law, number, overhang, gap)
     type(beam_foil_type), intent(inout) :: foil
     integer, intent(in) :: node     !! first of the line
     integer, intent(in) :: law      !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number   !! of the line
-    logical, intent(in) :: faces    !! they touch, not the mid-surfaces
     real(wp), intent(in) :: overhang !! a crest so far beyond the top foil lies at its edge [m]
     real(wp), intent(in) :: gap      !! at rest [m]
 
@@ -233,7 +229,9 @@ contains
     point = bump_contact(law, node, number, width_of(foil%bumps%mesh))
     point%slave = foil%bump_number(:axial, station)
     point%gap = gap
-    if (faces) call touch_with_face(foil%bumps%mesh, foil%bumps%section%thickness, foil%bump_number(axial + 1:, station), point)
+    if (foil%contacts%at_faces) then
+      call touch_with_face(foil%bumps%mesh, foil%bumps%section%thickness, foil%bump_number(axial + 1:, station), point)
+    end if
     if (law == contact_top) then
       call find_master(foil, overhang, point)
       if (size(point%share) == 0) return

@@ -7,7 +7,6 @@ module gfb_shell_contacts
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, strip_at
   use gfb_contact_point, only: contact_point_type
-  use gfb_contact_case, only: surface_face
   use gfb_shell_geometry, only: node_unknowns
   use gfb_bump_contacts, only: bump_contact, touch_with_face, touch_top_face, line_shares, line_length, crest_name, corner_name, &
                                contact_sleeve, contact_top
@@ -35,17 +34,15 @@ contains
 
     type(contact_point_type), allocatable :: point(:)
     integer :: i, found
-    logical :: faces
 
-    faces = scene%contact%contact_surface == surface_face
     associate (mesh => foil%bumps%mesh)
       allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
       found = 0
       do i = 1, set_count(mesh, corner_name)
-        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, faces, point, found)
+        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
       end do
       do i = 1, scene%bump_foil%bumps
-        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, faces, point, found)
+        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
       end do
       do i = 1, found
         if (point(i)%law == contact_top) then
@@ -56,17 +53,16 @@ contains
       end do
       foil%contacts%point = point(:found)
     end associate
-    call find_masters_of_crests(height, film, ranges, faces, foil)
+    call find_masters_of_crests(height, film, ranges, foil)
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not fixed everywhere.
-  subroutine add_line(foil, ranges, line, law, number, faces, point, found)
+  subroutine add_line(foil, ranges, line, law, number, point, found)
     type(shell_foil_type), intent(in) :: foil
     type(foil_ranges_type), intent(in) :: ranges
     integer, intent(in) :: line(:)
     integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number !! of the line
-    logical, intent(in) :: faces  !! they touch, not the mid-surfaces
     type(contact_point_type), intent(inout) :: point(:)
     integer, intent(inout) :: found
 
@@ -82,17 +78,16 @@ contains
       found = found + 1
       point(found) = bump_contact(law, line(i), number, length(i))
       point(found)%slave = unknown(:axial)
-      if (.not. faces) cycle
+      if (.not. foil%contacts%at_faces) cycle
       call touch_with_face(foil%bumps%mesh, foil%bumps%section%thickness, unknown(axial + 1:), point(found))
     end do
   end subroutine add_line
 
   !> The top foil's elements above the crests.
-  subroutine find_masters_of_crests(height, film, ranges, faces, foil)
+  subroutine find_masters_of_crests(height, film, ranges, foil)
     real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     type(foil_ranges_type), intent(in) :: ranges
-    logical, intent(in) :: faces !! they touch, not the mid-surfaces
     type(shell_foil_type), intent(inout) :: foil
 
     type(projection_type) :: foot
@@ -121,7 +116,7 @@ contains
         pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
         point%share = foot%shape(pressed)
         point%master = number(:axial, (i - 1)*corners + pressed)
-        if (faces) call touch_top_face(foil%top%section%thickness, number(axial + 1:, (i - 1)*corners + pressed), point)
+        if (foil%contacts%at_faces) call touch_top_face(foil%top%section%thickness, number(axial + 1:, (i - 1)*corners + pressed), point)
       end associate
     end do
     ! A crest beyond the top foil's edge touches nothing.

@@ -12,7 +12,6 @@ module gfb_strip_builder
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
   use gfb_contact_laws, only: set_contact_laws
-  use gfb_contact_case, only: surface_face
   use gfb_bump_contacts, only: bump_contact, touch_with_face, crest_name, corner_name, line_shares, &
                                line_length, contact_sleeve, contact_top
   use gfb_contact_point, only: contact_point_type
@@ -23,7 +22,6 @@ module gfb_strip_builder
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures
   use gfb_film_mesh, only: axial_rows
   use gfb_substructures, only: substructure_type
-  use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_assembly, only: create_foil_structure
   use gfb_foil_builder, only: foil_plan_type, strip_shape, section_of, find_symmetry_supports, cut_strip_mesh, &
@@ -146,15 +144,14 @@ contains
     real(wp), allocatable :: force(:)
     real(wp), allocatable :: gap(:, :) !! (rows, bumps) [m]
     integer :: i, row
-    logical :: pressed, faces
+    logical :: pressed
 
-    faces = scene%contact%contact_surface == surface_face
     strip%contacts%rows = strip%foil%mesh%rows
     allocate (strip%contacts%point(0), strip%contacts%global(0), strip%crest_press(0), strip%crest_gap(0))
     associate (mesh => strip%foil%mesh)
       if (scene%strip_load%support /= support_held) then
         do i = 1, set_count(mesh, corner_name)
-          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, faces, .false., 0.0_wp, &
+          call add_line(strip, node_set(mesh, corner_name//text(i)), contact_sleeve, i, .false., 0.0_wp, &
                         spread(gap_of_corner(scene%bump_foil, i), 1, mesh%rows))
         end do
       end if
@@ -170,19 +167,18 @@ contains
         strip%free_travel = minval(gap, spread(.not. loose_rows(mesh), 2, size(force)))
       end if
       do i = 1, size(force)
-        call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, faces, pressed, &
+        call add_line(strip, node_set(mesh, crest_name(i)), contact_top, i, pressed, &
                       force(i)/solid_width(scene%bump_foil), gap(:, i) - strip%free_travel)
       end do
     end associate
   end subroutine add_contacts
 
   !> Contacts of a line's nodes; those that are fixed everywhere touch nothing.
-  subroutine add_line(strip, line, law, number, faces, pressed, pressing, gap)
+  subroutine add_line(strip, line, law, number, pressed, pressing, gap)
     type(strip_system_type), intent(inout) :: strip
     integer, intent(in) :: line(:)     !! nodes in order of z
     integer, intent(in) :: law         !! `contact_sleeve` or `contact_top`
     integer, intent(in) :: number      !! of the line
-    logical, intent(in) :: faces       !! they touch, not the mid-surfaces
     logical, intent(in) :: pressed     !! the normal force is given
     real(wp), intent(in) :: pressing   !! it, per length, at the full load [N/m]
     real(wp), intent(in) :: gap(:)     !! of the line's nodes at rest [m]
@@ -191,7 +187,7 @@ contains
     type(contact_point_type) :: one
     integer, allocatable :: global(:)
     real(wp), allocatable :: length(:)
-    integer :: i, k, found, plate, unknown(node_unknowns)
+    integer :: i, k, found, plate, unknown(size(strip%foil%slot, 1))
 
     if (size(line) == 0) return
     length = line_shares(strip%foil%mesh, line)*line_length(strip%foil%mesh, line)
@@ -206,13 +202,13 @@ contains
       one%pressed = pressed
       one%gap = gap(i)
       unknown = 0
-      do k = 1, merge(node_unknowns, axial, faces)
+      do k = 1, merge(size(unknown), axial, strip%contacts%at_faces)
         if (strip%foil%unknown(k, line(i)) < 0) cycle
         global = [global, strip%foil%unknown(k, line(i))]
         unknown(k) = size(strip%contacts%global) + size(global)
       end do
       one%slave = unknown(:axial)
-      if (faces) call touch_with_face(strip%foil%mesh, strip%foil%section%thickness, unknown(axial + 1:), one)
+      if (strip%contacts%at_faces) call touch_with_face(strip%foil%mesh, strip%foil%section%thickness, unknown(axial + 1:), one)
       if (law == contact_top .and. strip%plate == plate_forced) then
         if (plate == 0) then
           global = [global, strip%foil%unknowns]

@@ -19,7 +19,8 @@ module gfb_contact_case
   integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
-  integer, parameter, public :: surface_mid = 1  !! mid-surfaces touch, as [Gu2020] has it; the default
+  !> mid-surfaces touch, as [Gu2020] has it; the default
+  integer, parameter, public :: surface_mid = 1
   integer, parameter, public :: surface_face = 2 !! faces touch, half a thickness off
 
   character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', &
