@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Orbits that close, of a small bearing of eight bumps: beams without friction against the last turn of a march in the same
-steps; multipliers of the rotor's modes.
+"""Orbits that close, of a small bearing of eight bumps: beams and shells, without and with friction, against the last turn of a march in the
+same steps, and against themselves one turn later; multipliers of the rotor's modes.
 """
 
 import cmath
@@ -19,11 +19,11 @@ SMALL = Bearing(5.85e-3, 12.0e-3, CLEARANCE, 1.95e-5, 1.0135e5)
 MASS, STEPS = 0.02, 24
 
 
-def small_case(analysis, **keys):
-    """Eight bumps without friction under a load, and the keys of the analysis's group."""
-    groups = {group: dict(values) for group, values in beams(0.0)["groups"].items() if group != "model"}
+def small_case(analysis, friction=0.0, foil="beam", **keys):
+    """Eight bumps under a load, and the keys of the analysis's group."""
+    groups = {group: dict(values) for group, values in beams(friction)["groups"].items() if group != "model"}
     groups["bump_foil"]["bumps"] = 8
-    content = case_groups(SMALL, (32, 4), "beam", load=(-6.0, 0.0), speed_rpm=60000.0, groups=groups | {"rotor": {"mass": MASS}})
+    content = case_groups(SMALL, (32, 4), foil, load=(-6.0, 0.0), speed_rpm=60000.0, groups=groups | {"rotor": {"mass": MASS}})
     content["scene"]["analysis"] = analysis
     content["dynamics" if analysis == "linear_dynamics" else analysis] = keys
     if analysis == "transient":
@@ -62,11 +62,32 @@ def check_modes(checks, folder):
     checks.that("beams: a mode that whirls", len(rates) > 0)
 
 
+def check_friction(checks, folder):
+    """Contacts that rub. Where all slip in a turn there is one orbit, that of the march. Where some always stick there are as many
+    as there are slips that they began with: the one found repeats itself in a march of two turns without a break."""
+    keys = {"unbalance": 1.0e-8, "steps_per_turn": STEPS}
+    slides = orbits(solve(folder, "closed", small_case("periodic", 0.01, "shell", **keys)))
+    rows = history(solve(folder, "march", small_case("transient", 0.01, "shell", turns=50, **keys)))
+    twice = solve(folder, "twice", small_case("periodic", 0.1, period_turns=2, **keys))
+    sticks = orbits(twice)
+    other = history(solve(folder, "march", small_case("transient", 0.1, turns=40, **keys)))
+    for axis in "xy":
+        name = f"eccentricity_{axis}"
+        checks.below(f"shells, all contacts slip, {axis}: the last turn of a long march",
+                     largest_difference(slides[name][0], rows[name][-STEPS - 1:], CLEARANCE), 1.0e-8)
+        checks.below(f"beams, some stick, {axis}: a turn later", largest_difference(
+            sticks[name][0][:STEPS + 1], sticks[name][0][-STEPS - 1:], CLEARANCE), 1.0e-8)
+        checks.within(f"beams, some stick, {axis}: another orbit than the march's beside it", largest_difference(
+            sticks[name][0][:STEPS + 1], other[name][-STEPS - 1:], CLEARANCE), 1.0e-8, 1.0e-3)
+    checks.that("multipliers are not given", "orbit_stable" not in twice.summary and numpy.isnan(sticks["stable"]).all())
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_modes(checks, folder)
         check_march(checks, folder, "beams", 60)
+        check_friction(checks, folder)
     checks.close()
 
 

@@ -92,7 +92,7 @@ contains
     end if
   end subroutine check_branch
 
-  !> What the foil must be: contacts that rub remember more than the state.
+  !> What the foil must be.
   subroutine check_foil(keys, periodic, model, may_rub)
     type(case_keys_type), intent(inout) :: keys
     type(periodic_case_type), intent(in) :: periodic
@@ -102,10 +102,11 @@ contains
     if (periodic%foundation_damping > 0.0_wp .and. model%foil /= foil_elastic_foundation) then
       call keys%complain(group, 'foundation_damping', "needs foil = 'elastic_foundation' in &model")
     end if
-    if (meshes_foils(model%foil) .and. may_rub) then
+    if (meshes_foils(model%foil) .and. may_rub .and. &
+        (periodic%motion == motion_free .or. periodic%parameter /= follow_nothing)) then
       call keys%complain('model', 'foil', 'needs friction_top and friction_sleeve of 0 with '// &
-                         "analysis = 'periodic': contacts that rub remember their slip from "// &
-                         "period to period; 'transient' follows it")
+                         "motion = 'free', and with parameter: where contacts stick, orbits "// &
+                         'lie side by side, and are no branch')
     end if
     if (model%coupling == coupling_partitioned) then
       call keys%complain('model', 'coupling', "must be 'monolithic' with analysis = "// &

@@ -3,7 +3,8 @@
 !>
 !> A state is all that the march remembers: film, foil and sleeve now and one step ago, and the sleeve's velocity then and
 !> now. As the past is part of it, a state that the map leads back to itself is an orbit whose steps wrap round: it has no
-!> first step that differs from the others. Contacts with friction remember more, and have no such state.
+!> first step that differs from the others. Contacts with friction remember their slips as well, which are then part of the
+!> state: those of contacts that always stick stay as they began, so an orbit closes whatever they are.
 !>
 !> A point x holds the state, the period and one parameter, all over their sizes; every rank has its own unknowns and all of
 !> the rest.
@@ -13,12 +14,13 @@ module gfb_period_map
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_contact_slips, only: slips_of, put_slips
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
   use gfb_time_march, only: march_type, march_settings_type, begin_march, resume_march, take_step, end_march
   implicit none (type)
   private
-  public :: create_map, rest_of, apply_map, dots, parameter_of, period_of, drive_at
+  public :: create_map, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at
 
   integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3 !! what the parameter is
   real(wp), parameter :: pi = acos(-1.0_wp)
@@ -41,6 +43,9 @@ module gfb_period_map
     real(wp) :: clock = 1.0_wp       !! velocities over places [1/s]
     real(wp) :: share = 1.0_wp       !! weight of one unknown of film and foil [1]
     integer :: owned = 0             !! unknowns of this rank
+    logical :: rubs = .false.        !! contacts have friction, whose slips are part of the state
+    integer :: slips = 0             !! of this rank's contacts, where they rub
+    integer :: local = 0             !! entries of a point that no other rank has
     integer :: periods = 0           !! marched so far
     real(wp), allocatable :: orbit(:, :) !! (2, steps + 1) the sleeve's places in the last of them [m]
     real(wp) :: smallest_gap = 0.0_wp    !! in it, where the orbit was kept [m]
@@ -59,6 +64,10 @@ contains
     PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
     PetscCallA(VecGetSize(bearing%state, all, ierr))
     map%owned = int(owned)
+    map%rubs = rubs(bearing)
+    map%slips = 0
+    if (map%rubs) map%slips = 2*contacts_of(bearing)
+    map%local = 2*map%owned + map%slips
     map%share = 1.0_wp/sqrt(real(all, wp))
     map%length = bearing%pad(1)%film%clearance
     map%clock = map%drive%speed
@@ -68,7 +77,7 @@ contains
   function rest_of(map, bearing) result(x)
     type(period_map_type), intent(in) :: map !! created
     type(bearing_system_type), intent(in) :: bearing !! in equilibrium
-    real(wp) :: x(2*map%owned + tail) !! with the drive's parameter and the map's own period [1]
+    real(wp) :: x(map%local + tail) !! with the drive's parameter and the map's own period [1]
     real(wp) :: unknown(bearing%local_size(), 2), speed
 
     call bearing%get_unknowns(unknown(:, 1))
@@ -87,6 +96,37 @@ contains
       x(size(x)) = 0.0_wp
     end select
   end function rest_of
+
+  !> Gives a point of rest the past of a shaft that is let go there, as a march over time has it.
+  subroutine let_go(map, bearing, x)
+    type(period_map_type), intent(in) :: map !! created
+    type(bearing_system_type), intent(inout) :: bearing !! in equilibrium, which is kept
+    real(wp), intent(inout) :: x(:) !! that equilibrium [1]
+    type(march_type) :: march
+
+    call begin_at(map, bearing, x, march)
+    associate (shaft => map%local)
+      x(shaft + 3:shaft + 4) = x(shaft + 1:shaft + 2) + (march%place(:2, 2) - march%place(:2, 1))/map%length
+      x(shaft + 7:shaft + 8) = march%velocity(:2, 2)/(map%length*map%clock)
+    end associate
+    call end_march(march, bearing)
+  end subroutine let_go
+
+  !> Begins a march with what drives the shaft at a point, in the map's steps.
+  subroutine begin_at(map, bearing, x, march)
+    type(period_map_type), intent(in) :: map
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: x(:)
+    type(march_type), intent(out) :: march
+    type(march_settings_type) :: settings
+    type(shaft_drive_type) :: drive
+
+    drive = drive_at(map, x)
+    settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
+    settings%damping = map%damping
+    settings%end_time = huge(1.0_wp)
+    call begin_march(drive, settings, bearing, march)
+  end subroutine begin_at
 
   !> The parameter of a point.
   pure function parameter_of(map, x) result(value)
@@ -133,7 +173,6 @@ contains
     logical, intent(in) :: keep   !! the smallest gap of the orbit is wanted
     logical :: done
     type(march_type) :: march
-    type(march_settings_type) :: settings
     type(newton_report_type) :: report
     type(shaft_drive_type) :: drive
     real(wp) :: unknown(bearing%local_size(), 2), velocity(2, 2)
@@ -144,13 +183,10 @@ contains
     done = drive%speed > 0.0_wp .and. drive%mass > 0.0_wp .and. period_of(map, x) > 0.0_wp
     map%problem = 'speed, mass and period must be positive'
     if (.not. done) return
-    settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
-    settings%damping = map%damping
-    settings%end_time = huge(1.0_wp)
     call unpack_point(map, bearing, x, unknown, velocity)
     bearing%point%speed = drive%speed
     call bearing%set_unknowns(unknown(:, 1))
-    call begin_march(drive, settings, bearing, march)
+    call begin_at(map, bearing, x, march)
     call resume_march(unknown, velocity, bearing, march)
     map%periods = map%periods + 1
     map%smallest_gap = huge(1.0_wp)
@@ -165,7 +201,7 @@ contains
       if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
     end do
     if (done) then
-      call pack_point(map, bearing, march%unknown(:, :2), march%velocity(:2, :), y)
+      call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
     else
       map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
       if (.not. report%converged) map%problem = map%problem//': '//report%reason
@@ -181,13 +217,13 @@ contains
     real(wp) :: product(size(columns, 2))
     integer :: many
 
-    many = 2*map%owned
+    many = map%local
     product = matmul(x(:many), columns(:many, :))
     if (size(product) > 0) product = sum_over_ranks(product)
     product = product + matmul(x(many + 1:), columns(many + 1:, :))
   end function dots
 
-  !> Unknowns and velocities, now and one step ago, as entries of a point; period and parameter stay.
+  !> Unknowns and velocities, now and one step ago, and slips as entries of a point; period and parameter stay.
   subroutine pack_point(map, bearing, unknown, velocity, x)
     type(period_map_type), intent(in) :: map
     type(bearing_system_type), intent(in) :: bearing !! left at the newest state
@@ -196,9 +232,9 @@ contains
     real(wp), intent(inout) :: x(:)
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
-    integer :: k
+    integer :: k, first
 
-    associate (shaft => 2*map%owned)
+    associate (shaft => map%local)
       do k = 2, 1, -1
         call bearing%set_unknowns(unknown(:, k))
         PetscCallA(GFB_VecGetArrayRead(bearing%state, values, ierr))
@@ -208,20 +244,28 @@ contains
         x(shaft + 2*k + 3:shaft + 2*k + 4) = velocity(:, k)/(map%length*map%clock)
       end do
     end associate
+    if (map%slips == 0) return
+    first = 2*map%owned
+    do k = 1, size(bearing%pad)
+      associate (contacts => bearing%pad(k)%foil%contacts)
+        x(first + 1:first + 2*size(contacts%point)) = map%share/map%length*slips_of(contacts)
+        first = first + 2*size(contacts%point)
+      end associate
+    end do
   end subroutine pack_point
 
   !> The reverse. The sleeve's place is that of the last entries.
   subroutine unpack_point(map, bearing, x, unknown, velocity)
     type(period_map_type), intent(in) :: map
-    type(bearing_system_type), intent(in) :: bearing !! its state is overwritten
+    type(bearing_system_type), intent(inout) :: bearing !! its state and its contacts are overwritten
     real(wp), intent(in) :: x(:)
     real(wp), intent(out) :: unknown(:, :) !! (local unknowns, 2) [SI]
     real(wp), intent(out) :: velocity(:, :) !! (2, 2) [m/s]
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
-    integer :: k
+    integer :: k, first
 
-    associate (shaft => 2*map%owned)
+    associate (shaft => map%local)
       do k = 1, 2
         PetscCallA(GFB_VecGetArray(bearing%state, values, ierr))
         values(:map%owned) = x((k - 1)*map%owned + 1:k*map%owned)/map%share
@@ -231,5 +275,34 @@ contains
         velocity(:, k) = x(shaft + 2*k + 3:shaft + 2*k + 4)*map%length*map%clock
       end do
     end associate
+    if (map%slips == 0) return
+    first = 2*map%owned
+    do k = 1, size(bearing%pad)
+      associate (pad => bearing%pad(k), many => 2*size(bearing%pad(k)%foil%contacts%point))
+        call put_slips(x(first + 1:first + many)*map%length/map%share, &
+                       pad%foil%own_part(unknown(pad%first + 1:pad%last, 1)), pad%foil%contacts)
+        first = first + many
+      end associate
+    end do
   end subroutine unpack_point
+
+  !> Whether contacts rub.
+  pure function rubs(bearing)
+    type(bearing_system_type), intent(in) :: bearing
+    logical :: rubs
+
+    rubs = .false.
+    if (bearing%pad(1)%foil%has_contacts()) rubs = any(bearing%pad(1)%foil%contacts%law%friction > 0.0_wp)
+  end function rubs
+
+  !> Contacts of this rank.
+  pure function contacts_of(bearing) result(many)
+    type(bearing_system_type), intent(in) :: bearing
+    integer :: many, i
+
+    many = 0
+    do i = 1, size(bearing%pad)
+      many = many + size(bearing%pad(i)%foil%contacts%point)
+    end do
+  end function contacts_of
 end module gfb_period_map

@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> What an orbit that closes is like: its size, its multipliers, whether it is stable.
 module gfb_orbit_judgement
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_shaft_drive, only: shaft_drive_type
@@ -25,14 +26,14 @@ contains
     type(period_map_type), intent(in) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit's point [1]
     real(wp), intent(in) :: gap !! the smallest one of the orbit [m]
-    type(floquet_type), intent(in) :: floquet !! its multipliers
+    type(floquet_type), intent(in) :: floquet !! its multipliers, none where they are not known
     integer, intent(in) :: neutral !! multipliers that are known to be 1
     type(orbit_type), intent(inout) :: orbit !! with its places
     character(len=:), allocatable, intent(out) :: loss !! of stability
     type(shaft_drive_type) :: drive
     complex(wp) :: largest
     logical :: counts(size(floquet%value))
-    real(wp) :: period
+    real(wp) :: period, size_of, stable
     integer :: many, i
 
     drive = drive_at(map, x)
@@ -41,15 +42,21 @@ contains
     do i = 1, neutral
       counts(minloc(abs(floquet%value - 1.0_wp), 1, counts)) = .false.
     end do
-    largest = floquet%value(maxloc(abs(floquet%value), 1, counts))
+    size_of = ieee_value(size_of, ieee_quiet_nan)
+    stable = size_of
     loss = ''
-    if (abs(largest) > 1.0_wp + known) loss = kind_of(largest)
+    if (size(floquet%value) > 0) then
+      largest = floquet%value(maxloc(abs(floquet%value), 1, counts))
+      size_of = abs(largest)
+      if (size_of > 1.0_wp + known) loss = kind_of(largest)
+      stable = merge(1.0_wp, 0.0_wp, loss == '')
+    end if
     many = min(leading, size(floquet%value))
     orbit%multiplier(:many) = floquet%value(:many)
     associate (x_places => orbit%place(1, :map%steps), y_places => orbit%place(2, :map%steps))
       orbit%value = [drive%speed, drive%unbalance, drive%mass, period, 2.0_wp*pi/(period*drive%speed), &
                      extent_of(orbit%place(1, :)), extent_of(orbit%place(2, :)), sum(x_places)/map%steps, &
-                     sum(y_places)/map%steps, gap, abs(largest), merge(1.0_wp, 0.0_wp, loss == ''), real(map%periods, wp)]
+                     sum(y_places)/map%steps, gap, size_of, stable, real(map%periods, wp)]
     end associate
   end subroutine judge_orbit
 
@@ -77,7 +84,8 @@ contains
     words = 'orbit '//text(extent_of(orbit%place(1, :))*micro, 4)//' x '//text(extent_of(orbit%place(2, :))*micro, 4)// &
             ' um, over C '//text(extent_of(orbit%place(1, :))/clearance, 3)//', frequency ratio ' &
             //text(orbit%frequency_ratio(), 6)//', smallest film '//text(orbit%smallest_gap()*micro, 4)// &
-            ' um, largest multiplier '//text(orbit%largest(), 5)
+            ' um'
+    if (.not. ieee_is_nan(orbit%largest())) words = words//', largest multiplier '//text(orbit%largest(), 5)
     if (loss /= '') words = words//': unstable, '//loss
   end function words_of
 end module gfb_orbit_judgement

@@ -11,7 +11,7 @@ module gfb_periodic
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
-  use gfb_period_map, only: period_map_type, rest_of, apply_map, dots, parameter_of, period_of, drive_at, &
+  use gfb_period_map, only: period_map_type, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at, &
                             moved_speed, tail
   use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
   use gfb_scene_map, only: set_map, value_words
@@ -113,6 +113,7 @@ contains
     integer :: i, iterations
 
     condition = fixed_parameter(self%x)
+    call let_go(self%map, bearing, self%x)
     found = .true.
     do i = 1, scene%periodic%start_turns
       found = apply_map(self%map, bearing, newton, self%x, y, .false.)
@@ -330,7 +331,12 @@ contains
 
     call move_alloc(self%map%orbit, orbit%place)
     gap = self%map%smallest_gap
-    done = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+    done = .true.
+    if (self%map%rubs) then ! differences of the map tell of one side of a contact's stick and slip alone
+      allocate (floquet%value(0))
+    else
+      done = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+    end if
     if (.not. done) return
     neutral = 0
     if (self%map%free) neutral = merge(1, 2, allocated(self%table%orbit))
@@ -367,9 +373,9 @@ contains
       call add_result(found, 'orbit_x', extent_of(last%place(1, :)))
       call add_result(found, 'orbit_y', extent_of(last%place(2, :)))
       call add_result(found, 'minimum_gap_over_time', last%smallest_gap())
-      call add_result(found, 'largest_multiplier', last%largest())
+      if (.not. self%map%rubs) call add_result(found, 'largest_multiplier', last%largest())
     end associate
-    call add_result(found, 'orbit_stable', self%loss == '')
+    if (.not. self%map%rubs) call add_result(found, 'orbit_stable', self%loss == '')
     if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)
     if (self%map%free .and. self%map%parameter == moved_speed) then
       call add_result(found, 'onset_speed_rpm', parameter_of(self%map, self%onset%x)*30.0_wp/pi)
