@@ -22,6 +22,7 @@ module gfb_cold_start
   use gfb_start_list, only: start_pressed
   use gfb_branch_search, only: seek_branch
   use gfb_smaller_scene, only: find_smaller
+  use gfb_bearing_directions, only: has_free_edge
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
   use gfb_model_case, only: foil_rigid
@@ -29,16 +30,20 @@ module gfb_cold_start
   private
   public :: start_bearing, restart_bearing, start_partitioned
 
-  real(wp), parameter :: light = 0.1_wp !! load of a lighter start, over the one asked for [1]
+  integer, parameter :: points_on_the_way = 5
+  !> loads of a lighter start, and on the way up from there, over the one asked for [1]
+  real(wp), parameter :: light(points_on_the_way) = [0.1_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
+  !> speeds of a faster start, and on the way down from there, over the one asked for [1]
+  real(wp), parameter :: fast(points_on_the_way) = [2.0_wp, 1.6_wp, 1.3_wp, 1.15_wp, 1.0_wp]
   real(wp), parameter :: shortest = 0.02_wp !! step on the way [1]
-  real(wp), parameter :: heavier(4) = [0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp] !! loads on the way up from there [1]
 
 contains
 
   !> Builds a scene's equations and finds their answer at the scene's operating point.
   !>
   !> Where a search ends, it may be the end of the branch on which it came under the load, not of all: it has to show on the
-  !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none.
+  !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none. Under light loads a film
+  !> that draws up a free edge gives way as the shaft gets slower: there it has to show on the way down from a faster shaft, too.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -52,42 +57,64 @@ contains
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    type(operating_point_type) :: lighter
-    type(path_settings_type) :: settings
+    type(operating_point_type) :: way(points_on_the_way)
     type(path_report_type) :: refusal
     type(kept_state_type) :: refused
-    integer :: spent(3), i
     logical :: again
 
     call start_on_meshes(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
     if (allocated(error)) return
-    again = report%touched .or. .not. (report%converged .or. report%drawn .or. report%has_cause())
-    again = again .and. bearing%floats .and. .not. any(scene%operation%lift_given)
-    if (report%touched) again = again .and. norm2(report%reached%load) > light*norm2(target%load)
-    if (again) again = bearing%pad(1)%foil%has_contacts()
-    if (again) again = .not. stop_agreed()
-    if (.not. again) return
-    call log%line('no answer from there ('//report%reason//'); from '//text(100.0_wp*light, 2)//' % of the load:')
+    if (report%converged .or. .not. bearing%floats .or. any(scene%operation%lift_given)) return
+    if (.not. bearing%pad(1)%foil%has_contacts()) return
     refusal = report
     call refused%keep(bearing)
-    call drop_bearing(bearing, newton, spent)
-    lighter = target
-    lighter%load = light*target%load
-    settings = path_settings
-    settings%smallest_step = max(settings%smallest_step, shortest)
-    call start_on_meshes(scene, plan, lighter, newton_settings, path_settings, log, bearing, newton, report, error, on_the_way=.true.)
-    if (allocated(error)) return
-    do i = 1, size(heavier)
-      if (.not. report%converged) exit
-      lighter%load = heavier(i)*target%load
-      call follow_path(bearing, newton, lighter, 1.0_wp, settings, report)
-    end do
-    if (.not. report%converged .and. (refusal%has_cause() .or. .not. report%has_cause())) then
+    again = report%touched .or. .not. (report%drawn .or. report%has_cause())
+    if (report%touched) again = norm2(report%reached%load) > light(1)*norm2(target%load)
+    if (again) again = .not. stop_agreed()
+    if (again) then
+      call log%line('no answer from there ('//report%reason//'); from '//text(100.0_wp*light(1), 2)//' % of the load:')
+      way = target
+      way%load(1) = light*target%load(1)
+      way%load(2) = light*target%load(2)
+      call come_along(way, .true.)
+      if (allocated(error)) return
+    end if
+    again = .not. report%converged .and. (refusal%drawn .or. .not. (refusal%has_cause() .or. report%has_cause()))
+    if (again) again = has_free_edge(bearing)
+    if (again) again = .not. stop_agreed()
+    if (again) then
+      call log%line('no answer from there ('//report%reason//'); from '//text(fast(1), 2)//' times the speed:')
+      way = target
+      way%speed = fast*target%speed
+      call come_along(way, .false.)
+      if (allocated(error)) return
+    end if
+    if (.not. report%converged .and. (refusal%has_cause() .or. refusal%drawn .or. .not. report%has_cause())) then
       report = refusal
       call refused%put_back(bearing)
     end if
     call refused%destroy()
-    call count_spent(newton, spent)
+
+  contains
+
+    !> From an answer at the first of some points to the last.
+    subroutine come_along(way, one_start)
+      type(operating_point_type), intent(in) :: way(:)
+      logical, intent(in) :: one_start !! to the first point, no more
+      type(path_settings_type) :: settings
+      integer :: spent(3), i
+
+      settings = path_settings
+      settings%smallest_step = max(settings%smallest_step, shortest)
+      call drop_bearing(bearing, newton, spent)
+      call start_on_meshes(scene, plan, way(1), newton_settings, path_settings, log, bearing, newton, report, error, on_the_way=one_start)
+      if (allocated(error)) return
+      do i = 2, size(way)
+        if (.not. report%converged) exit
+        call follow_path(bearing, newton, way(i), 1.0_wp, settings, report)
+      end do
+      call count_spent(newton, spent)
+    end subroutine come_along
   end subroutine start_bearing
 
   !> `start_bearing` where there is a bearing already, whose way has ended: it is built anew, and what was spent on it counts.
