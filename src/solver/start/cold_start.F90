@@ -25,7 +25,7 @@ module gfb_cold_start
   use gfb_bearing_directions, only: has_free_edge
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
-  use gfb_model_case, only: foil_rigid
+  use gfb_model_case, only: foil_rigid, foil_shell
   implicit none (type)
   private
   public :: start_bearing, restart_bearing, start_partitioned
@@ -42,8 +42,9 @@ contains
   !> Builds a scene's equations and finds their answer at the scene's operating point.
   !>
   !> Where a search ends, it may be the end of the branch on which it came under the load, not of all: it has to show on the
-  !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none. Under light loads a film
-  !> that draws up a free edge gives way as the shaft gets slower: there it has to show on the way down from a faster shaft, too.
+  !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none. Where no reason is
+  !> found, or a film draws up the free edge of shells, which is kept straight while that is looked into, it has to show on the way
+  !> down from a faster shaft, too.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -79,7 +80,8 @@ contains
       call come_along(way, .true.)
       if (allocated(error)) return
     end if
-    again = .not. report%converged .and. (refusal%drawn .or. .not. (refusal%has_cause() .or. report%has_cause()))
+    again = .not. (refusal%drawn .or. refusal%has_cause() .or. report%has_cause())
+    again = (again .or. (refusal%drawn .and. scene%model%foil == foil_shell)) .and. .not. report%converged
     if (again) again = has_free_edge(bearing)
     if (again) again = .not. stop_agreed()
     if (again) then
