@@ -5,8 +5,8 @@
 !> `<n>` for a number, `<key>` for a key of the case file, `<quantity>` for a name that `&accuracy`
 !> may ask for. What stands in braces in a meaning is replaced by one of the phrases below.
 !>
-!> The table lies in the lowest layer because the scene, which knows no bearing, needs the names
-!> that `&accuracy` may ask for, and the output, which knows no scene, writes units and meanings.
+!> The table lies in the lowest layer: the scene, which knows no bearing, needs the names that
+!> `&accuracy` may ask for, and the output, which knows no scene, units and meanings.
 module gfb_result_table
   use gfb_quantity, only: number => quantity_number, total => quantity_count, &
                           word => quantity_word, truth => quantity_truth
@@ -68,6 +68,7 @@ module gfb_result_table
   type(result_type), parameter :: sweeps(*) = [ &
     result_type('load', 'N', number, sweep, 'what the sweep changes', &
       'the `parameter` of `&sweep`, where it is none of the names above'), &
+    result_type('load_angle', 'deg', number, sweep, 'what the sweep changes', joins=.true.), &
     result_type('speed_rpm', 'rpm', number, sweep, 'what the sweep changes', joins=.true.), &
     result_type('tilt_<a>', 'rad', number, sweep, 'what the sweep changes', joins=.true.), &
     result_type('key_value', own_unit, number, sweep, &
@@ -94,8 +95,7 @@ module gfb_result_table
       'of the sleeve relative to the shaft, at the midplane', asked=.true., compared=.true.), &
     result_type('attitude_angle', 'deg', number, bearing, &
       'from the load to the thinnest film, positive in +theta', &
-      'from the load''s direction to that of the thinnest film, positive in +theta', &
-      asked=.true.), &
+      'from the load''s direction to the thinnest film''s, positive in +theta', asked=.true.), &
     result_type('force_<a>', 'N', number, bearing, '{film} force on the sleeve, <a>', &
       'force of the film, and of solid contact, on the sleeve; in equilibrium equal to `load`', &
       asked=.true.), &

@@ -7,7 +7,8 @@ module gfb_bearing_record
   use gfb_result_names, only: result_unit, result_meaning
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_words
-  use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_keys, parameter_words
+  use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &
+                            sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
@@ -52,13 +53,17 @@ contains
     integer, intent(in), optional :: branch !! number of the equilibrium among several
     type(history_row_type) :: row
 
-    ! The answer has the eccentricities anyway.
-    if (present(value) .and. scene%sweep%parameter < sweep_eccentricity_x) then
-      call add_result(row%quantity, sweep_name(scene%sweep), value)
-    else if (present(value) .and. scene%sweep%parameter == sweep_keys) then
-      call add_quantity(row%quantity, number_quantity( &
-                        'key_value', value, scene%sweep%unit, &
-                        result_meaning('key_value', scene%sweep%keys)))
+    if (present(value)) then
+      select case (scene%sweep%parameter)
+      case (sweep_eccentricity_x, sweep_eccentricity_y)
+        continue ! the answer has them anyway
+      case (sweep_keys)
+        call add_quantity(row%quantity, number_quantity( &
+                          'key_value', value, scene%sweep%unit, &
+                          result_meaning('key_value', scene%sweep%keys)))
+      case default
+        call add_result(row%quantity, sweep_name(scene%sweep), value)
+      end select
     end if
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)

@@ -18,7 +18,7 @@ module gfb_branch_watch
   use gfb_scene, only: scene_type
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_sweep_case, only: parameter_words, sweep_keys
+  use gfb_sweep_case, only: parameter_words, sweep_keys, sweep_load_angle
   use gfb_top_foil_case, only: top_foil_trailing
   use gfb_case_file, only: history_row_type
   implicit none (type, external)
@@ -146,6 +146,7 @@ contains
       at(i) = number_of(rows(i), name)
     end do
     associate (values => scene%sweep%values)
+      if (scene%sweep%parameter == sweep_load_angle) return
       if (all(values > 0.0_wp) .or. all(values < 0.0_wp)) at = log(abs(at))
     end associate
   end function places

@@ -5,11 +5,11 @@ module gfb_branch_rules
   use gfb_model_case, only: model_case_type, meshes_foils, coupling_partitioned
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_sweep_case, only: sweep_case_type
+  use gfb_sweep_case, only: sweep_case_type, sweep_load_angle
   use gfb_top_foil_case, only: top_foil_case_type, top_foil_trailing
   implicit none (type, external)
   private
-  public :: check_edge_lift, check_turn_folds
+  public :: check_edge_lift, check_turn_folds, check_load_angles
 
   character(len=*), parameter :: lift_keys(2) = [character(len=22) :: 'leading_edge_lift', &
                                                  'leading_edge_lift_edge']
@@ -54,6 +54,10 @@ contains
       call keys%complain('sweep', 'turn_folds', 'has no use beside friction_memory: what slid '// &
                          'must not depend on the path round a fold')
     end if
+    if (sweep%parameter == sweep_load_angle) then
+      call keys%complain('sweep', 'turn_folds', 'has no use with parameter = ''load_angle'': '// &
+                         'between two angles the load goes straight, not round')
+    end if
     if (model%coupling == coupling_partitioned) then
       call keys%complain('sweep', 'turn_folds', "needs coupling = 'monolithic' in &model")
     end if
@@ -67,4 +71,21 @@ contains
       end if
     end if
   end subroutine check_turn_folds
+
+  !> Between two angles the load goes straight, and must not come near zero.
+  subroutine check_load_angles(keys, sweep)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    real(wp), parameter :: circle = 360.0_wp, farthest = 90.0_wp !! [deg]
+    integer :: point
+
+    if (sweep%parameter /= sweep_load_angle .or. .not. allocated(sweep%values)) return
+    do point = 2, size(sweep%values)
+      associate (turn => modulo(sweep%values(point) - sweep%values(point - 1), circle))
+        if (min(turn, circle - turn) <= farthest) cycle
+      end associate
+      call keys%complain('sweep', 'values', 'must be within 90 degrees of the angle before: '// &
+                         'between them the load goes straight', point)
+    end do
+  end subroutine check_load_angles
 end module gfb_branch_rules

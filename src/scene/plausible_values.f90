@@ -5,8 +5,8 @@ module gfb_plausible_values
   use gfb_key_elements, only: find_elements
   use gfb_namelist_values, only: read_real, value_string
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: sweep_case_type, sweep_keys, sweep_load, sweep_speed, &
-                            sweep_tilt_x, sweep_tilt_y
+  use gfb_sweep_case, only: sweep_case_type, sweep_keys, sweep_load, sweep_load_angle, &
+                            sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -149,7 +149,7 @@ contains
     type(range_type) :: range
     integer :: i
 
-    if (any(sweep%parameter == [0, sweep_load, sweep_keys])) return
+    if (any(sweep%parameter == [0, sweep_load, sweep_load_angle, sweep_keys])) return
     key = 'eccentricity'
     if (sweep%parameter == sweep_speed) key = 'speed_rpm'
     if (sweep%parameter == sweep_tilt_x .or. sweep%parameter == sweep_tilt_y) key = 'tilt'

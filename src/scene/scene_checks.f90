@@ -2,7 +2,7 @@
 module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
   use gfb_assembly_rules, only: check_assembly, check_crest_gaps, check_bump_sizes
-  use gfb_branch_rules, only: check_edge_lift, check_turn_folds
+  use gfb_branch_rules, only: check_edge_lift, check_turn_folds, check_load_angles
   use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
   use gfb_dynamics_case, only: check_dynamics
@@ -57,6 +57,7 @@ contains
     call check_assembly(keys, scene)
     call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
     call check_turn_folds(keys, scene%sweep, scene%model)
+    call check_load_angles(keys, scene%sweep)
     call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
     call check_restart(keys, scene%output, scene%general%analysis, &
                        scene%sweep%present .or. scene%transient%present)

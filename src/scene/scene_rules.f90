@@ -19,8 +19,8 @@ module gfb_scene_rules
   use gfb_solver_case, only: solver_case_type, linear_solver_direct, linear_solver_iterative
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
-                            sweep_tilt_x, &
-                            sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
+                            sweep_load_angle, sweep_tilt_x, sweep_tilt_y, &
+                            sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: join, text
   implicit none (type, external)
   private
@@ -45,13 +45,13 @@ contains
                          'the shaft at its equilibrium at &operation')
     end if
     select case (sweep%parameter)
-    case (sweep_load)
+    case (sweep_load, sweep_load_angle)
       if (analysis /= analysis_equilibrium .or. sweep%hold_position) then
         call keys%complain('sweep', 'parameter', "needs analysis = 'equilibrium' without "// &
                            'hold_position')
       else if (operation%load_given .and. .not. any(abs(operation%load) > 0.0_wp)) then
         call keys%complain('operation', 'load', 'must not be zero where it is swept: it gives '// &
-                           'the direction')
+                           merge('the direction', 'the magnitude', sweep%parameter == sweep_load))
       end if
     case (sweep_eccentricity_x, sweep_eccentricity_y)
       if (analysis /= analysis_fixed_position) then

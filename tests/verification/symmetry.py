@@ -130,6 +130,29 @@ def scaled_case(scale, pressure):
     return case
 
 
+def check_turned_load(checks, folder):
+    """A load that turns: the answer turns with it where the bearing has no slit; where it has one, each point is that of its own scene."""
+    angles = (170.0, 200.0, 260.0, 320.0, 50.0)
+    size = float(numpy.hypot(*LOAD))
+    turned = [tuple(size*part for part in (numpy.cos(numpy.radians(angle)), numpy.sin(numpy.radians(angle)))) for angle in angles]
+    for name, edge in (("no slit", "periodic"), ("a slit", "slit")):
+        groups = {"bearing": {"leading_edge_condition": edge}, "model": foundation("axial_mean")}
+        more = {"mesh": (72, 8), "number": 3.0, "foil": "elastic_foundation"}
+        history = run(folder, "turned", BEARING, load=turned[0], **more,
+                      groups={**groups, "sweep": {"parameter": "load_angle", "values": angles}}).history()
+        checks.below(f"turned load, {name}: the history has the angles", largest_difference(history["load_angle"], angles), 0.0)
+        shaft = (history["eccentricity_x"] + 1j*history["eccentricity_y"])/BEARING.clearance
+        with_load = shaft*numpy.exp(-1j*numpy.radians(angles))
+        if name == "no slit":
+            checks.below("turned load, no slit: the shaft turns with it", numpy.abs(with_load - with_load[0]).max(), LIMIT)
+            continue
+        checks.that("turned load, a slit: the answer does not turn with it", numpy.abs(with_load - with_load[0]).max() > 1.0e-2)
+        for point, load in enumerate(turned):
+            alone = run(folder, "alone", BEARING, load=load, groups=groups, **more)
+            checks.below(f"turned load, a slit, {angles[point]:g} degrees: the answer of that load",
+                         abs(shaft[point]*BEARING.clearance - complex(*alone.eccentricity))/BEARING.clearance, LIMIT)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -139,6 +162,7 @@ def main():
         check_restoring(checks, folder)
         check_thinnest(checks, folder)
         check_units(checks, folder)
+        check_turned_load(checks, folder)
     checks.close()
 
 

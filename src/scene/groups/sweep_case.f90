@@ -17,15 +17,17 @@ module gfb_sweep_case
   integer, parameter, public :: sweep_tilt_y = 4
   integer, parameter, public :: sweep_eccentricity_x = 5
   integer, parameter, public :: sweep_eccentricity_y = 6
-  integer, parameter, public :: sweep_keys = 7 !! of the case file; each value is another bearing
+  integer, parameter, public :: sweep_load_angle = 7
+  integer, parameter, public :: sweep_keys = 8 !! of the case file; each value is another bearing
 
   character(len=*), parameter, public :: parameter_words(*) = &
     [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', 'tilt_y', 'eccentricity_x', &
-                          'eccentricity_y']
-  character(len=*), parameter :: units(0:7) = [character(len=18) :: &
+                          'eccentricity_y', 'load_angle']
+  character(len=*), parameter :: units(0:8) = [character(len=18) :: &
                                                'that of parameter', 'N', 'rpm', 'rad', 'rad', &
-                                               'm', 'm', 'that of parameter']
+                                               'm', 'm', 'deg', 'that of parameter']
 
+  real(wp), parameter :: degree = acos(-1.0_wp)/180.0_wp !! [rad]
   integer, parameter, public :: every_element = -1 !! of a list
 
   !> A key of the case file, or a value of one that is a list.
@@ -62,7 +64,8 @@ contains
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call keys%choice_or_keys_key('parameter', sweep%parameter, parameter_words, sweep%keys, &
                                  'quantity that is varied; load: its magnitude, in the '// &
-                                 'direction of `load`')
+                                 'direction of `load`; load_angle: its direction from x '// &
+                                 'towards y, its magnitude kept')
     rule = any_value
     if (sweep%parameter == sweep_load) rule = not_negative
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
@@ -155,6 +158,8 @@ contains
       select case (sweep%parameter)
       case (sweep_load)
         there%load = value*(operation%load/hypot(operation%load(1), operation%load(2)))
+      case (sweep_load_angle)
+        there%load = norm2(operation%load)*[cos(value*degree), sin(value*degree)]
       case (sweep_speed)
         there%speed_rpm = value
       case (sweep_tilt_x)

@@ -4,8 +4,8 @@ import statistics
 import textwrap
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, FALLING, LIGHTER, OUTCOMES, REFUSALS, RISING,
-                                        SECOND_WAYS, SLOWER, THIN, imbalance)
+from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, CHEAP, FALLING, LEAST, LIGHTER, OUTCOMES,
+                                        REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, TURNED, imbalance)
 from gfb.tables import markdown_table, plain_table
 
 WORST = 10
@@ -60,6 +60,9 @@ def notes(title):
             f"the edge to the shaft, also at\n{falling}, and it ends in a fold or there. *by a speed sweep*: else one of the speed, "
             f"at {rising}\nor {slower} of it. A touch-down that neither shows: a sweep of the load at\n"
             f"{lighter} of it, too; *{BELOW}*: that one ends in a fold before the load.\n"
+            f"*by a turned load*: else the same load, from a cold start {TURNED[0]:g} degrees away and turned to its direction by "
+            f"{TURNED[0] - TURNED[1]:g} degrees a step, ends on its\nway for the same reason or in a fold. "
+            f"Each sweep has {CHEAP:g} times the CPU time of the refusal, {LEAST:g} s at least.\n"
             "*contradicted*: a sweep gets to the member itself. *not shown*: none of these.\n\n")
 
 

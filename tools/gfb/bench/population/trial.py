@@ -24,13 +24,16 @@ RISING = (0.1, 0.25, 0.5, 0.75, 1.0)  # of the load or the speed, in the sweeps 
 LIGHTER = (0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 1.0)  # where a tenth of the load has no answer either
 FALLING = (4.0, 2.5, 1.6, 1.25, 1.0)
 SLOWER = (2.0, 1.6, 1.3, 1.15, 1.0)   # of the speed, where the film gives way as it falls
+TURNED = tuple(7.5*step for step in range(12, -1, -1))  # of the load's direction, from where it has an answer [deg]
+TURNED_BACK = tuple(-angle for angle in TURNED)
 BY_GAP, BELOW, AGAINST, OPEN = "by its last film", "by a fold below it", "contradicted", "not shown"
-BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep"}
-SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER)),
-          "emptied": (("load", RISING), ("speed_rpm", SLOWER)),
-          "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER)),
-          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING)))}
-CHEAP = 3.0  # times the CPU time of the run that is to be shown, a sweep
+BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep", "load_angle": "by a turned load"}
+TURNS = (("load_angle", TURNED), ("load_angle", TURNED_BACK))
+SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER), *TURNS),
+          "emptied": (("load", RISING), ("speed_rpm", SLOWER), *TURNS),
+          "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER), *TURNS),
+          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *TURNS))}
+CHEAP, LEAST = 3.0, 30.0  # CPU time of a sweep: times that of the run that is to be shown, at least [s]
 SECOND_WAYS = (BY_GAP, *BY_SWEEP.values(), BELOW, AGAINST, OPEN)
 
 
@@ -104,30 +107,45 @@ def second_way(gfb, member, row):
     gap = row["summary"].get("minimum_gap", math.inf)
     if row["outcome"] == "touch-down" and gap <= THIN*TOUCH_DOWN_SHARE*clearance:
         return BY_GAP, 0.0
-    ends = ("fold", *SUCTION) if row["outcome"] in SUCTION else (row["outcome"],)
     spent = 0.0
     for parameter, shares in SWEEPS[row["outcome"]]:
-        again = try_case(gfb, swept(member, parameter, shares), CHEAP*max(row["cpu"], 1.0))
+        again = try_case(gfb, swept(member, parameter, shares), max(LEAST, CHEAP*row["cpu"]))
         spent += again["cpu"]
         if again["outcome"] == ANSWER:
             return AGAINST, spent
-        if again.get("points", 0) > 0 and again["outcome"] in ends:
+        if again.get("points", 0) == 0:
+            continue
+        if again["outcome"] in ends_of(row["outcome"], parameter):
             return BY_SWEEP[parameter], spent
-        if again.get("points", 0) > 0 and again["outcome"] == "fold" and shares is LIGHTER:
+        if again["outcome"] == "fold" and shares is LIGHTER:
             return BELOW, spent  # no film of that branch is so thin: it ends before
     return OPEN, spent
 
 
+def ends_of(outcome, parameter):
+    """How a sweep ends that shows a refusal."""
+    if outcome in SUCTION:
+        return ("fold", *SUCTION)
+    if outcome == "touch-down" and parameter == "load_angle":
+        return (outcome, "fold")
+    return (outcome,)
+
+
 def swept(member, parameter, shares):
-    """A member's groups with a sweep of its load or its speed up or down to what it has."""
+    """A member's groups with a sweep of its load, the load's direction or its speed to what it has."""
     operation = dict(member.groups["operation"])
-    whole = member.load if parameter == "load" else operation["speed_rpm"]
-    if parameter == "load":
-        operation["load"] = tuple(shares[0]*part for part in operation["load"])
+    x, y = operation["load"]
+    if parameter == "load_angle":
+        values = tuple(math.degrees(math.atan2(y, x)) + turn for turn in shares)
+        first = math.radians(values[0])
+        operation["load"] = (member.load*math.cos(first), member.load*math.sin(first))
+    elif parameter == "load":
+        values = tuple(share*member.load for share in shares)
+        operation["load"] = (shares[0]*x, shares[0]*y)
     else:
-        operation["speed_rpm"] = shares[0]*whole
-    sweep = {"parameter": parameter, "values": tuple(share*whole for share in shares)}
-    return {**member.groups, "operation": operation, "sweep": sweep}
+        values = tuple(share*operation[parameter] for share in shares)
+        operation[parameter] = values[0]
+    return {**member.groups, "operation": operation, "sweep": {"parameter": parameter, "values": values}}
 
 
 def imbalance(member, row):
