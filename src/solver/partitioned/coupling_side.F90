@@ -34,6 +34,8 @@ module gfb_coupling_side
     Mat, private :: yielding              !! pressures by the foil's unknowns, scaled
     Mat, private :: felt, stiffening      !! the foil's equations by the pressures; product of both
     logical, private :: multiplied = .false.
+    !> of each unknown this rank knows: a pressure's among `film_part`, a displacement's in `part`, from 0 on
+    integer, allocatable, private :: number(:)
   contains
     procedure :: evaluate => evaluate_side
     procedure :: linearise => linearise_side
@@ -54,21 +56,27 @@ contains
     logical, intent(in) :: of_foil !! the foil's side; else that of film and shaft
     type(coupling_side_type), intent(inout) :: side !! is created
 
-    PetscInt :: first, last, start, behind, i
-    PetscInt, allocatable :: number(:)
+    PetscInt :: first, last
+    PetscInt, allocatable :: film(:), foil(:), number(:)
     PetscErrorCode :: ierr
+    integer :: i, k
 
     side%bearing => bearing
     side%of_foil = of_foil
     side%dense_rows = bearing%dense_rows .and. .not. of_foil
     PetscCallA(VecGetOwnershipRange(bearing%state, first, last, ierr))
-    start = first + int(bearing%blocks%first_owned(2), pint)
-    behind = first + int(bearing%blocks%first_owned(3), pint)
-    if (of_foil) then
-      number = [(i, i=start, behind - 1)]
-    else
-      number = [(i, i=first, start - 1), (i, i=behind, last - 1)]
-    end if
+    allocate (film(0), foil(0))
+    associate (block => bearing%blocks%first_owned)
+      do i = 1, size(bearing%pad)
+        film = [film, [(first + int(k, pint), k=block(2*i - 1), block(2*i) - 1)]]
+        foil = [foil, [(first + int(k, pint), k=block(2*i), block(2*i + 1) - 1)]]
+      end do
+      if (of_foil) then
+        number = foil
+      else
+        number = [film, [(first + int(k, pint), k=block(2*size(bearing%pad) + 1), int(last - first) - 1)]]
+      end if
+    end associate
     PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, size(number, kind=pint), number, PETSC_COPY_VALUES, side%part, ierr))
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, size(number, kind=pint), PETSC_DETERMINE, side%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, side%whole, ierr))
@@ -76,50 +84,85 @@ contains
     PetscCallA(VecDuplicate(bearing%state, side%whole_step, ierr))
     PetscCallA(MatCreateSubMatrix(bearing%jacobian, side%part, side%part, MAT_INITIAL_MATRIX, side%jacobian, ierr))
     call side%take()
-    if (of_foil) call create_yielding(side, first, start)
+    if (of_foil) call create_yielding(side, film)
   end subroutine create_side
 
   !> Room for how the pressures yield to the foil.
-  subroutine create_yielding(side, first, behind)
+  subroutine create_yielding(side, film)
     type(coupling_side_type), intent(inout) :: side
-    PetscInt, intent(in) :: first, behind !! this rank's pressures among the bearing's unknowns
+    PetscInt, intent(in) :: film(:) !! this rank's pressures among the bearing's unknowns
     PetscInt, parameter :: one = 1
-    PetscInt :: unknowns
+    PetscInt :: pressures, unknowns
     PetscErrorCode :: ierr
 
-    PetscCallA(ISCreateStride(PETSC_COMM_WORLD, behind - first, first, one, side%film_part, ierr))
-    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, behind - first, PETSC_DETERMINE, side%pressure, ierr))
+    pressures = size(film, kind=pint)
+    PetscCallA(ISCreateGeneral(PETSC_COMM_WORLD, pressures, film, PETSC_COPY_VALUES, side%film_part, ierr))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, pressures, PETSC_DETERMINE, side%pressure, ierr))
     PetscCallA(VecDuplicate(side%state, side%kept, ierr))
     PetscCallA(VecDuplicate(side%state, side%moved, ierr))
     PetscCallA(VecGetLocalSize(side%state, unknowns, ierr))
-    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, behind - first, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, one, PETSC_NULL_INTEGER_ARRAY, side%yielding, ierr))
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, pressures, unknowns, PETSC_DETERMINE, PETSC_DETERMINE, one, PETSC_NULL_INTEGER_ARRAY, one, PETSC_NULL_INTEGER_ARRAY, side%yielding, ierr))
     PetscCallA(MatCreateSubMatrix(side%bearing%jacobian, side%part, side%film_part, MAT_INITIAL_MATRIX, side%felt, ierr))
+    call number_parts(side)
   end subroutine create_yielding
+
+  !> Numbers what this rank knows of the bearing's unknowns, those of other ranks too: pressures among the pressures, the
+  !> foils' displacements among those of the side.
+  subroutine number_parts(side)
+    type(coupling_side_type), intent(inout) :: side
+    real(wp) :: number(side%bearing%local_size())
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecSet(side%whole, 0.0_wp, ierr))
+    call number_part(side%part, side%moved)
+    call number_part(side%film_part, side%pressure)
+    call side%bearing%get_unknowns(number, side%whole)
+    side%number = nint(number/side%bearing%unknown_scale)
+
+  contains
+
+    !> Numbers the unknowns of a part from 0 on.
+    subroutine number_part(part, vector)
+      IS, intent(in) :: part      !! of the bearing's unknowns
+      Vec, intent(in) :: vector   !! of the part; is overwritten
+      PetscInt :: first, last, i
+      PetscErrorCode :: ierr
+
+      PetscCallA(VecGetOwnershipRange(vector, first, last, ierr))
+      PetscCallA(VecSetValues(vector, last - first, [(i, i=first, last - 1)], [(real(i, wp), i=first, last - 1)], INSERT_VALUES, ierr))
+      PetscCallA(VecAssemblyBegin(vector, ierr))
+      PetscCallA(VecAssemblyEnd(vector, ierr))
+      PetscCallA(VecISCopy(side%whole, part, SCATTER_FORWARD, vector, ierr))
+    end subroutine number_part
+  end subroutine number_parts
 
   !> Fixes the film of the bearing's present state: its pressures where the foil stays, and the gas
   !> in the gap where it moves.
   subroutine fix_film(self)
     class(coupling_side_type), intent(inout) :: self !! the side
 
-    real(wp) :: unknown(self%bearing%local_size()), gap(size(self%bearing%pad(1)%mesh%mesh_node)), rate
+    real(wp) :: unknown(self%bearing%local_size()), gap(self%bearing%film_nodes()), rate
     PetscInt :: row(1), column(1)
     PetscErrorCode :: ierr
-    integer :: node, source
+    integer :: i, node, source
 
     call self%bearing%get_unknowns(unknown)
     gap = self%bearing%gap(unknown)
     PetscCallA(VecISCopy(self%bearing%state, self%part, SCATTER_REVERSE, self%kept, ierr))
-    associate (mesh => self%bearing%pad(1)%mesh, foil => self%bearing%pad(1)%foil, film => self%bearing%pad(1)%film)
-      do node = 1, size(gap)
-        source = foil%source(node) - foil%first
-        if (.not. mesh%owned(node) .or. source < 1) cycle
-        rate = -gas_share*unknown(node)/gap(node)*foil%rate(node)*foil%unknown_scale(source)/film%ambient_pressure
-        if (film%fixed(node)) rate = 0.0_wp
-        row = int(mesh%first_unknown(node) - 1, pint)
-        column = int(foil%global_unknown(source) - 1, pint)
-        PetscCallA(MatSetValues(self%yielding, 1_pint, row, 1_pint, column, [rate], INSERT_VALUES, ierr))
-      end do
-    end associate
+    do i = 1, size(self%bearing%pad)
+      associate (pad => self%bearing%pad(i), foil => self%bearing%pad(i)%foil, film => self%bearing%pad(i)%film)
+        do node = 1, size(pad%mesh%mesh_node)
+          source = foil%source(node) - foil%first
+          if (.not. pad%mesh%owned(node) .or. source < 1) cycle
+          rate = -gas_share*unknown(pad%first + node)/gap(pad%first_node + node)*foil%rate(node)* &
+            foil%unknown_scale(source)/film%ambient_pressure
+          if (film%fixed(node)) rate = 0.0_wp
+          row = int(self%number(pad%first + node), pint)
+          column = int(self%number(pad%first + foil%source(node)), pint)
+          PetscCallA(MatSetValues(self%yielding, 1_pint, row, 1_pint, column, [rate], INSERT_VALUES, ierr))
+        end do
+      end associate
+    end do
     PetscCallA(MatAssemblyBegin(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%yielding, MAT_FINAL_ASSEMBLY, ierr))
   end subroutine fix_film
@@ -165,9 +208,9 @@ contains
 
     call complete(self, state)
     clearance = self%bearing%pad(1)%film%clearance
-    if (self%of_foil) self%bearing%pad(1)%film%clearance = room*clearance
+    if (self%of_foil) self%bearing%pad(:)%film%clearance = room*clearance
     call self%bearing%evaluate(self%whole, self%whole_residual, valid)
-    self%bearing%pad(1)%film%clearance = clearance
+    self%bearing%pad(:)%film%clearance = clearance
     PetscCallA(VecISCopy(self%whole_residual, self%part, SCATTER_REVERSE, residual, ierr))
   end subroutine evaluate_side
 
@@ -180,9 +223,9 @@ contains
 
     call complete(self, state)
     clearance = self%bearing%pad(1)%film%clearance
-    if (self%of_foil) self%bearing%pad(1)%film%clearance = room*clearance
+    if (self%of_foil) self%bearing%pad(:)%film%clearance = room*clearance
     call self%bearing%linearise(self%whole)
-    self%bearing%pad(1)%film%clearance = clearance
+    self%bearing%pad(:)%film%clearance = clearance
     PetscCallA(MatCreateSubMatrix(self%bearing%jacobian, self%part, self%part, MAT_REUSE_MATRIX, self%jacobian, ierr))
     if (self%of_foil) call stiffen(self)
   end subroutine linearise_side

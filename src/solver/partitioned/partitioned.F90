@@ -67,7 +67,7 @@ contains
     PetscCallA(VecDuplicate(sides%foil%state, sides%answer, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%change, ierr))
     PetscCallA(VecDuplicate(sides%foil%state, sides%kept_before, ierr))
-    allocate (sides%asked(count(bearing%pad(1)%mesh%owned)), source=0.0_wp)
+    allocate (sides%asked(size(deflection(bearing))), source=0.0_wp)
     call create_anderson(sides%foil%state, size(sides%asked), sides%anderson)
     sides%created = .true.
   end subroutine create_partitioned
@@ -212,11 +212,17 @@ contains
   !> Deflection of the film nodes that this rank owns [m].
   function deflection(bearing)
     type(bearing_system_type), intent(in) :: bearing
-    real(wp) :: deflection(count(bearing%pad(1)%mesh%owned))
+    real(wp), allocatable :: deflection(:)
     real(wp) :: unknown(bearing%local_size())
+    integer :: i
 
     call bearing%get_unknowns(unknown)
-    deflection = pack(bearing%pad(1)%foil%deflection(unknown), bearing%pad(1)%mesh%owned)
+    allocate (deflection(0))
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        deflection = [deflection, pack(pad%foil%deflection(unknown(pad%first + 1:pad%last)), pad%mesh%owned)]
+      end associate
+    end do
   end function deflection
 
   !> What the film is solved with next, not too far away.
