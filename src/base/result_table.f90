@@ -115,11 +115,9 @@ module gfb_result_table
     result_type('minimum_gap_<n>', 'm', number, bearing, 'smallest film thickness over pad n', &
       'of several pads: smallest film thickness over each', nodal=.true.), &
     result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
-      'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true., &
-      nodal=.true.), &
+      'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true., nodal=.true.), &
     result_type('minimum_gap_edge', 'm', number, bearing, &
-      'smallest film thickness at the bearing edges', asked=.true., joins=.true., &
-      nodal=.true.), &
+      'smallest film thickness at the bearing edges', asked=.true., joins=.true., nodal=.true.), &
     result_type('maximum_pressure', 'Pa', number, bearing, 'largest absolute pressure', &
       'largest and smallest absolute pressure', asked=.true., nodal=.true.), &
     result_type('minimum_pressure', 'Pa', number, bearing, 'smallest absolute pressure', &
@@ -132,6 +130,8 @@ module gfb_result_table
     result_type('leading_edge_lift_edge', 'm', number, bearing, &
       'displacement of the top foil''s edge towards the shaft, at the ends of the bearing', &
       compared=.true., joins=.true.), &
+    result_type('leading_edge_lift_<n>', 'm', number, bearing, 'leading_edge_lift of pad n'), &
+    result_type('leading_edge_lift_edge_<n>', 'm', number, bearing, 'the same at the ends'), &
     result_type('trailing_edge_lift', 'm', number, bearing, &
       'displacement of the top foil''s edge towards the shaft, at z = 0', &
       compared=.true., joins=.true.), &

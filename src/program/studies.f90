@@ -85,10 +85,6 @@ contains
                 'looked for on one branch')
       return
     end if
-    if (scene%bearing%pads > 1) then
-      call fail(error, scene%file//': --branches needs a bearing of one pad: count = 1 in &pads')
-      return
-    end if
     select case (scene%general%analysis)
     case (analysis_strip, analysis_modes) ! they have one answer, which is found as ever
     case default

@@ -88,6 +88,9 @@ contains
       call add_result(list, 'force_x_'//text(i), answer%pad_force(1, i))
       call add_result(list, 'force_y_'//text(i), answer%pad_force(2, i))
       call add_result(list, 'minimum_gap_'//text(i), answer%pad_gap(i))
+      if (.not. answer%has_foils) cycle
+      call add_result(list, 'leading_edge_lift_'//text(i), answer%pad_lift(1, i))
+      call add_result(list, 'leading_edge_lift_edge_'//text(i), answer%pad_lift(2, i))
     end do
   end subroutine add_pads
 
@@ -184,13 +187,9 @@ contains
                     lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
       call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
                     ' % of their length touch nothing')
-      if (maxval([answer%leading_edge_lift, answer%trailing_edge_lift]) > lifted*clearance) then
-        if (allocated(answer%pad_gap)) then
-          call log%line('                 an edge is lifted; it may lie on its bumps, too')
-        else
-          call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
-                        'gfb --branches lists equilibria')
-        end if
+      if (max(maxval(answer%pad_lift), maxval(answer%trailing_edge_lift)) > lifted*clearance) then
+        call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
+                      'gfb --branches lists equilibria')
       end if
     end if
     if (answer%has_solid_contact) then

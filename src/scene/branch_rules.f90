@@ -11,9 +11,6 @@ module gfb_branch_rules
   private
   public :: check_edge_lift, check_turn_folds, check_load_angles
 
-  character(len=*), parameter :: lift_keys(2) = [character(len=22) :: 'leading_edge_lift', &
-                                                 'leading_edge_lift_edge']
-
 contains
 
   !> A branch can be asked for by the lift of an edge that is free to lift.
@@ -24,7 +21,6 @@ contains
     type(top_foil_case_type), intent(in) :: top_foil !! what `&top_foil` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     character(len=:), allocatable :: problem
-    integer :: i
 
     problem = ''
     if (analysis /= analysis_equilibrium) then
@@ -37,9 +33,12 @@ contains
       problem = "needs coupling = 'monolithic' in &model"
     end if
     if (problem == '' .or. analysis == 0 .or. model%foil == 0) return
-    do i = 1, size(lift_keys)
-      if (operation%lift_given(i)) call keys%complain('operation', trim(lift_keys(i)), problem)
-    end do
+    if (size(operation%leading_edge_lift) > 0) then
+      call keys%complain('operation', 'leading_edge_lift', problem)
+    end if
+    if (size(operation%leading_edge_lift_edge) > 0) then
+      call keys%complain('operation', 'leading_edge_lift_edge', problem)
+    end if
   end subroutine check_edge_lift
 
   !> A branch is followed round its folds between two values, with all its points in equilibrium.

@@ -43,7 +43,7 @@ contains
     call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, &
                         scene%contact%may_rub, scene%contact%friction_law, scene%sweep, &
                         scene%accuracy%present)
-    call check_pads(keys, scene%bearing, scene%operation, scene%model)
+    call check_pads(keys, scene%bearing, scene%operation)
     call check_foil_mass(keys, scene%dynamics, scene%model, scene%top_foil, scene%bump_foil)
     call check_rotor(keys, scene%rotor, scene%operation, scene%sweep, scene%dynamics%present)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &

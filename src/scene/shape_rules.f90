@@ -95,10 +95,8 @@ contains
 
     arm = 0.5_wp*scene%bearing%length
     associate (radius => scene%bearing%radius, operation => scene%operation, sweep => scene%sweep)
-      call must_be_less(keys, 'operation', 'leading_edge_lift', &
-                        operation%leading_edge_lift(1), thin*radius, '1/20'//thin_film)
-      call must_be_less(keys, 'operation', 'leading_edge_lift_edge', &
-                        operation%leading_edge_lift(2), thin*radius, '1/20'//thin_film)
+      call lifts_must_be_less('leading_edge_lift', operation%leading_edge_lift)
+      call lifts_must_be_less('leading_edge_lift_edge', operation%leading_edge_lift_edge)
       if (scene%model%foil == foil_rigid) return
       call must_be_less(keys, 'operation', 'eccentricity', norm2(operation%eccentricity), &
                         thin*radius, '1/20'//thin_film)
@@ -118,6 +116,25 @@ contains
         end select
       end do
     end associate
+
+  contains
+
+    !> Complains about lifts that are no thin film's.
+    subroutine lifts_must_be_less(key, lift)
+      character(len=*), intent(in) :: key
+      real(wp), intent(in) :: lift(:) !! one, or of each pad [m]
+      integer :: pad
+
+      if (size(lift) == 1) then
+        call must_be_less(keys, 'operation', key, lift(1), thin*scene%bearing%radius, &
+                          '1/20'//thin_film)
+        return
+      end if
+      do pad = 1, size(lift)
+        call must_be_less(keys, 'operation', key, lift(pad), thin*scene%bearing%radius, &
+                          '1/20'//thin_film, pad)
+      end do
+    end subroutine lifts_must_be_less
   end subroutine check_position
 
   !> Complains about a size that is not less than its limit; none where the limit is not known.

@@ -118,10 +118,58 @@ def with_free_edges(bearing, load):
             "mesh": {"circumferential_elements": 6*bumps["bumps"], "axial_elements": 8, "arc_elements": 8, "flat_elements": 2}}
 
 
+def check_turns(checks, folder):
+    """Film and foils in turns end where they end together."""
+    for foil, limit in (("elastic_foundation", 1.0e-7), ("beam", 1.0e-7)):
+        model = {"foil": foil} | ({} if foil == "beam" else {"foundation_stiffness": 6.0e9})
+        together, turns = (solve(folder, coupling, of_pads(foil, {"count": 3}, load=(-60.0, 20.0),
+                                                           model={**model, "coupling": coupling}))
+                           for coupling in ("monolithic", "partitioned"))
+        for name in ("eccentricity_x", "minimum_gap", "minimum_gap_2", "force_x_1", "friction_torque"):
+            checks.below(f"{foil}: in turns, {name}", turns[name]/together[name] - 1.0, limit)
+    ranks = solve(folder, "ranks", of_pads("beam", {"count": 3}, load=(-60.0, 20.0),
+                                           model={"foil": "beam", "coupling": "partitioned"}), ranks=4)
+    checks.below("in turns, four ranks", ranks["minimum_gap"]/turns["minimum_gap"] - 1.0, limit)
+
+
 def turned(vector, times):
     """A vector, on by so many of three pads."""
     angle = times*TURN
     return (vector[0]*math.cos(angle) - vector[1]*math.sin(angle), vector[0]*math.sin(angle) + vector[1]*math.cos(angle))
+
+
+def lifts(rows, row):
+    """Lifts of the pads' leading edges in a row."""
+    return [rows[f"leading_edge_lift_{pad + 1}"][row] for pad in range(3)]
+
+
+def check_branches(checks, folder):
+    """Equilibria of three pads: those of a load turned by a pad are the same with the pads turned; one asked for is found; the
+    cold start takes one whose edges all rest, where there is one."""
+    free = {group: {**keys, "fixed_edge": "trailing"} if "fixed_edge" in keys else keys for group, keys in FOILS.items()}
+    free["bump_foil"] = {**free["bump_foil"], "bumps": 5}
+    load, clearance = (-20.0, 5.0), 3.18e-5
+    scenes = [of_pads("beam", {"count": 3, "arc": 1.9, "preload": 0.0}, load=turned(load, times), **free) for times in range(2)]
+    tables = [solve(folder, "all", scene, options=("--branches",)).history() for scene in scenes]
+    checks.that("branches: several, whose edges are lifted pad by pad", len(tables[0]["branch"]) >= 4)
+    checks.that("branches: a load turned has as many", len(tables[0]["branch"]) == len(tables[1]["branch"]))
+    for row in range(len(tables[0]["branch"])):
+        place, there = (numpy.array([table["eccentricity_x"], table["eccentricity_y"]]).T/clearance for table in tables)
+        wanted = turned(place[row], 1)
+        other = min(range(len(there)), key=lambda i: math.dist(there[i], wanted))
+        here, turn = lifts(tables[0], row), lifts(tables[1], other)
+        off = max(math.dist(there[other], wanted), max(abs(turn[(pad + 1) % 3] - here[pad]) for pad in range(3))/clearance)
+        checks.below(f"branches: equilibrium {row + 1}, turned by a pad", off, 1.0e-6)
+        asked = {**scenes[0], "operation": {**scenes[0]["operation"], "leading_edge_lift": tuple(float(f"{lift:.4g}") for lift in here)}}
+        found = solve(folder, "asked", asked)
+        checks.below(f"branches: equilibrium {row + 1}, asked for by its lifts",
+                     math.dist((found["eccentricity_x"]/clearance, found["eccentricity_y"]/clearance), place[row]), 1.0e-7)
+        checks.below(f"branches: equilibrium {row + 1}, the pads bear the load",
+                     math.dist([sum(found[f"force_{axis}_{pad}"] for pad in (1, 2, 3)) for axis in "xy"], load)/math.hypot(*load), 1.0e-9)
+    cold = solve(folder, "cold", scenes[0])
+    resting = [row for row in range(len(tables[0]["branch"])) if max(lifts(tables[0], row)) < 0.02*clearance]
+    checks.that("branches: the cold start ends where all edges rest", len(resting) > 0 and min(
+        abs(tables[0]["eccentricity_x"][row] - cold["eccentricity_x"]) for row in resting) < 1.0e-9*clearance)
 
 
 def check_free_edges(checks, folder):
@@ -182,7 +230,7 @@ def check_sweep(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_reference, check_order, check_preload, check_three, check_free_edges, check_bore, check_film, check_sweep):
+        for check in (check_reference, check_order, check_preload, check_three, check_turns, check_free_edges, check_branches, check_bore, check_film, check_sweep):
             check(checks, folder)
     checks.close()
 

@@ -157,7 +157,7 @@ def check_folds(checks, folder):
     checks.that("beams: there and back round a fold", list(load[[0, 1, 3, 4]]) == [60.0, 30.0, 30.0, 60.0]
                 and 20.0 < load[2] < 30.0)
     checks.below("beams: equilibria on both sides of a fold", abs(force/load + 1.0).max(), 1.0e-7)
-    checks.that("beams: they are different", place[3] - place[1] > 1.0e-8)
+    checks.that("beams: they are different", abs(place[3] - place[1]) > 1.0e-8)
     checks.that("beams: the determinant changes its sign at a fold", sign[0] == sign[1] == -sign[3] == -sign[4])
     checks.that("beams: so does the least of the edges' stiffnesses", firmness[1]*firmness[3] < 0.0
                 and numpy.array_equal(edges.min(axis=0), firmness))

@@ -41,6 +41,7 @@ module gfb_bearing_answer
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
     real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
+    real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
   end type bearing_answer_type
 
 contains
@@ -165,19 +166,24 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
-    real(wp) :: share(2), sums(8)
+    real(wp) :: share(2), sums(8, size(bearing%pad)), total(8)
     integer :: i
 
     sums = 0.0_wp
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        call add_lifts(pad, -pad%foil%deflection(unknown(pad%first + 1:pad%last)), sums)
+        call add_lifts(pad, -pad%foil%deflection(unknown(pad%first + 1:pad%last)), sums(:, i))
       end associate
     end do
-    sums = sum_over_ranks(sums)
+    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    total = sums(:, 1)
+    do i = 2, size(bearing%pad)
+      total = total + sums(:, i)
+    end do
     answer%has_foils = .true.
-    answer%leading_edge_lift = sums(:2)/sums(3:4)
-    answer%trailing_edge_lift = sums(5:6)/sums(7:8)
+    answer%leading_edge_lift = total(:2)/total(3:4)
+    answer%trailing_edge_lift = total(5:6)/total(7:8)
+    answer%pad_lift = sums(:2, :)/sums(3:4, :)
     share = bearing%pad(1)%foil%crest_lengths()
     do i = 2, size(bearing%pad)
       share = share + bearing%pad(i)%foil%crest_lengths()

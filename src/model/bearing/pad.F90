@@ -200,8 +200,8 @@ contains
       loading = unknown
       loading(:nodes) = self%loading(unknown, gap)
       call self%foil%add_residual(loading, residual)
-      call self%edge%add_pull(point%edge_pull, residual)
-      call self%edge%add_tension(point%edge_tension, unknown, residual)
+      call self%edge%add_pull(point%edge_pull(self%number), residual)
+      call self%edge%add_tension(point%edge_tension(self%number), unknown, residual)
       call self%edge%add_hold(point%edge_hold(self%number), point%edge_height(self%number), unknown, residual)
       PetscCallA(PetscLogEventEnd(events%foil, ierr))
     end associate

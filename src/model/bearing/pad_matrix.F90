@@ -67,7 +67,7 @@ contains
     PetscCallA(PetscLogEventEnd(events%film, ierr))
     PetscCallA(PetscLogEventBegin(events%foil, ierr))
     call pad%foil%add_jacobian(unknown, matrix)
-    if (abs(point%edge_tension) > 0.0_wp) call add_tension(pad%edge, point%edge_tension, matrix)
+    if (abs(point%edge_tension(pad%number)) > 0.0_wp) call add_tension(pad%edge, point%edge_tension(pad%number), matrix)
     if (point%edge_hold(pad%number) > 0.0_wp) call add_hold(pad%edge, point%edge_hold(pad%number), matrix)
     PetscCallA(PetscLogEventEnd(events%foil, ierr))
   end subroutine fill_pad

@@ -1,6 +1,6 @@
 !> `&operation`: speed, load and position of the shaft.
 module gfb_operation_case
-  use gfb_kinds, only: wp
+  use gfb_kinds, only: wp, most_pads
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
@@ -22,14 +22,27 @@ module gfb_operation_case
     real(wp) :: load(2) = 0.0_wp          !! external force on the shaft, x and y [N]
     real(wp) :: eccentricity(2) = 0.0_wp  !! of the sleeve relative to the shaft, x and y [m]
     real(wp) :: tilt(2) = 0.0_wp          !! of the sleeve against the shaft, about x and y [rad]
-    real(wp) :: leading_edge_lift(2) = 0.0_wp !! to start with, at the midplane, at the ends [m]
-    logical :: lift_given(2) = .false.
+    real(wp), allocatable :: leading_edge_lift(:) !! of each pad or all, to start with, z = 0 [m]
+    real(wp), allocatable :: leading_edge_lift_edge(:) !! the same at the ends [m]
     logical :: load_given = .false.
     logical :: eccentricity_given = .false.
     logical :: tilt_is_sought = .false. !! a tilt is looked for, beginning with `tilt`
+  contains
+    procedure :: asks_for_lift
   end type operation_case_type
 
 contains
+
+  !> Whether the file asks for lifts of free edges.
+  pure function asks_for_lift(self) result(asks)
+    class(operation_case_type), intent(in) :: self !! what `&operation` asks for
+    logical :: asks
+
+    asks = .false.
+    if (allocated(self%leading_edge_lift)) asks = size(self%leading_edge_lift) > 0
+    if (asks .or. .not. allocated(self%leading_edge_lift_edge)) return
+    asks = size(self%leading_edge_lift_edge) > 0
+  end function asks_for_lift
 
   !> Reads the group; what it must hold depends on the analysis.
   subroutine read_operation_case(keys, operation, analysis, may_rest)
@@ -60,14 +73,14 @@ contains
                               given=operation%eccentricity_given)
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
                               'rotation of the sleeve relative to the shaft, about x and y')
-    call keys%real_key('leading_edge_lift', operation%leading_edge_lift(1), 'm', &
-                       'look for the equilibrium whose top foil''s free leading edge is lifted '// &
-                       'this far towards the shaft at the midplane, or, negative, away from it', &
-                       any_value, &
-                       default=no_default, given=operation%lift_given(1))
-    call keys%real_key('leading_edge_lift_edge', operation%leading_edge_lift(2), 'm', &
-                       'the same at the ends of the bearing', any_value, default=no_default, &
-                       given=operation%lift_given(2))
+    call keys%real_list_key('leading_edge_lift', operation%leading_edge_lift, most_pads, 'm', &
+                            'look for the equilibrium whose top foil''s free leading edge is '// &
+                            'lifted this far towards the shaft at the midplane, or, negative, '// &
+                            'away from it; of several pads each one''s, or one value for all', &
+                            any_value, required=.false., default=no_default)
+    call keys%real_list_key('leading_edge_lift_edge', operation%leading_edge_lift_edge, most_pads, &
+                            'm', 'the same at the ends of the bearing', any_value, &
+                            required=.false., default=no_default)
     call keys%finish_group()
   end subroutine read_operation_case
 

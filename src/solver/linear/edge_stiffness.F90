@@ -55,7 +55,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! is left as it is
     Vec, intent(in) :: work  !! is overwritten
     Vec, intent(in) :: force !! taken away from the residual, scaled
-    real(wp) :: pull_before
+    real(wp) :: pull_before(size(bearing%point%edge_pull))
     logical :: valid
     PetscErrorCode :: ierr
 

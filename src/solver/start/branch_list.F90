@@ -10,25 +10,29 @@ module gfb_branch_list
   use gfb_newton, only: newton_type
   implicit none (type)
   private
-  public :: take_branch, destroy_branches
+  public :: take_branch, destroy_branches, lifts_of_pads
 
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
+  real(wp), parameter :: same_lifts = 1.0e-10_wp !! of midplane and ends, that are not told apart [m]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   !> An equilibrium.
   type, public :: branch_type
     Vec :: state                 !! scaled
     type(bearing_answer_type) :: answer
+    integer :: pulled_pad = 0 !! whose edge led there; 0: none
   end type branch_type
 
   !> What is looked for, and what was found; the first is where the search began.
   type, public :: branch_search_type
     logical :: given(2) = .false.    !! lifts asked for at the midplane, at the bearing's ends
-    real(wp) :: wanted(2) = 0.0_wp   !! them [m]
+    real(wp), allocatable :: wanted(:, :) !! (2, pads) them [m]
+    integer :: pulled_pad = 0        !! whose edge is pulled now; 0: none
     real(wp) :: close_enough = 0.0_wp !! to them [m]
     real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
     type(branch_type), allocatable :: branch(:)
   contains
+    procedure :: wanted_of
     procedure :: nearest_branch
     procedure :: is_found
     procedure :: collect
@@ -63,14 +67,31 @@ contains
     PetscCallA(VecCopy(bearing%state, work, ierr))
     new%state = work
     new%answer = bearing_answer(bearing)
+    new%pulled_pad = self%pulled_pad
     self%branch = [self%branch, new]
     associate (answer => new%answer, clearance => bearing%pad(1)%film%clearance)
       call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
                            text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
                            '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
-                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)')
+                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)'//lifts_of_pads(answer%pad_lift))
     end associate
   end subroutine collect
+
+  !> Lifts of the leading edges of several pads [um], at the midplane, and at the ends where they differ; nothing of one.
+  pure function lifts_of_pads(lift) result(words)
+    real(wp), intent(in) :: lift(:, :) !! (2, pads) [m]
+    character(len=:), allocatable :: words
+    integer :: pad
+
+    words = ''
+    if (size(lift, 2) == 1) return
+    words = ', by pads'
+    do pad = 1, size(lift, 2)
+      words = words//' '//text(lift(1, pad)*micrometres, 4)
+      if (abs(lift(2, pad) - lift(1, pad)) > same_lifts) words = words//' ('//text(lift(2, pad)*micrometres, 4)//')'
+    end do
+    words = words//' um'
+  end function lifts_of_pads
 
   !> Two lifts [um].
   pure function lifts(value) result(words)
@@ -78,6 +99,14 @@ contains
     character(len=:), allocatable :: words
     words = '('//text(value(1)*micrometres, 3)//', '//text(value(2)*micrometres, 3)//')'
   end function lifts
+
+  !> Mean lift of a pad's leading edge that is asked for [m].
+  pure function wanted_of(self, pad) result(mean)
+    class(branch_search_type), intent(in) :: self !! the search
+    integer, intent(in) :: pad !! its number
+    real(wp) :: mean
+    mean = sum(self%wanted(:, pad), mask=self%given)/real(count(self%given), wp)
+  end function wanted_of
 
   !> The equilibrium whose leading edge is lifted most nearly as asked for.
   pure function nearest_branch(self) result(number)
@@ -94,6 +123,7 @@ contains
     logical :: found
 
     found = .false.
+    if (.not. allocated(self%branch)) return
     if (any(self%given)) found = distance(self, self%nearest_branch()) <= self%close_enough
   end function is_found
 
@@ -102,7 +132,8 @@ contains
     type(branch_search_type), intent(in) :: search
     integer, intent(in) :: number
     real(wp) :: distance
-    distance = maxval(abs(search%branch(number)%answer%leading_edge_lift - search%wanted), mask=search%given)
+    distance = maxval(abs(search%branch(number)%answer%pad_lift - search%wanted), &
+                      mask=spread(search%given, 2, size(search%wanted, 2)))
   end function distance
 
   !> Puts the bearing on a branch.

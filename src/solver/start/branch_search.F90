@@ -11,18 +11,22 @@ module gfb_branch_search
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift
+  use gfb_bearing_directions, only: edge_lift, edge_words
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_arc, only: arc_type, end_arc
   use gfb_arc_length, only: begin_arc, advance_arc
   use gfb_kept_state, only: kept_state_type
+  use gfb_start_problem, only: start_problem_type, with_fixed_edges, settings_with_fixed_edge
+  use gfb_start_position, only: solve_at
   use gfb_branch_list, only: branch_search_type, take_branch, destroy_branches
   implicit none (type)
   private
   public :: find_branches, seek_branch
 
+  real(wp), parameter :: first_step = 0.25_wp   !! of a path with edges fixed, to their heights [1]
   integer, parameter :: most_steps = 600        !! along one curve
+  integer, parameter :: most_starts = 8         !! equilibria of several pads that edges are pulled from
   integer, parameter :: steps_a_line = 100      !! of progress
   integer, parameter :: most_release_steps = 200 !! of the string, a decade
   integer, parameter :: decades = 4             !! of its tension, before it is none
@@ -36,39 +40,72 @@ module gfb_branch_search
 contains
 
   !> Goes over to the equilibrium whose leading edge is lifted as asked for.
-  subroutine seek_branch(given, wanted, bearing, newton)
-    logical, intent(in) :: given(2)   !! lifts asked for at the midplane, at the bearing's ends
-    real(wp), intent(in) :: wanted(2) !! them [m]
-    type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium; that may be another one after
-    type(newton_type), target, intent(inout) :: newton          !! its solver
+  subroutine seek_branch(midplane, ends, problem)
+    !> lifts asked for at the midplane and at the bearing's ends: none, one for all pads, or one for each [m]
+    real(wp), intent(in) :: midplane(:), ends(:)
+    type(start_problem_type), intent(inout) :: problem !! in equilibrium; that may be another one after
     type(branch_search_type) :: search
-    real(wp) :: lift, mean
+    type(kept_state_type) :: start
+    real(wp) :: lift(size(problem%bearing%pad)), mean(size(problem%bearing%pad))
+    integer :: pad
+    logical :: there
 
-    search%given = given
-    search%wanted = wanted
-    search%close_enough = same_lift*bearing%pad(1)%film%clearance
-    lift = edge_lift(bearing)
-    mean = sum(search%wanted, mask=search%given)/real(count(search%given), wp)
-    search%lifts = [min(lift, mean), max(lift, mean)]
-    search%lifts = search%lifts + lift_margin*(bearing%pad(1)%film%clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
-    call find_branches(bearing, newton, search)
-    call take_branch(bearing, bearing%point, search%branch(search%nearest_branch()))
-    if (.not. search%is_found()) then
-      call newton%log%line('no equilibrium was found with its leading edge lifted as asked for; the nearest is taken')
-    end if
+    associate (bearing => problem%bearing, clearance => problem%bearing%pad(1)%film%clearance)
+      search%given = [size(midplane) > 0, size(ends) > 0]
+      allocate (search%wanted(2, size(bearing%pad)), source=0.0_wp)
+      if (search%given(1)) search%wanted(1, :) = [(midplane(min(pad, size(midplane))), pad=1, size(bearing%pad))]
+      if (search%given(2)) search%wanted(2, :) = [(ends(min(pad, size(ends))), pad=1, size(bearing%pad))]
+      search%close_enough = same_lift*clearance
+      lift = [(edge_lift(bearing, pad), pad=1, size(bearing%pad))]
+      mean = [(search%wanted_of(pad), pad=1, size(bearing%pad))]
+      search%lifts = [min(minval(lift), minval(mean)), max(maxval(lift), maxval(mean))]
+      search%lifts = search%lifts + lift_margin*(clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
+      if (size(bearing%pad) > 1) then
+        call start%keep(bearing)
+        call raise_edges(problem, mean, there)
+        if (there) call search%collect(bearing, problem%newton)
+        if (there) there = search%is_found()
+        if (.not. there) call start%put_back(bearing)
+        call start%destroy()
+      end if
+      if (.not. search%is_found()) call find_branches(bearing, problem%newton, search)
+      call take_branch(bearing, bearing%point, search%branch(search%nearest_branch()))
+      if (.not. search%is_found()) then
+        call problem%newton%log%line('no equilibrium was found with its leading edge lifted as asked for; the nearest is taken')
+      end if
+    end associate
     call destroy_branches(search)
   end subroutine seek_branch
 
+  !> Fixes the edges of several pads, moves them to heights, and releases them there.
+  subroutine raise_edges(problem, height, there)
+    type(start_problem_type), intent(inout) :: problem !! in equilibrium
+    real(wp), intent(in) :: height(:) !! (pads) of the edges [m]
+    logical, intent(out) :: there !! in equilibrium again, with all edges free
+    type(operating_point_type) :: fixed
+    type(path_report_type) :: report
+    integer :: pad
+
+    fixed = with_fixed_edges(problem)
+    do pad = 1, size(height)
+      fixed%edge_height(pad) = edge_lift(problem%bearing, pad)
+    end do
+    problem%bearing%point = fixed
+    fixed%edge_height(:size(height)) = height
+    call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
+    if (report%converged) call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
+    there = report%converged
+  end subroutine raise_edges
+
   !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
-  !> lifts have been looked at; from one that is known already it does not look again.
+  !> lifts have been looked at; from one that is known already it does not look again. The edges of several pads are pulled
+  !> one at a time, from what that leads to as well.
   subroutine find_branches(bearing, newton, search)
     type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium, and in the same one after
     type(newton_type), target, intent(inout) :: newton          !! its solver
     type(branch_search_type), intent(inout) :: search           !! what is asked for and known; what is found joins it
-    type(operating_point_type) :: free, straight
-    type(path_settings_type) :: settings
-    type(path_report_type) :: report
-    integer :: known, first
+    type(operating_point_type) :: free
+    integer :: known, first, from, pad
 
     free = bearing%point
     known = 0
@@ -76,47 +113,81 @@ contains
     call search%collect(bearing, newton)
     first = size(search%branch)
     if (first == known .or. search%is_found()) return
-    if (any_rank(bearing%pad(1)%edge%pairs() > 0)) then
-      call newton%log%line('from equilibrium '//text(first)//', its free edge kept straight and pulled:')
-      straight = free
-      straight%edge_tension = tension_share*bearing%force_scale()* &
-        (maxval(bearing%pad(1)%whole%row_axial) - minval(bearing%pad(1)%whole%row_axial))/bearing%pad(1)%film%clearance
-      settings%look_for_folds = .false.
-      call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
-      if (report%converged) call pull_both_ways(bearing, newton, straight, free, search)
-      call take_branch(bearing, free, search%branch(first))
-    end if
-    if (search%is_found()) return
-    call newton%log%line('from equilibrium '//text(first)//', its free edge pulled:')
-    call pull_both_ways(bearing, newton, free, free, search)
-    call take_branch(bearing, free, search%branch(first))
+    from = first
+    do while (from <= size(search%branch) .and. from < first + most_starts)
+      if (from > first .and. size(bearing%pad) == 1) exit ! one edge leads to all of a curve at once
+      do pad = 1, size(bearing%pad)
+        if (search%branch(from)%pulled_pad == pad) cycle ! on a curve that was followed
+        call pull_pad(bearing, newton, free, from, pad, search)
+        if (search%is_found()) return
+      end do
+      from = from + 1
+    end do
+    if (from > first + 1) call take_branch(bearing, free, search%branch(first))
   end subroutine find_branches
 
+  !> Looks from a known equilibrium on, by the free edge of a pad: kept straight, where it is that of shells, and as it is.
+  subroutine pull_pad(bearing, newton, free, from, pad, search)
+    type(bearing_system_type), target, intent(inout) :: bearing !! ends in that equilibrium
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: free !! nothing pulls
+    integer, intent(in) :: from !! number of the equilibrium
+    integer, intent(in) :: pad  !! its number
+    type(branch_search_type), intent(inout) :: search
+    type(operating_point_type) :: straight
+    type(path_settings_type) :: settings
+    type(path_report_type) :: report
+    character(len=:), allocatable :: edge
+
+    edge = 'its free edge'
+    if (size(bearing%pad) > 1) edge = edge_words(bearing, pad)
+    if (size(bearing%pad) > 1) call take_branch(bearing, free, search%branch(from))
+    search%pulled_pad = pad
+    if (any_rank(bearing%pad(pad)%edge%pairs() > 0)) then
+      call newton%log%line('from equilibrium '//text(from)//', '//edge//' kept straight and pulled:')
+      straight = free
+      straight%edge_tension(pad) = tension_share*bearing%force_scale()* &
+        (maxval(bearing%pad(pad)%whole%row_axial) - minval(bearing%pad(pad)%whole%row_axial))/bearing%pad(pad)%film%clearance
+      settings%look_for_folds = .false.
+      call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
+      if (report%converged) call pull_both_ways(bearing, newton, straight, free, pad, search)
+      call take_branch(bearing, free, search%branch(from))
+    end if
+    if (search%is_found()) return
+    call newton%log%line('from equilibrium '//text(from)//', '//edge//' pulled:')
+    call pull_both_ways(bearing, newton, free, free, pad, search)
+    search%pulled_pad = 0
+    call take_branch(bearing, free, search%branch(from))
+  end subroutine pull_pad
+
   !> Pulls the edge in the sense that leads to the lift asked for; in both where none is.
-  subroutine pull_both_ways(bearing, newton, point, free, search)
+  subroutine pull_both_ways(bearing, newton, point, free, pad, search)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point, free !! where the curve begins; without a string
+    integer, intent(in) :: pad !! whose edge
     type(branch_search_type), intent(inout) :: search
     type(kept_state_type) :: start
     real(wp) :: sense
 
-    sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - edge_lift(bearing))
+    sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - edge_lift(bearing, pad))
+    if (any(search%given) .and. size(bearing%pad) > 1) sense = sign(1.0_wp, search%wanted_of(pad) - edge_lift(bearing, pad))
     call start%keep(bearing)
-    call pull_edge(bearing, newton, point, free, sense, search)
+    call pull_edge(bearing, newton, point, free, pad, sense, search)
     if (.not. any(search%given)) then
       call start%put_back(bearing)
-      call pull_edge(bearing, newton, point, free, -sense, search)
+      call pull_edge(bearing, newton, point, free, pad, -sense, search)
     end if
     call start%destroy()
   end subroutine pull_both_ways
 
   !> Goes along the curve of answers with a pulled edge, and collects the equilibria on it.
-  subroutine pull_edge(bearing, newton, point, free, sense, search)
+  subroutine pull_edge(bearing, newton, point, free, pad, sense, search)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point !! where the curve begins
     type(operating_point_type), intent(in) :: free  !! the same without a string
+    integer, intent(in) :: pad                      !! whose edge
     real(wp), intent(in) :: sense                   !! +1: up, -1: down
     type(branch_search_type), intent(inout) :: search
     type(arc_type), target :: arc
@@ -125,55 +196,56 @@ contains
     real(wp) :: lift
 
     pulled = point
-    pulled%edge_pull = pull_share*bearing%force_scale()
+    pulled%edge_pull(pad) = pull_share*bearing%force_scale()
     call begin_arc(bearing, newton, pulled, sense, arc)
     moved = .true.
     do while (moved .and. arc%steps < most_steps .and. .not. search%is_found())
       call advance_arc(arc, moved)
-      lift = edge_lift(bearing)
+      lift = edge_lift(bearing, pad)
       call newton%log%detail('free edge at '//text(lift*micrometres, 4)//' um, force '// &
-                             text(bearing%point%edge_pull, 4)//' N')
+                             text(bearing%point%edge_pull(pad), 4)//' N')
       if (modulo(arc%steps, steps_a_line) == 0) call newton%log%line('  '//text(arc%steps)// &
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%lambda*arc%lambda_before > 0.0_wp) cycle
-      if (.not. is_worth_it(search, lift, bearing%pad(1)%film%clearance)) cycle
-      call find_equilibrium(arc, bearing, newton, point, free, here)
+      if (.not. is_worth_it(search, pad, lift, bearing%pad(1)%film%clearance)) cycle
+      call find_equilibrium(arc, bearing, newton, point, free, pad, here)
       if (here) call search%collect(bearing, newton)
     end do
     call end_arc(arc, newton)
   end subroutine pull_edge
 
   !> Whether an edge that is lifted so much in the mean may lead to the lift asked for.
-  pure function is_worth_it(search, lift, clearance) result(worth)
+  pure function is_worth_it(search, pad, lift, clearance) result(worth)
     type(branch_search_type), intent(in) :: search
+    integer, intent(in) :: pad !! whose edge
     real(wp), intent(in) :: lift, clearance !! [m]
     logical :: worth
 
     worth = .not. any(search%given)
-    if (.not. worth) then
-      worth = abs(lift - sum(search%wanted, mask=search%given)/real(count(search%given), wp)) <= release_range*clearance
-    end if
+    if (.not. worth) worth = abs(lift - search%wanted_of(pad)) <= release_range*clearance
   end function is_worth_it
 
   !> Newton's method without the force, from the line between the two answers on both sides of no force; then
   !> without the string.
-  subroutine find_equilibrium(arc, bearing, newton, point, free, here)
+  subroutine find_equilibrium(arc, bearing, newton, point, free, pad, here)
     type(arc_type), intent(inout) :: arc
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: point, free !! without the force; without the string
+    integer, intent(in) :: pad !! whose edge
     logical, intent(out) :: here
     call arc%between(arc%lambda_before/(arc%lambda_before - arc%lambda))
     call solve_there(bearing, newton, point, here)
-    if (here .and. abs(point%edge_tension) > 0.0_wp) call release_string(bearing, newton, free, here)
+    if (here .and. abs(point%edge_tension(pad)) > 0.0_wp) call release_string(bearing, newton, free, pad, here)
   end subroutine find_equilibrium
 
   !> From an equilibrium of a straight edge to one of a free edge, by decades of the string's tension.
-  subroutine release_string(bearing, newton, free, here)
+  subroutine release_string(bearing, newton, free, pad, here)
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(operating_point_type), intent(in) :: free
+    integer, intent(in) :: pad
     logical, intent(out) :: here
     type(operating_point_type) :: looser
     integer :: decade
@@ -186,8 +258,8 @@ contains
       looser%edge_tension = 0.1_wp*looser%edge_tension
       if (decade > decades) looser = free
       call lead_to(bearing, newton, looser, here)
-      call newton%log%detail('string of '//text(looser%edge_tension, 4)//' N, free edge at '// &
-                             text(edge_lift(bearing)*micrometres, 4)//' um')
+      call newton%log%detail('string of '//text(looser%edge_tension(pad), 4)//' N, free edge at '// &
+                             text(edge_lift(bearing, pad)*micrometres, 4)//' um')
     end do
   end subroutine release_string
 

@@ -65,7 +65,7 @@ contains
 
     call start_on_meshes(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
     if (allocated(error)) return
-    if (report%converged .or. .not. bearing%floats .or. any(scene%operation%lift_given)) return
+    if (report%converged .or. .not. bearing%floats .or. scene%operation%asks_for_lift()) return
     if (.not. bearing%pad(1)%foil%has_contacts()) return
     refusal = report
     call refused%keep(bearing)
@@ -217,8 +217,8 @@ contains
     else
       call problem%anchor%destroy()
     end if
-    if (report%converged .and. .not. problem%from_smaller .and. any(scene%operation%lift_given)) then
-      call seek_branch(scene%operation%lift_given, scene%operation%leading_edge_lift, bearing, newton)
+    if (report%converged .and. .not. problem%from_smaller .and. scene%operation%asks_for_lift()) then
+      call seek_branch(scene%operation%leading_edge_lift, scene%operation%leading_edge_lift_edge, problem)
     end if
   end subroutine start_on_meshes
 

@@ -20,7 +20,7 @@ module gfb_edge_heights
   private
   public :: ask_edges, release_edges, release, release_pressed
 
-  real(wp), parameter :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
+  real(wp), parameter, public :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
   real(wp), parameter :: first_step = 0.25_wp    !! of a path with the edge fixed, to the target [1]
   real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
   real(wp), parameter, public :: lowest = -0.5_wp !! where the film still presses it down, the same [1]

@@ -7,12 +7,14 @@ module gfb_start_list
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, after, before
+  use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, after, before, &
+                               clearance_of
   use gfb_kept_state, only: kept_state_type
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
-  use gfb_bearing_directions, only: has_free_edge
+  use gfb_bearing_directions, only: has_free_edge, edge_lift
+  use gfb_edge_heights, only: resting
   use gfb_edge_start, only: try_free_edge
   use gfb_interference_start, only: press, set_interference
   implicit none (type)
@@ -22,6 +24,8 @@ module gfb_start_list
   integer, parameter :: most_iterations = 800 !! Newton's, after which no other start begins
   real(wp), parameter :: slow = 0.5_wp       !! speed of a slower shaft, over the one asked for [1]
   real(wp), parameter :: first_step = 0.25_wp !! from there, of the path to the speed asked for [1]
+
+  type(soft_contacts_type), parameter :: near_the_foil = soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp)
 
   !> The last state of the start that came nearest to an answer.
   type :: nearest_type
@@ -42,14 +46,14 @@ contains
       cold_start_type("the end of the smaller system's search", is_refused, try_smaller_refusal), &
       cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
       cold_start_type('soft contacts of several pads, released early under a load', floats_with_free_edges, &
-                      try_soft_contacts, usual_contacts, .true.), &
+                      try_several_edges, usual_contacts, .true.), &
       cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_free_edge), &
       cold_start_type('soft contacts, released early under a load', has_other_contacts, try_soft_contacts, &
                       usual_contacts, .true.), &
       cold_start_type('soft contacts, released after the shaft in growing steps', has_contacts, try_soft_contacts, &
                       soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp), .true.), &
       cold_start_type('soft contacts, released before the shaft near the foil', floats_on_contacts, try_soft_contacts, &
-                      soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp), .true.), &
+                      near_the_foil, .true.), &
       cold_start_type('the free edge fixed where it rests, under a fixed shaft', fixed_with_free_edge, try_free_edge), &
       cold_start_type('half the speed first', can_be_slower, try_half_speed, counts=.true.)]
   end function cold_starts
@@ -194,6 +198,50 @@ contains
       report%shaft_fixed = .true. ! not a state of this scene
     end if
   end subroutine try_half_speed
+
+  !> Soft contacts of several pads. Where that leads to an edge that is lifted, or to the end of a branch, there may be an
+  !> equilibrium whose edges all rest: with the edges fixed while contacts are released, or from nearer to the foil.
+  recursive subroutine try_several_edges(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(soft_contacts_type), intent(in) :: soft
+    type(path_report_type), intent(out) :: report
+    logical, intent(out) :: ends
+    type(kept_state_type) :: first
+    type(path_report_type) :: other
+    logical :: other_ends, rest
+    integer :: trial
+
+    call try_soft_contacts(problem, soft, report, ends)
+    rest = edges_rest(problem, report)
+    if (rest .or. problem%on_the_way .or. .not. (report%converged .or. ends)) return
+    call first%keep(problem%bearing)
+    do trial = 1, 2
+      call problem%newton%log%detail('an equilibrium whose edges rest:')
+      if (trial == 1) call try_free_edge(problem, soft_contacts_type(), other, other_ends)
+      if (trial == 2) call try_soft_contacts(problem, near_the_foil, other, other_ends)
+      rest = edges_rest(problem, other)
+      if (.not. (rest .or. other%converged .and. .not. report%converged)) cycle
+      report = other
+      ends = other_ends
+      if (rest) exit
+      call first%keep(problem%bearing)
+    end do
+    if (.not. rest) call first%put_back(problem%bearing)
+    call first%destroy()
+  end subroutine try_several_edges
+
+  !> Whether a start led to an answer at which no free edge is lifted.
+  function edges_rest(problem, report) result(rest)
+    type(start_problem_type), intent(in) :: problem
+    type(path_report_type), intent(in) :: report !! of the start
+    logical :: rest
+    integer :: pad
+
+    rest = report%converged
+    do pad = 1, size(problem%bearing%pad)
+      if (rest) rest = edge_lift(problem%bearing, pad) < resting*clearance_of(problem%bearing)
+    end do
+  end function edges_rest
 
   !> A coarser mesh, or half the width, has an answer.
   function has_smaller(problem) result(applies)

@@ -12,7 +12,7 @@ module gfb_branches_writing
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type
-  use gfb_branch_list, only: branch_search_type, take_branch
+  use gfb_branch_list, only: branch_search_type, take_branch, lifts_of_pads
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -107,9 +107,14 @@ contains
           micrometres*answer%minimum_gap, value_of(record%history(i)%quantity, 'stability'), &
           value_of(record%history(i)%quantity, 'stability_margin')
       end associate
-      call log%line(trim(line))
+      call log%line(trim(line)//lifts_of_pads(search%branch(order(i))%answer%pad_lift))
     end do
-    call log%line('To start on one: leading_edge_lift and leading_edge_lift_edge in &operation, as above, in m.')
+    if (size(search%branch(1)%answer%pad_lift, 2) == 1) then
+      call log%line('To start on one: leading_edge_lift and leading_edge_lift_edge in &operation, as above, in m.')
+    else
+      call log%line('To start on one: leading_edge_lift in &operation, with the lifts of the pads as above, in m; '// &
+                    'leading_edge_lift_edge with those in brackets, at the ends.')
+    end if
     call log%line('Other equilibria may exist; these were met from the starts, and by pulling the free edge from them.')
   end subroutine show_table
 
