@@ -19,7 +19,7 @@ module gfb_operating_point
     real(wp) :: inertia = 0.0_wp         !! of a shaft that floats, over a step of time [N/m]
     !> The same of its tilts, with the gyroscopic torque by the other's rate [N m/rad].
     real(wp) :: tilt_inertia(2, 2) = 0.0_wp
-    real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts the free edge of a pad's top foil [N]
+    real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts a free edge of the top foils [N]
     real(wp) :: edge_tension(most_pads) = 0.0_wp !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]
     real(wp) :: edge_height(most_pads) = 0.0_wp !! it, above the edge at rest [m]
