@@ -39,7 +39,8 @@ A step is Newton's method for film, foils and shaft together, with the factors o
 what the steps since then have taught of the matrix
 ([method.md](../manual/method.md#finding-a-state)). Where contacts open, close or turn back the matrix is factored anew, once or
 twice each time: that is two thirds of the time with shells at the larger orbit, two fifths with beams. The rest goes into triangular
-solves and residuals. When stiffness and damping coefficients do in place of all this:
+solves and residuals. Where hardly a contact changes a factorization serves 29 to 40 steps: beams 36 with 0.002 g mm, 29 without friction and
+0.02 g mm or less, shells 40 with 0.02 g mm (beams 12: there contacts still change). When stiffness and damping coefficients do in place of all this:
 [transient.md](../manual/transient.md#when-the-linear-theory-suffices).
 """
 
