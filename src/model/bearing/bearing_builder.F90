@@ -22,8 +22,8 @@ module gfb_bearing_builder
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_pad, only: pad_place_type
-  use gfb_bearing_system, only: bearing_system_type, create_film_part, create_bearing_system
+  use gfb_pad, only: pad_place_type, create_pad_film
+  use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   implicit none (type)
   private
   public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of
@@ -95,15 +95,16 @@ contains
     type(film_mesh_type), intent(in) :: film
     logical, intent(in) :: upwind !! SUPG instead of Galerkin
     logical, intent(in) :: floats !! the shaft's position is unknown
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(out) :: bearing
     type(error_type), allocatable, intent(out) :: error
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
 
     call divide_bearing(scene, film, rank_count(), division, error)
     if (allocated(error)) return
-    call create_film_part(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
-                          bearing, error, division%film)
+    allocate (bearing%pad(1))
+    call create_pad_film(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
+                         bearing%pad(1), error, division%film)
     if (allocated(error)) return
     bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)

@@ -3,10 +3,8 @@
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks, any_rank
-  use gfb_film_mesh, only: film_mesh_type
   use gfb_film_load, only: film_forces, acts_on
   use gfb_shaft_motion, only: no_shaft
   use gfb_foil_model, only: foil_model_type
@@ -14,12 +12,12 @@ module gfb_bearing_system
   use gfb_operating_point, only: operating_point_type
   use gfb_local_exchange, only: create_exchange
   use gfb_film_matrix, only: add_shaft_stiffness
-  use gfb_pad, only: pad_place_type, create_pad_film, complete_pad, place_pads
+  use gfb_pad, only: pad_place_type, complete_pad, place_pads
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   use gfb_pad_matrix, only: fill_pad_constant, fill_pad
   implicit none (type)
   private
-  public :: create_film_part, create_bearing_system, number_by
+  public :: create_bearing_system, number_by
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -43,27 +41,9 @@ module gfb_bearing_system
 
 contains
 
-  !> Distributes the film's mesh and sets up this rank's share of the film, that of the first pad.
-  !>
-  !> Fails when the mesh cannot be cut, or an element is folded over.
-  subroutine create_film_part(whole, clearance, ambient_pressure, viscosity, upwind, bearing, error, column_part)
-    type(film_mesh_type), intent(in) :: whole !! the film's mesh
-    real(wp), intent(in) :: clearance        !! C [m]
-    real(wp), intent(in) :: ambient_pressure !! p_a [Pa]
-    real(wp), intent(in) :: viscosity        !! of the gas [Pa s]
-    logical, intent(in) :: upwind            !! SUPG instead of Galerkin
-    type(bearing_system_type), intent(out) :: bearing !! pads and shaft
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    !> rank, from 1, of every column of elements; default: the film is cut by itself
-    integer, intent(in), optional :: column_part(:)
-
-    allocate (bearing%pad(1))
-    call create_pad_film(whole, clearance, ambient_pressure, viscosity, upwind, bearing%pad(1), error, column_part)
-  end subroutine create_film_part
-
   !> Puts film, foil and shaft together; the foil moves into the system.
   subroutine create_bearing_system(bearing, foil, floats, place)
-    type(bearing_system_type), intent(inout) :: bearing !! with its film
+    type(bearing_system_type), intent(inout) :: bearing !! with the film of its first pad
     class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns
     type(pad_place_type), intent(in), optional :: place(:) !! of the pads, which are equal; default: one
