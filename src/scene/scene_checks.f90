@@ -44,7 +44,8 @@ contains
                         scene%contact%may_rub, scene%contact%friction_law, scene%sweep, &
                         scene%accuracy%present)
     call check_pads(keys, scene%bearing, scene%operation)
-    call check_foil_mass(keys, scene%dynamics, scene%model, scene%top_foil, scene%bump_foil)
+    call check_foil_mass(keys, scene%dynamics, scene%transient, scene%model, scene%top_foil, &
+                         scene%bump_foil)
     call check_rotor(keys, scene%rotor, scene%operation, scene%sweep, scene%dynamics%present)
     call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
                      scene%model)

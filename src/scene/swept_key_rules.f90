@@ -1,7 +1,7 @@
 !> Which keys of a case file a sweep may change, and with what.
 module gfb_swept_key_rules
   use gfb_case_keys, only: case_keys_type
-  use gfb_dynamics_case, only: mass_off
+  use gfb_foil_mass_words, only: mass_off
   use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
   use gfb_scene, only: scene_type
   use gfb_listed_keys, only: index_problem

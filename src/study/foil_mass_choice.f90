@@ -1,21 +1,25 @@
-!> Whether a foil that vibrates has its mass: what a scene asks for, and what the log says of it.
+!> Whether a foil that moves has its mass: what a scene asks for, and what the log says of it.
 module gfb_foil_mass_choice
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_rigid, meshes_foils
-  use gfb_dynamics_case, only: mass_off, frequencies_at
+  use gfb_operation_case, only: angular_speed
+  use gfb_dynamics_case, only: frequencies_at
+  use gfb_foil_mass_words, only: mass_on, mass_off
   use gfb_foil_mass_case, only: has_densities
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
-  use gfb_foil_inertia, only: foil_inertia_type
-  use gfb_foil_weighing, only: give_mass
+  use gfb_foil_inertia, only: foil_inertia_type, destroy_inertia
+  use gfb_foil_weighing, only: give_mass, give_momentum
   implicit none (type, external)
   private
-  public :: choose_mass, describe_mass
+  public :: choose_mass, choose_momentum, resume_momentum, describe_mass
 
   integer, parameter :: digits = 4 !! in the log
+  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+  real(wp), parameter :: rotors_reach = 1.5_wp !! of rotors' modes, over the speed [1]
 
 contains
 
@@ -29,24 +33,68 @@ contains
                    highest_frequency(scene, bearing%point%speed))
   end subroutine choose_mass
 
+  !> Gives the foils of a bearing at rest their mass over time, where the scene asks for it or
+  !> needs it, and says so.
+  subroutine choose_momentum(scene, log, bearing)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at rest
+    type(foil_inertia_type) :: inertia
+
+    call give_momentum(bearing, mass_wanted(scene), fastest_motion(scene), inertia)
+    if (meshes_foils(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
+    call destroy_inertia(inertia)
+  end subroutine choose_momentum
+
+  !> Gives them the mass that they had when a restart file was written.
+  subroutine resume_momentum(scene, bearing)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(bearing_system_type), intent(inout) :: bearing !! where the file has left it
+    type(foil_inertia_type) :: inertia
+
+    call give_momentum(bearing, mass_on, fastest_motion(scene), inertia)
+    call destroy_inertia(inertia)
+  end subroutine resume_momentum
+
   !> What the scene asks for: nothing where a density is missing.
   pure function mass_wanted(scene) result(wanted)
     type(scene_type), intent(in) :: scene
     integer :: wanted
 
-    wanted = scene%dynamics%foil_mass
+    wanted = mass_asked(scene)
     if (.not. has_densities(scene%top_foil, scene%bump_foil)) wanted = mass_off
   end function mass_wanted
+
+  !> What the key of the analysis says.
+  pure function mass_asked(scene) result(asked)
+    type(scene_type), intent(in) :: scene
+    integer :: asked
+
+    asked = scene%dynamics%foil_mass
+    if (scene%transient%present) asked = scene%transient%foil_mass
+  end function mass_asked
+
+  !> The highest frequency with which something moves the shaft, or it moves by itself [rad/s].
+  pure function fastest_motion(scene) result(highest)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    real(wp) :: highest
+
+    associate (transient => scene%transient)
+      highest = angular_speed(max(scene%operation%speed_rpm, transient%final_speed_rpm))
+      highest = max(rotors_reach*highest, abs(transient%orbit_frequency))
+      if (transient%pulse_length > 0.0_wp) highest = max(highest, turn/transient%pulse_length)
+    end associate
+  end function fastest_motion
 
   !> The highest frequency that is asked for, with those at which whirl is looked for [rad/s].
   pure function highest_frequency(scene, speed) result(highest)
     type(scene_type), intent(in) :: scene !! with its frequencies
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
     real(wp) :: highest
-    real(wp), parameter :: reach(2) = [1.2_wp, 1.5_wp] !! of critical masses, of rotors' modes [1]
+    real(wp), parameter :: reach = 1.2_wp !! of critical masses [1]
 
     highest = max(maxval(frequencies_at(scene%dynamics, speed)), &
-                  merge(reach(2), reach(1), scene%rotor%present)*speed)
+                  merge(rotors_reach, reach, scene%rotor%present)*speed)
   end function highest_frequency
 
   !> Whether the foil has its mass, and by what that was decided.
@@ -55,14 +103,14 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(foil_inertia_type), intent(in) :: inertia !! of its foil
     logical, intent(in) :: first !! it is the first answer; later ones say what they have judged
-    character(len=:), allocatable :: line, lowest, highest
+    character(len=:), allocatable :: line, lowest, highest, remedy
 
     if (scene%model%foil == foil_rigid .or. .not. (first .or. inertia%judged)) return
     lowest = hertz(inertia%lowest)
     highest = hertz(inertia%highest)
     if (.not. meshes_foils(scene%model%foil)) then
       line = 'left out'
-    else if (scene%dynamics%foil_mass == mass_off) then
+    else if (mass_asked(scene) == mass_off) then
       line = "left out by foil_mass = 'off'"
     else if (.not. has_densities(scene%top_foil, scene%bump_foil)) then
       line = 'left out, for a foil has no density'
@@ -77,8 +125,10 @@ contains
     end if
     call log%line('foil mass: '//line)
     if (inertia%present .and. inertia%left_out < 3.0_wp*inertia%highest) then
+      remedy = 'more foil_modes keep'
+      if (scene%transient%present) remedy = "reduction = 'none' in &model has"
       call log%line('warning: condensed bumps have modes from '//hertz(inertia%left_out)// &
-                    ' on that are left out: more foil_modes keep them')
+                    ' on that are left out: '//remedy//' them')
     end if
   end subroutine describe_mass
 
@@ -86,7 +136,6 @@ contains
   function hertz(frequency) result(words)
     real(wp), intent(in) :: frequency !! [rad/s]
     character(len=:), allocatable :: words
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     words = text(frequency/turn, digits)//' Hz'
   end function hertz
 end module gfb_foil_mass_choice

@@ -58,11 +58,12 @@ def vibrating():
                    dynamics={"frequency_ratios": (0.5, 1.0), "foundation_damping": 3.0e5})
 
 
-def shaft_in_time(turns=4.0, rotor=None, **drive):
+def shaft_in_time(turns=4.0, rotor=None, foils=None, **drive):
     """A shaft with an unbalance on beams, four turns of it."""
     content = bearing("beam", {}, every=15, scene={"analysis": "transient"}, rotor={"mass": 4.0} | (rotor or {}),
                       mesh={"circumferential_elements": 208},
-                      transient={"turns": turns, "steps_per_turn": 60, "unbalance": 4.0e-6, **drive})
+                      transient={"turns": turns, "steps_per_turn": 60, "unbalance": 4.0e-6, **drive},
+                      top_foil=foils or {}, bump_foil=foils or {})
     return {group: keys for group, keys in content.items() if group != "sweep"}
 
 
@@ -345,8 +346,9 @@ def main():
         check_kills(checks, folder, "beams_folded",
                     bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
         check_kills(checks, folder, "rotor", vibrating(), chance)
-        turning = run_time(write_case(folder, "turning", shaft_in_time()), pathlib.Path(folder)/"whole")
-        check_kills(checks, folder, "turning", shaft_in_time(), chance, whole=turning)
+        heavy = shaft_in_time(foils={"density": 8200.0}, foil_mass="on")
+        turning = run_time(write_case(folder, "turning", heavy), pathlib.Path(folder)/"whole")
+        check_kills(checks, folder, "turning", heavy, chance, whole=turning)
         check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)
         loop = check_kills(checks, folder, "strip_squeezed", strip("plates"), chance)
         if "--long" in sys.argv:

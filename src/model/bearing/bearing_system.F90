@@ -8,6 +8,7 @@ module gfb_bearing_system
   use gfb_film_load, only: film_forces, acts_on
   use gfb_shaft_motion, only: no_shaft
   use gfb_foil_model, only: foil_model_type
+  use gfb_foil_momentum, only: foil_momentum_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type
   use gfb_local_exchange, only: create_exchange
@@ -21,6 +22,7 @@ module gfb_bearing_system
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
+    type(foil_momentum_type) :: momentum !! inertia of the foils over a step of time, where they have a mass
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
     !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
     ISLocalToGlobalMapping, allocatable, private :: numbers(:)
@@ -187,6 +189,7 @@ contains
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call self%exchange%add(value, residual)
+    call self%momentum%add_force(state, residual)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
 
@@ -275,6 +278,7 @@ contains
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
+    call self%momentum%add_stiffness(self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_at
 
@@ -371,6 +375,7 @@ contains
         PetscCallA(ISLocalToGlobalMappingDestroy(self%numbers(i), ierr))
       end do
     end if
+    call self%momentum%destroy()
     call self%exchange%destroy()
     PetscCallA(VecDestroy(self%right, ierr))
     PetscCallA(VecDestroy(self%left, ierr))

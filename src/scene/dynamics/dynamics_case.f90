@@ -6,6 +6,7 @@ module gfb_dynamics_case
                             foil_rigid, meshes_foils
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
+  use gfb_foil_mass_words, only: mass_auto, mass_words
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, analysis_transient, analysis_periodic, &
                             asks_limit, &
@@ -20,10 +21,6 @@ module gfb_dynamics_case
   integer, parameter, public :: tangent_stick = 1 !! contacts that rub stick under vibration
   integer, parameter, public :: tangent_slip = 2  !! they slide on as they did
   character(len=*), parameter :: tangent_words(*) = [character(len=5) :: 'stick', 'slip']
-  integer, parameter, public :: mass_auto = 1 !! the foil has its mass where it counts
-  integer, parameter, public :: mass_on = 2   !! it has it
-  integer, parameter, public :: mass_off = 3  !! it has none
-  character(len=*), parameter :: mass_words(*) = [character(len=4) :: 'auto', 'on', 'off']
 
   !> What is asked for.
   type :: dynamics_case_type

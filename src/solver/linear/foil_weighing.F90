@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Weighs a foil that vibrates, or decides that its mass does not count.
+!> Weighs a foil that moves, or decides that its mass does not count.
 !>
 !> Whether it counts is seen by the lowest natural frequency of the foil alone, its contacts as
 !> they are: next to it and beyond nothing may be left out. A free edge that is lifted has a low one.
@@ -10,16 +10,17 @@ module gfb_foil_weighing
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_over_ranks, any_rank
-  use gfb_dynamics_case, only: mass_auto, mass_on, mass_off
+  use gfb_foil_mass_words, only: mass_auto, mass_on, mass_off
   use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_rates, only: fill_from_foil
+  use gfb_steady_tangent, only: linearise_steady
   use gfb_foil_inertia, only: foil_inertia_type, inner_modes_type
   use gfb_dynamic_response, only: dynamic_response_type
   implicit none (type)
   private
-  public :: give_mass
+  public :: give_mass, give_momentum
 
   real(wp), parameter :: safe_ratio = 1.0_wp/3.0_wp !! of a frequency to the foil's, where its mass is little [1]
   real(wp), parameter :: tolerance = 1.0e-8_wp !! of the foil's lowest eigenvalue [1]
@@ -42,6 +43,27 @@ contains
                         merge(mass_on, mass_off, response%equations%inertia%present), modes, highest, &
                         response%opposite%equations%inertia)
   end subroutine give_mass
+
+  !> Gives the foils of a bearing their mass over time where it is asked for, or counts; modes inside condensed pieces are
+  !> left out.
+  subroutine give_momentum(bearing, wanted, highest, inertia)
+    type(bearing_system_type), intent(inout) :: bearing !! at rest; its equations stay
+    integer, intent(in) :: wanted   !! `mass_auto`, `mass_on` or `mass_off`
+    real(wp), intent(in) :: highest !! frequency that is expected [rad/s]
+    type(foil_inertia_type), intent(out) :: inertia !! what was found; to be destroyed
+    type(bearing_system_type), allocatable :: none
+    Mat :: steady, mass
+    PetscErrorCode :: ierr
+
+    inertia%highest = highest
+    if (wanted == mass_off .or. .not. bearing%is_meshed()) return
+    call linearise_steady(bearing, .true., steady, none)
+    call create_inertia(bearing, steady, wanted, 0, highest, inertia)
+    PetscCallA(MatDestroy(steady, ierr))
+    if (.not. inertia%present) return
+    PetscCallA(MatDuplicate(inertia%mass, MAT_COPY_VALUES, mass, ierr))
+    call bearing%momentum%begin(mass, bearing%state)
+  end subroutine give_momentum
 
   !> Makes the mass where it is asked for, or decides whether it counts.
   subroutine create_inertia(bearing, steady, wanted, modes, highest, inertia)

@@ -3,7 +3,7 @@
 !>
 !> A step is the bearing's balance with three more terms, each a difference of second order over the
 !> present step and the one before (`gfb_backward_difference`): the gas that the film stores, dampers
-!> of the foil, and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
+!> and mass of the foil (`gfb_foil_momentum`), and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
 !> force F on the sleeve and the outer one f on the shaft. A rotor on two bearings tilts, too:
 !> \( I \ddot\phi + \mathbf G \dot\phi = -\mathbf M - \boldsymbol\tau \), with the torques M of the films and
 !> tau from outside on the rotor, about its centre of mass.
@@ -213,6 +213,7 @@ contains
     march%velocity(:, 1) = velocity
     march%place(:, 2:) = march%place(:, :kept_times - 1)
     march%place(:, 1) = place
+    if (bearing%momentum%present) call bearing%momentum%carry(weight, bearing%state, march%state(1), march%state(2))
     march%past_step(2:) = march%past_step(:kept_times - 1)
     march%past_step(1) = step
     march%time = march%time + step
@@ -253,6 +254,7 @@ contains
     else
       bearing%point%eccentricity = march%start%eccentricity + march%drive%orbit_at(time)
     end if
+    if (bearing%momentum%present) call bearing%momentum%prepare(weight, march%state(1), march%state(2))
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), past => march%pad(i))
         pad%film%storage = weight(0)
@@ -373,6 +375,7 @@ contains
     do i = 1, kept_times
       PetscCallA(VecDestroy(march%state(i), ierr))
     end do
+    call bearing%momentum%destroy()
     bearing%point%inertia = 0.0_wp
     bearing%point%tilt_inertia = 0.0_wp
     if (bearing%floats) then

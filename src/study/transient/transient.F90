@@ -17,6 +17,7 @@ module gfb_transient
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
   use gfb_run_context, only: run_context_type
+  use gfb_foil_mass_choice, only: choose_momentum
   use gfb_transient_history, only: transient_history_type, plane_columns, tilt_columns
   use gfb_bearing_record, only: bearing_record_type
   use gfb_restart, only: restart_type
@@ -63,12 +64,13 @@ contains
     settings%damping = scene%transient%foundation_damping
     settings%end_time = duration_of(scene)
     newton%log%verbose = .false.
+    if (.not. context%restart%goes_on) call choose_momentum(scene, context%log, bearing)
     call begin_march(drive_of(scene), settings, bearing, self%march)
     call self%history%add(self%march, bearing, newton)
     if (.not. context%restart%goes_on) then
       call keep_fields(scene, self%march, bearing, record%series)
     else
-      call recall_march(context%restart, bearing, self%march, self%history, error)
+      call recall_march(scene, context%restart, bearing, self%march, self%history, error)
       if (.not. allocated(error)) call context%log%line('restart: resumed from '//place_in_time(self%march))
     end if
     if (.not. allocated(error)) call follow_shaft(self, scene, context, bearing, newton, record, reason)

@@ -16,6 +16,7 @@ module gfb_transient_restart
   use gfb_restart, only: restart_type, begin_restart_file, end_restart_file, open_restart, check_restart_file
   use gfb_restart_fields, only: put_memory, read_memory, end_memory, put_vector, read_vector
   use gfb_time_march, only: march_type, rebuild_past
+  use gfb_foil_mass_choice, only: resume_momentum
   use gfb_transient_history, only: transient_history_type
   implicit none (type)
   private
@@ -36,17 +37,23 @@ contains
     type(result_file_type) :: file
     type(error_type), allocatable :: error
     type(memory_type) :: memory
+    logical :: has_mass
 
     if (restart%every > 0) call forget_factors(newton)
     call begin_restart_file(scene, restart, march%steps, file, error)
     if (.not. allocated(error)) then
       call put_state(bearing, newton, file)
       call put_record(bearing, record, file)
-      call remember_march(memory, march)
+      has_mass = bearing%momentum%present
+      call remember_march(memory, march, has_mass)
       call history%remember(memory)
       call put_memory(memory, '/march', 'place and speed of the shaft, steps, lines so far', file)
       call put_vector(bearing_order(bearing), march%state(2), '/march/before', 'scaled unknowns one step ago', file)
       call put_vector(bearing_order(bearing), march%state(3), '/march/before_that', 'scaled unknowns two steps ago', file)
+      if (has_mass) then
+        call put_vector(bearing_order(bearing), bearing%momentum%rate(1), '/march/rate', 'of the scaled unknowns [1/s]', file)
+        call put_vector(bearing_order(bearing), bearing%momentum%rate(2), '/march/rate_before', 'the same one step ago', file)
+      end if
     end if
     call end_restart_file(file, log, error)
   end subroutine keep_march
@@ -54,7 +61,8 @@ contains
   !> Puts a march that has begun anew where the file says; the bearing stands there already (`recall_bearing`).
   !>
   !> Fails when the file is damaged.
-  subroutine recall_march(restart, bearing, march, history, error)
+  subroutine recall_march(scene, restart, bearing, march, history, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
     type(restart_type), intent(in) :: restart !! the file to resume from
     type(bearing_system_type), intent(inout) :: bearing !! at the newest state
     type(march_type), intent(inout) :: march !! gets its past
@@ -62,15 +70,22 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(stored_file_type) :: file
     type(memory_type) :: memory
+    logical :: has_mass
 
     call open_restart(restart, file, error)
     if (allocated(error)) return
     call read_memory('/march', file, memory)
-    call remember_march(memory, march)
+    has_mass = .false.
+    call remember_march(memory, march, has_mass)
     call history%remember(memory)
     call end_memory(memory, file)
     call read_vector(bearing_order(bearing), '/march/before', file, march%state(2))
     call read_vector(bearing_order(bearing), '/march/before_that', file, march%state(3))
+    if (has_mass) then
+      call resume_momentum(scene, bearing)
+      call read_vector(bearing_order(bearing), '/march/rate', file, bearing%momentum%rate(1))
+      call read_vector(bearing_order(bearing), '/march/rate_before', file, bearing%momentum%rate(2))
+    end if
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error)) return
@@ -78,9 +93,10 @@ contains
   end subroutine recall_march
 
   !> Packs or unpacks all but what follows from the states.
-  subroutine remember_march(memory, march)
+  subroutine remember_march(memory, march, has_mass)
     type(memory_type), intent(inout) :: memory
     type(march_type), intent(inout) :: march
+    logical, intent(inout) :: has_mass !! of the foils
 
     call memory%visit('time', march%time)
     call memory%visit('step', march%step)
@@ -92,5 +108,6 @@ contains
     call memory%visit('first_place', march%first_place)
     call memory%visit('past_step', march%past_step)
     call memory%visit('start', march%start%eccentricity)
+    call memory%visit('foil_mass', has_mass)
   end subroutine remember_march
 end module gfb_transient_restart

@@ -1,0 +1,123 @@
+#include "gfb_petsc.h"
+!> The inertia of foils over a step of time, differenced twice as the shaft's is.
+!>
+!> With the weights of `gfb_backward_difference` and the mass M of the foils
+!>
+!> $$ M \ddot u \approx a_0^2 M (u - \hat u), \quad
+!>    \hat u = u_1 - \frac{1}{a_0} \left( a_2 (u_2 - u_1) + \frac{a_1 \dot u_1 + a_2 \dot u_2}{a_0} \right): $$
+!>
+!> the foils would be at \( \hat u \) without any force. Film and shaft have neither row nor column in M.
+module gfb_foil_momentum
+  use petscmat
+  use gfb_kinds, only: wp
+  implicit none (type)
+  private
+
+  !> Mass of the foils, and what of their past a step needs; nothing where it is not begun.
+  type, public :: foil_momentum_type
+    logical :: present = .false.
+    real(wp), private :: share = 0.0_wp !! a_0 squared of the present step [1/s2]
+    Mat, private :: mass             !! M, scaled as the bearing's matrix
+    Vec, private :: free             !! scaled unknowns without forces on the foils
+    Vec :: rate(2)                   !! of the scaled unknowns, now and one step ago [1/s]
+    Vec, private :: way, force       !! work space: from there to a state; its inertia
+  contains
+    procedure :: begin
+    procedure :: prepare
+    procedure :: carry
+    procedure :: add_force
+    procedure :: add_stiffness
+    procedure :: destroy
+  end type foil_momentum_type
+
+contains
+
+  !> Begins at rest.
+  subroutine begin(self, mass, state)
+    class(foil_momentum_type), intent(inout) :: self !! nothing before
+    Mat, intent(in) :: mass  !! scaled as the bearing's matrix; kept, and freed in the end
+    Vec, intent(in) :: state !! a vector of its size
+    PetscErrorCode :: ierr
+    integer :: i
+
+    self%mass = mass
+    PetscCallA(VecDuplicate(state, self%free, ierr))
+    PetscCallA(VecDuplicate(state, self%way, ierr))
+    PetscCallA(VecDuplicate(state, self%force, ierr))
+    do i = 1, size(self%rate)
+      PetscCallA(VecDuplicate(state, self%rate(i), ierr))
+      PetscCallA(VecSet(self%rate(i), 0.0_wp, ierr))
+    end do
+    self%share = 0.0_wp
+    self%present = .true.
+  end subroutine begin
+
+  !> From now on the equations are those of a step.
+  subroutine prepare(self, weight, now, before)
+    class(foil_momentum_type), intent(inout) :: self !! the foils' inertia
+    real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of the step [1/s]
+    Vec, intent(in) :: now, before      !! scaled, at its beginning and one step earlier
+    PetscErrorCode :: ierr
+
+    self%share = weight(0)**2
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, now, before, ierr))
+    PetscCallA(VecCopy(now, self%free, ierr))
+    PetscCallA(VecAXPY(self%free, -weight(2)/weight(0), self%way, ierr))
+    PetscCallA(VecAXPY(self%free, -weight(1)/self%share, self%rate(1), ierr))
+    PetscCallA(VecAXPY(self%free, -weight(2)/self%share, self%rate(2), ierr))
+  end subroutine prepare
+
+  !> Ends a step: its rate becomes the newest.
+  subroutine carry(self, weight, state, now, before)
+    class(foil_momentum_type), intent(inout) :: self !! the foils' inertia
+    real(wp), intent(in) :: weight(0:2) !! as in `prepare` [1/s]
+    Vec, intent(in) :: state !! that the step led to, scaled
+    Vec, intent(in) :: now, before !! as in `prepare`
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%rate(1), self%rate(2), ierr))
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, now, before, ierr))
+    PetscCallA(VecWAXPY(self%rate(1), -1.0_wp, now, state, ierr))
+    PetscCallA(VecAXPBY(self%rate(1), weight(2), weight(0), self%way, ierr))
+  end subroutine carry
+
+  !> Adds the inertia at a state.
+  subroutine add_force(self, state, residual)
+    class(foil_momentum_type), intent(inout) :: self !! the foils' inertia
+    Vec, intent(in) :: state    !! scaled
+    Vec, intent(in) :: residual !! of the bearing, scaled
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, self%free, state, ierr))
+    PetscCallA(MatMult(self%mass, self%way, self%force, ierr))
+    PetscCallA(VecAXPY(residual, self%share, self%force, ierr))
+  end subroutine add_force
+
+  !> Adds its derivative.
+  subroutine add_stiffness(self, jacobian)
+    class(foil_momentum_type), intent(in) :: self !! the foils' inertia
+    Mat, intent(in) :: jacobian !! of the bearing, scaled
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(MatAXPY(jacobian, self%share, self%mass, SAME_NONZERO_PATTERN, ierr))
+  end subroutine add_stiffness
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy(self)
+    class(foil_momentum_type), intent(inout) :: self !! no inertia any longer
+    PetscErrorCode :: ierr
+    integer :: i
+
+    if (.not. self%present) return
+    do i = 1, size(self%rate)
+      PetscCallA(VecDestroy(self%rate(i), ierr))
+    end do
+    PetscCallA(VecDestroy(self%force, ierr))
+    PetscCallA(VecDestroy(self%way, ierr))
+    PetscCallA(VecDestroy(self%free, ierr))
+    PetscCallA(MatDestroy(self%mass, ierr))
+    self%present = .false.
+  end subroutine destroy
+end module gfb_foil_momentum

@@ -1,0 +1,10 @@
+!> Whether foils that move have their mass: what a key may say.
+module gfb_foil_mass_words
+  implicit none (type, external)
+  private
+
+  integer, parameter, public :: mass_auto = 1 !! the foil has its mass where it counts
+  integer, parameter, public :: mass_on = 2   !! it has it
+  integer, parameter, public :: mass_off = 3  !! it has none
+  character(len=*), parameter, public :: mass_words(*) = [character(len=4) :: 'auto', 'on', 'off']
+end module gfb_foil_mass_words
