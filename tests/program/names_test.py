@@ -4,6 +4,7 @@ cannot use."""
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -93,15 +94,15 @@ def check_ranks(checks, folder):
 
 
 def check_memory(checks, folder):
-    """What a run refuses for want of memory, --check refuses too."""
+    """What a run refuses for want of memory, --check refuses too; what is free changes from one call to the next."""
     large = CASE | {"mesh": {"circumferential_elements": 10000, "axial_elements": 4800}}
     (folder/"large.nml").write_text(case_text(large), encoding="utf-8")
     complaints = []
     for options in (("--check",), ()):
         status, _, wrong = call(folder, *options, "large.nml")
-        complaints.append(wrong)
+        complaints.append(re.sub(r"machine that has [0-9.]+ [GM]B free", "machine", wrong))
         checks.that(f"{options or 'run'}: status {status}: {wrong.strip()[:150]}", status == 1 and "of memory" in wrong)
-    checks.that("both say the same", complaints[0] == complaints[1])
+    checks.that("both say the same", complaints[0] == complaints[1] and "rank(s) on a machine; what" in complaints[0])
 
 
 def main():

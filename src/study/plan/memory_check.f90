@@ -31,7 +31,7 @@ contains
                   text(total*stated_factor/gigabyte, 2)//' GB), '// &
                   megabytes(total/rank_count())//' a rank')
     if (is_too_much(bytes)) then
-      call log%warning('this machine has '//megabytes(node_room())//' for the '// &
+      call log%warning('this machine has '//megabytes(node_room())//' free for the '// &
                        text(ranks_on_node())//' rank(s) on it')
     end if
   end subroutine show_memory
@@ -46,7 +46,7 @@ contains
     if (is_too_much(bytes)) then
       call fail(error, scene%file//': needs about '//megabytes(node_need(bytes))// &
                 ' of memory for '//text(ranks_on_node())//' rank(s) on a machine that has '// &
-                megabytes(node_room())//'; what helps: '//remedies(scene)// &
+                megabytes(node_room())//' free; what helps: '//remedies(scene)// &
                 ', or memory_check = .false. in &solver to try all the same')
     end if
   end subroutine check_memory
