@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Foils in contact, from nothing: every load, speed, friction and fixed edge comes home, or its fold is named.
+"""Foils in contact, from nothing: every load, speed, friction and fixed edge converges, or its fold is named.
 
 With --long at every friction, on shells too, and to the fold by more ways.
 """
@@ -19,13 +19,15 @@ CONTACT = {"normal_stiffness": None, "stick_length": None}
 POINTS = ((10.0, 10000.0), (20.0, 30000.0), (20.0, 45000.0), (40.0, 60000.0), (100.0, 10000.0), (100.0, 60000.0),
           (200.0, 30000.0))
 SHELL_POINTS = (("trailing", 20.0, 30000.0), ("leading", 40.0, 60000.0))
+ROWS_MESH = {**MESH, "axial_elements": 32}  # four times as many rows as on the mesh where the search begins
+FINEST = 20       # factorizations of a mesh that a smaller one's answer leads to, at most
 WAYS = (("one step", (60.0, 30.0), 1), ("many steps", (60.0, 50.0, 45.0, 41.0, 30.0), 1),
         ("two ranks", (60.0, 45.0, 30.0), 2))  # to the fold: loads, ranks
 SHELL_MESH = {**MESH, "circumferential_elements": 104, "axial_elements": 6}
 
 
 def find(folder, name, load, speed, edge="trailing", friction=0.1, foil="beam", **options):
-    """One bearing, cold; without a status to expect it must come home."""
+    """One bearing, cold; without a status to expect it must converge."""
     return solve(folder, name, model={"foil": foil, "film_scheme": None}, top_foil={"fixed_edge": edge},
                  contact={**CONTACT, "friction_top": friction, "friction_sleeve": friction},
                  operation={"load": (-load, 0.0), "speed_rpm": speed}, **{"mesh": MESH, **options})
@@ -46,6 +48,17 @@ def check_shells(checks, folder):
     for edge, load, speed in SHELL_POINTS:
         run = find(folder, "shell", load, speed, edge, foil="shell", mesh=SHELL_MESH)
         check_balance(checks, f"shells, {edge} edge fixed, {load:.0f} N at {speed:.0f} rpm", run, (-load, 0.0))
+
+
+def check_rows(checks, folder):
+    """Where the film is so thin that eight rows do not lead to 32, sixteen do; the answer is that of a load that rises."""
+    foils = {"foil": "shell", "mesh": ROWS_MESH, "bump_foil": {"fixed_edge": "leading"}, "edge": "leading"}
+    run = find(folder, "rows", 200.0, 30000.0, **foils)
+    check_balance(checks, "film of 1.4 um on shells and 32 rows", run, (-200.0, 0.0))
+    checks.that("it came over 16 rows", re.search("no answer from that of 8 rows .*; half of 32 first", run.log))
+    checks.that(f"{run['factorizations_finest']:.0f} factorizations of the finest mesh", run["factorizations_finest"] <= FINEST)
+    swept = find(folder, "loads", 200.0, 30000.0, **foils, sweep={"parameter": "load", "values": (100.0, 150.0, 200.0)})
+    checks.below("smallest film against a sweep of the load", run["minimum_gap"]/swept["minimum_gap"] - 1.0, 1.0e-9)
 
 
 def check_fold(checks, folder, ways):
@@ -70,6 +83,7 @@ def main():
             check_fold(checks, folder, WAYS)
         else:
             check_points(checks, folder, (0.1,))
+            check_rows(checks, folder)
             check_fold(checks, folder, WAYS[:2])
     checks.close()
 

@@ -21,7 +21,7 @@ module gfb_cold_start
   use gfb_kept_state, only: kept_state_type
   use gfb_start_list, only: start_pressed
   use gfb_branch_search, only: seek_branch
-  use gfb_smaller_scene, only: find_smaller
+  use gfb_smaller_scene, only: find_smaller, find_between, lies_between
   use gfb_bearing_directions, only: has_free_edge
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
@@ -140,9 +140,10 @@ contains
     call count_spent(newton, spent)
   end subroutine restart_bearing
 
-  !> Builds a scene's equations and finds their answer, on smaller meshes first.
+  !> Builds a scene's equations and finds their answer, on smaller meshes first. Where the answer of one with few rows does not
+  !> lead there, one with half the rows is put in between.
   recursive subroutine start_on_meshes(scene, plan, target, newton_settings, path_settings, log, &
-                                       bearing, newton, report, error, anchor, on_the_way)
+                                       bearing, newton, report, error, anchor, on_the_way, known, known_plan)
     type(scene_type), target, intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
@@ -155,30 +156,34 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
     type(kept_state_type), intent(out), optional :: anchor !! of a refusal: a state that shows it on a larger system, too
     logical, intent(in), optional :: on_the_way !! the target lies on the way to another one: one start, no more
+    type(bearing_system_type), target, intent(in), optional :: known !! a smaller system with its answer
+    type(bearing_plan_type), intent(in), optional :: known_plan !! its meshes
 
-    type(bearing_system_type), target :: coarse
+    type(bearing_system_type), target :: coarse, middle
     type(kept_state_type) :: coarse_anchor
-    type(newton_type), target :: coarse_newton
+    type(newton_type), target :: coarse_newton, middle_newton
     type(scene_type), target :: small
-    type(bearing_plan_type) :: small_plan
+    type(bearing_plan_type) :: small_plan, middle_plan
     type(start_problem_type) :: problem
-    logical :: has_smaller, helped, told
+    logical :: has_smaller, helped, between, told
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    helped = .false.
-    call find_smaller(scene, plan, target, has_smaller, small, small_plan)
-    if (has_smaller) then
+    helped = present(known)
+    has_smaller = helped
+    if (helped) then
+      small_plan = known_plan
+    else
+      call find_smaller(scene, plan, target, has_smaller, small, small_plan)
+    end if
+    if (has_smaller .and. .not. helped) then
       call start_on_meshes(small, small_plan, target, newton_settings, path_settings, log, coarse, &
                            coarse_newton, report, error, coarse_anchor, on_the_way)
       if (allocated(error)) return
       if (coarse_anchor%created) call coarse_anchor%put_back(coarse)
-      newton%iterations = coarse_newton%iterations
-      newton%factorizations = coarse_newton%factorizations
-      newton%factorizations_before = coarse_newton%factorizations
       helped = report%converged
-      call destroy_newton(coarse_newton)
+      call count_smaller(coarse_newton)
     end if
     call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
     problem%scene => scene
@@ -189,8 +194,27 @@ contains
     problem%newton => newton
     problem%refused = has_smaller .and. .not. helped .and. bearing%pad(1)%foil%has_contacts()
     if (helped .or. coarse_anchor%created) problem%smaller => coarse
+    if (present(known)) problem%smaller => known
     if (problem%refused) problem%refusal = report
+    if (helped) problem%carried_only = lies_between(plan, small_plan)
     call start_pressed(problem, report)
+    between = problem%carried_only .and. .not. report%converged
+    if (between) between = .not. stop_agreed()
+    if (between) then
+      call log%line('no answer from that of '//text(small_plan%axial)//' rows ('//report%reason//'); half of '// &
+                    text(plan%axial)//' first:')
+      call find_between(scene, plan, small, middle_plan)
+      call start_on_meshes(small, middle_plan, target, newton_settings, path_settings, log, middle, middle_newton, &
+                           report, error, on_the_way=on_the_way, known=problem%smaller, known_plan=small_plan)
+      if (allocated(error)) return
+      problem%smaller => null()
+      if (report%converged) problem%smaller => middle
+      call count_smaller(middle_newton)
+      call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
+      problem%carried_only = .false.
+      call start_pressed(problem, report)
+      call middle%destroy()
+    end if
     if (.not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())) then
       call set_upwind(bearing, .true.)
       call log%line('film: Galerkin finds no answer, SUPG is tried')
@@ -220,6 +244,18 @@ contains
     if (report%converged .and. .not. problem%from_smaller .and. scene%operation%asks_for_lift()) then
       call seek_branch(scene%operation%leading_edge_lift, scene%operation%leading_edge_lift_edge, problem)
     end if
+
+  contains
+
+    !> What a smaller system has cost counts here.
+    subroutine count_smaller(smaller)
+      type(newton_type), intent(inout) :: smaller !! its solver, is destroyed
+
+      newton%iterations = newton%iterations + smaller%iterations
+      newton%factorizations = newton%factorizations + smaller%factorizations
+      newton%factorizations_before = newton%factorizations_before + smaller%factorizations
+      call destroy_newton(smaller)
+    end subroutine count_smaller
   end subroutine start_on_meshes
 
   !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.

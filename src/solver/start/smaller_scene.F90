@@ -14,7 +14,7 @@ module gfb_smaller_scene
   use gfb_foil_builder, only: plate_stations
   implicit none (type, external)
   private
-  public :: find_smaller
+  public :: find_smaller, find_between, lies_between
 
   integer, parameter :: least_circumferential = 32 !! elements of the coarsest mesh, at least
   integer, parameter :: least_axial = 4            !! of half the width, at least
@@ -44,6 +44,27 @@ contains
       found = .false.
     end if
   end subroutine find_smaller
+
+  !> Whether a mesh of foils lies between one and the next smaller one: many rows were left out at once.
+  pure function lies_between(plan, small_plan) result(lies)
+    type(bearing_plan_type), intent(in) :: plan, small_plan !! meshes of both
+    logical :: lies
+    lies = plan%circumferential == small_plan%circumferential .and. (plan%half .eqv. small_plan%half) .and. &
+      plan%axial > 2*small_plan%axial
+  end function lies_between
+
+  !> The scene on it: with half the rows.
+  subroutine find_between(scene, plan, small, small_plan)
+    type(scene_type), intent(in) :: scene       !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan !! its meshes
+    type(scene_type), intent(out) :: small             !! the scene on the smaller mesh
+    type(bearing_plan_type), intent(out) :: small_plan !! its meshes
+
+    small = scene
+    small_plan = plan
+    small_plan%axial = 2*(plan%axial/4)
+    small%mesh%axial_elements = small_plan%axial
+  end subroutine find_between
 
   !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
   pure function can_halve(scene, plan, target) result(can)

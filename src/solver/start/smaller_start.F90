@@ -13,6 +13,7 @@ module gfb_smaller_start
   public :: try_smaller_answer, try_smaller_position, try_smaller_refusal
 
   real(wp), parameter :: first_step = 0.25_wp !! of a path to the load [1]
+  integer, parameter :: hasty_iterations = 16 !! where a mesh in between may help; 6 to 10 where none is needed
 
 contains
 
@@ -22,10 +23,14 @@ contains
     type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! never
+    integer :: allowed
 
     ends = .false.
     call transfer_answer(problem%smaller, problem%bearing)
+    allowed = problem%newton%settings%maximum_iterations
+    if (problem%carried_only) problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
     call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
+    problem%newton%settings%maximum_iterations = allowed
     problem%from_smaller = report%converged
   end subroutine try_smaller_answer
 

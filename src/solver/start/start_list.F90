@@ -67,7 +67,7 @@ contains
     interference = problem%scene%bearing%interference
     if (.not. interference > 0.0_wp .or. associated(problem%smaller)) then
       call try_starts(problem, report)
-      if (.not. interference > 0.0_wp .or. report%converged .or. problem%refused) return
+      if (.not. interference > 0.0_wp .or. report%converged .or. problem%refused .or. problem%carried_only) return
     end if
     problem%smaller => null()
     call problem%newton%log%detail('without interference of assembly:')
@@ -144,6 +144,7 @@ contains
     allocate (list(0))
     do i = 1, size(starts)
       if (.not. starts(i)%applies(problem)) cycle
+      if (problem%carried_only .and. .not. associated(starts(i)%applies, has_smaller)) cycle
       list = [list, i]
       if (problem%on_the_way .or. (problem%refused .and. .not. associated(starts(i)%applies, is_refused))) exit
     end do

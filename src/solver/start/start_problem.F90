@@ -43,6 +43,7 @@ module gfb_start_problem
     logical :: refused = .false.         !! no start led to an answer of the smaller system, which is left where its search ended
     type(path_report_type) :: refusal    !! how, where it was refused
     logical :: on_the_way = .false.      !! the target lies on the way to another one: one start, no more
+    logical :: carried_only = .false.    !! no start but Newton's method from the smaller system's answer
     logical :: others_left = .false.     !! other starts with soft contacts follow
     logical :: shown = .false.           !! out: there is no answer, whatever start is tried
     character(len=:), allocatable :: suspicion !! out: what speaks against an answer, where no start leads to one
