@@ -16,5 +16,16 @@ module gfb_mesh_plan
     !> of two equal bearings that carry a rotor which tilts; 0: one bearing [m]
     real(wp) :: bearing_distance = 0.0_wp
     real(wp) :: memory = 0.0_wp    !! that the equations take, about [B]
+  contains
+    procedure :: nodes
   end type bearing_plan_type
+
+contains
+
+  !> Nodes of the film that are solved, but for a row and a station.
+  pure integer function nodes(self)
+    class(bearing_plan_type), intent(in) :: self !! meshes of a bearing
+    nodes = self%order**2*self%circumferential*self%axial
+    if (self%half) nodes = nodes/2
+  end function nodes
 end module gfb_mesh_plan

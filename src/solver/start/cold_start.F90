@@ -36,6 +36,7 @@ module gfb_cold_start
   !> speeds of a faster start, and on the way down from there, over the one asked for [1]
   real(wp), parameter :: fast(points_on_the_way) = [2.0_wp, 1.6_wp, 1.3_wp, 1.15_wp, 1.0_wp]
   real(wp), parameter :: shortest = 0.02_wp !! step on the way [1]
+  real(wp), parameter :: worthwhile = 0.2_wp !! nodes of a smaller system that goes first, over the scene's [1]
 
 contains
 
@@ -44,7 +45,7 @@ contains
   !> Where a search ends, it may be the end of the branch on which it came under the load, not of all: it has to show on the
   !> way up from a lighter load, too, where that has an answer; a tenth of what is far too heavy has none. Where no reason is
   !> found, or a film draws up the free edge of shells, which is kept straight while that is looked into, it has to show on the way
-  !> down from a faster shaft, too.
+  !> down from a faster shaft, too. A reason that was found stands where the smallest system has none of these ways.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -103,20 +104,66 @@ contains
     subroutine come_along(way, one_start)
       type(operating_point_type), intent(in) :: way(:)
       logical, intent(in) :: one_start !! to the first point, no more
+      integer :: spent(3)
+
+      if (refusal%drawn .or. refusal%has_cause()) then
+        if (.not. smallest_comes_along(way, one_start)) return
+        if (allocated(error)) return
+      end if
+      call drop_bearing(bearing, newton, spent)
+      call go_along(scene, plan, way, one_start, bearing, newton)
+      call count_spent(newton, spent)
+    end subroutine come_along
+
+    !> Whether the smallest system does; where that is not much smaller, it is left to the scene's own.
+    function smallest_comes_along(way, one_start) result(comes)
+      type(operating_point_type), intent(in) :: way(:)
+      logical, intent(in) :: one_start
+      logical :: comes, has_smaller
+      type(bearing_system_type), target :: coarse
+      type(newton_type), target :: coarse_newton
+      type(scene_type), target :: small, next
+      type(bearing_plan_type) :: small_plan, next_plan
+
+      small = scene
+      small_plan = plan
+      do
+        call find_smaller(small, small_plan, target, has_smaller, next, next_plan)
+        if (.not. has_smaller) exit
+        small = next
+        small_plan = next_plan
+      end do
+      comes = small_plan%nodes() > worthwhile*plan%nodes()
+      if (comes) return
+      call go_along(small, small_plan, way, one_start, coarse, coarse_newton)
+      if (allocated(error)) return
+      comes = report%converged .or. .not. report%has_cause()
+      newton%iterations = newton%iterations + coarse_newton%iterations
+      newton%factorizations = newton%factorizations + coarse_newton%factorizations
+      newton%factorizations_before = newton%factorizations_before + coarse_newton%factorizations
+      call drop_bearing(coarse, coarse_newton)
+    end function smallest_comes_along
+
+    !> Of one system.
+    subroutine go_along(scene, plan, way, one_start, bearing, newton)
+      type(scene_type), target, intent(in) :: scene
+      type(bearing_plan_type), intent(in) :: plan
+      type(operating_point_type), intent(in) :: way(:)
+      logical, intent(in) :: one_start
+      type(bearing_system_type), target, intent(inout) :: bearing !! is built
+      type(newton_type), target, intent(inout) :: newton          !! its solver, is created
       type(path_settings_type) :: settings
-      integer :: spent(3), i
+      integer :: i
 
       settings = path_settings
       settings%smallest_step = max(settings%smallest_step, shortest)
-      call drop_bearing(bearing, newton, spent)
       call start_on_meshes(scene, plan, way(1), newton_settings, path_settings, log, bearing, newton, report, error, on_the_way=one_start)
       if (allocated(error)) return
       do i = 2, size(way)
         if (.not. report%converged) exit
         call follow_path(bearing, newton, way(i), 1.0_wp, settings, report)
       end do
-      call count_spent(newton, spent)
-    end subroutine come_along
+    end subroutine go_along
   end subroutine start_bearing
 
   !> `start_bearing` where there is a bearing already, whose way has ended: it is built anew, and what was spent on it counts.
