@@ -69,6 +69,9 @@ def check_ring(checks, folder):
     for steps in (60, 120, 240):
         rows = history(solve(folder, "ring", ring_case(ratio, steps, radius)))
         found.append(plane(rows, "force")[-1]/(plane(rows, "eccentricity")[-1]/radius))
+    place = case_groups(RING, mesh=(48, 8), number=1.0, eccentricity=(radius, 0.0), groups={"model": {"film_order": 2}})
+    first = complex(*solve(folder, "place", place).force)
+    checks.below("ring: it begins with the steady film of its first place", abs(plane(rows, "force")[0]/first - 1.0), 1.0e-8)
     order = observed_order(abs(found[0] - found[1]), abs(found[1] - found[2]))
     checks.within("ring: order of the steps", order, *ORDER)
     limit = (4.0*found[2] - found[1])/3.0

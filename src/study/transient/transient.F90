@@ -12,6 +12,7 @@ module gfb_transient
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
+  use gfb_orbit_begin, only: go_to_orbit
   use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
@@ -64,8 +65,12 @@ contains
     settings%damping = scene%transient%foundation_damping
     settings%end_time = duration_of(scene)
     newton%log%verbose = .false.
-    if (.not. context%restart%goes_on) call choose_momentum(scene, context%log, bearing)
+    if (.not. context%restart%goes_on) then
+      call go_to_orbit(scene, context%log, bearing, newton)
+      call choose_momentum(scene, context%log, bearing)
+    end if
     call begin_march(drive_of(scene), settings, bearing, self%march)
+    if (scene%transient%orbit_radius > 0.0_wp) self%march%start%eccentricity = scene%operation%eccentricity
     call self%history%add(self%march, bearing, newton)
     if (.not. context%restart%goes_on) then
       call keep_fields(scene, self%march, bearing, record%series)
