@@ -12,13 +12,12 @@ module gfb_transient
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
-  use gfb_orbit_begin, only: go_to_orbit
-  use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march
+  use gfb_transient_start, only: begin_transient
+  use gfb_time_march, only: march_type, march_settings_type, take_step, end_march
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
   use gfb_run_context, only: run_context_type
-  use gfb_foil_mass_choice, only: choose_momentum
   use gfb_transient_history, only: transient_history_type, plane_columns, tilt_columns
   use gfb_bearing_record, only: bearing_record_type
   use gfb_restart, only: restart_type
@@ -65,12 +64,7 @@ contains
     settings%damping = scene%transient%foundation_damping
     settings%end_time = duration_of(scene)
     newton%log%verbose = .false.
-    if (.not. context%restart%goes_on) then
-      call go_to_orbit(scene, context%log, bearing, newton)
-      call choose_momentum(scene, context%log, bearing)
-    end if
-    call begin_march(drive_of(scene), settings, bearing, self%march)
-    if (scene%transient%orbit_radius > 0.0_wp) self%march%start%eccentricity = scene%operation%eccentricity
+    call begin_transient(scene, drive_of(scene), settings, context%restart%goes_on, context%log, bearing, newton, self%march)
     call self%history%add(self%march, bearing, newton)
     if (.not. context%restart%goes_on) then
       call keep_fields(scene, self%march, bearing, record%series)
