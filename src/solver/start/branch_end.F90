@@ -38,15 +38,16 @@ contains
   end subroutine follow_branch
 
   !> Adds to the report of a path that ended without a cause what happens beyond its end: the free edge is fixed, the
-  !> target reached with it, and the edge's force asked there. The state stays the branch's last answer.
+  !> target reached with it, and the edge's force asked there. Where that leads to an answer near the branch's last one, the
+  !> branch goes on with it, and the path has converged; the state stays the branch's last answer otherwise.
   subroutine ask_beyond(scene, bearing, newton, target, where, settings, report)
     type(scene_type), target, intent(in) :: scene !! what is asked for
-    type(bearing_system_type), target, intent(inout) :: bearing !! at the branch's last answer
+    type(bearing_system_type), target, intent(inout) :: bearing !! in and out: at the branch's last answer
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target !! beyond the end
     character(len=*), intent(in) :: where !! the target in words: 'at ...'
     type(path_settings_type), intent(in) :: settings !! limits of paths
-    type(path_report_type), intent(inout) :: report !! of the path that ended; its reason becomes longer
+    type(path_report_type), intent(inout) :: report !! of the path that ended: goes on, or its reason becomes longer
     type(start_problem_type) :: problem
     type(path_report_type) :: beyond
     type(kept_state_type) :: last
@@ -65,14 +66,21 @@ contains
     problem%bearing => bearing
     problem%newton => newton
     call ask_edges(problem, beyond, ends)
+    if (beyond%converged) then
+      report%converged = last%change(bearing) <= settings%longest_leap
+    end if
     report%drawn = ends
-    if (ends) then
+    if (report%converged) then
+      report%reason = 'converged'
+      report%reached = target
+      report%fraction = 1.0_wp
+    else if (ends) then
       report%reason = report%reason//'; '//where//' '//beyond%reason
     else if (beyond%converged) then
       report%reason = report%reason//'; '//where//' another equilibrium was found, with its free edge at '// &
         text(maxval([(edge_lift(bearing, pad), pad=1, size(bearing%pad))])*micrometres, 3)//' um: a branch of its own'
     end if
-    call last%put_back(bearing)
+    if (.not. report%converged) call last%put_back(bearing)
     call last%destroy()
     call problem%anchor%destroy()
   end subroutine ask_beyond

@@ -2,6 +2,7 @@
 !> The state of a bearing, kept to be put back: what a start may change and has to leave as it was.
 module gfb_kept_state
   use petscvec
+  use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
@@ -16,6 +17,7 @@ module gfb_kept_state
   contains
     procedure :: keep
     procedure :: put_back
+    procedure :: change
     procedure :: destroy
   end type kept_state_type
 
@@ -52,6 +54,20 @@ contains
     bearing%point = self%point
     bearing%shaft_fixed = self%shaft_fixed
   end subroutine put_back
+
+  !> Largest change of a scaled unknown since the state was kept.
+  function change(self, bearing) result(largest)
+    class(kept_state_type), intent(in) :: self !! the kept state
+    type(bearing_system_type), intent(in) :: bearing !! that whose state was kept
+    real(wp) :: largest !! [1]
+    Vec :: difference
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecDuplicate(self%state, difference, ierr))
+    PetscCallA(VecWAXPY(difference, -1.0_wp, self%state, bearing%state, ierr))
+    PetscCallA(VecNorm(difference, NORM_INFINITY, largest, ierr))
+    PetscCallA(VecDestroy(difference, ierr))
+  end function change
 
   !> Frees what PETSc holds; may be called without anything kept.
   subroutine destroy(self)

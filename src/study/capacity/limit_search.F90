@@ -24,7 +24,8 @@ module gfb_limit_search
   integer, parameter :: most_trials = 40          !! between two values on both sides
   real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed or tilt, relative [1]
   real(wp), parameter :: settled = 1.0e-10_wp     !! reserve that needs no other trial [1]
-  real(wp), parameter :: a_little = 0.05_wp       !! of the step that failed, beyond the branch's end [1]
+  real(wp), parameter :: a_little = 0.025_wp      !! of the step that failed, beyond the branch's end [1]
+  integer, parameter :: most_resumed = 4          !! ends of a branch that goes on beyond
   real(wp), parameter :: at_limit = 1.0e-6_wp     !! reserve that is none [1]
 
   !> Two values on both sides of the limit, and the last answer on its near side.
@@ -105,13 +106,14 @@ contains
     type(operating_point_type) :: beyond
     real(wp) :: value, left, next, first
     logical :: starts_within, stops
-    integer :: step
+    integer :: step, resumed
 
     value = limit%value_at(bearing%point)
     left = limit%reserve(bearing)
     first = left
     starts_within = first > 0.0_wp
     passed = .false.
+    resumed = 0
     settings = path
     ! The path ends where the limit is passed, so that nothing is looked for beyond.
     if (limit%is_of_film() .and. starts_within) settings%touch_down_gap = limit%smallest_gap
@@ -123,27 +125,36 @@ contains
       next = limit%next_value(value, left)
       if (abs(next - value) <= 0.0_wp) exit ! there is no way farther back
       call follow_path(bearing, newton, limit%point_with(bearing%point, next), 1.0_wp, settings, report)
-      value = limit%value_at(bearing%point)
-      left = limit%reserve(bearing)
-      if (.not. left < 0.0_wp) call sides%within%keep(bearing)
-      sides%bracket%high = value
-      sides%bracket%at_high = left
-      passed = left*first <= 0.0_wp
+      call look()
       stops = stop_agreed()
       if (passed .or. stops) return
+      if (.not. report%converged .and. starts_within .and. resumed < most_resumed) then
+        resumed = resumed + 1
+        beyond = limit%point_with(bearing%point, value + a_little*(next - value))
+        call ask(scene, bearing, newton, beyond, 'a little beyond', path, report)
+        if (report%converged) call look()
+        if (passed) return
+      end if
       if (.not. report%converged) then
-        if (starts_within) then
-          beyond = limit%point_with(bearing%point, value + a_little*(next - value))
-          call ask(scene, bearing, newton, beyond, 'a little beyond', path, report)
-        else
-          report%reason = 'beyond the limit at first, and on the way back '//report%reason
-        end if
+        if (.not. starts_within) report%reason = 'beyond the limit at first, and on the way back '//report%reason
         return
       end if
     end do
     report%converged = .false.
     report%reason = 'not met after '//text(most_steps)//' steps, each of which doubled or halved what is looked for'
     if (.not. starts_within) report%reason = limit%never_within(bearing)
+
+  contains
+
+    !> At a new answer: on which side of the limit it lies.
+    subroutine look()
+      value = limit%value_at(bearing%point)
+      left = limit%reserve(bearing)
+      if (.not. left < 0.0_wp) call sides%within%keep(bearing)
+      sides%bracket%high = value
+      sides%bracket%at_high = left
+      passed = left*first <= 0.0_wp
+    end subroutine look
   end subroutine pass_limit
 
   !> False position between both sides, from the second one's answer.
