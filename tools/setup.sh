@@ -7,7 +7,7 @@ requirements=$root/tools/requirements.txt
 venv=$root/build/venv
 
 run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin
-  petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libmumps-dev libopenblas0-serial python3)
+  petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libmumps-dev libsuitesparse-dev libopenblas0-serial python3)
 # shellcheck disable=SC2034 # used by those who source this
 report_packages=(python3-numpy python3-h5py python3-matplotlib python3-jinja2)
 # shellcheck disable=SC2034

@@ -11,7 +11,7 @@ import unittest
 PROGRAM = pathlib.Path(os.environ["GFB"])
 SOURCE = pathlib.Path(os.environ["GFB_SOURCE"])
 TOOLS = ("cpack", "dpkg-deb", "dpkg-shlibdeps")
-LIBRARIES = ("libc6", "libgfortran5", "libhdf5-openmpi", "libmetis5", "libmumps", "libopenmpi", "libpetsc-real", "libslepc-real")
+LIBRARIES = ("libc6", "libgfortran5", "libhdf5-openmpi", "libklu1", "libmetis5", "libmumps", "libopenmpi", "libpetsc-real", "libslepc-real")
 
 
 def said(*words):

@@ -55,7 +55,7 @@ class Recipes(unittest.TestCase):
         defined = re.findall(r'define\("(\w+)"', path.read_text(encoding="utf-8"))
         self.assertEqual([name for name in defined if name not in cmake and name != "HDF5_ROOT"], [])
         needed = {call.args[0].value for call in ast.walk(recipe) if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "depends_on"}
-        for name in ("mpi", "metis", "mumps", "petsc", "slepc", "hdf5", "lapack", "pkgconfig", "cmake"):
+        for name in ("mpi", "metis", "mumps", "petsc", "slepc", "suite-sparse", "hdf5", "lapack", "pkgconfig", "cmake"):
             self.assertTrue(any(re.match(rf"{name}\b", spec) for spec in needed), name)
         self.assertEqual(path.parents[4], PROJECT)
 

@@ -110,6 +110,7 @@ contains
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call create_bearing_system(bearing, foil, floats, places_of(scene%bearing, film%offset))
+    bearing%low_fill = scene%model%foil /= foil_shell
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
 

@@ -6,6 +6,7 @@ module gfb_lagged_factors
   use petscksp
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_direct_solver, only: are_of_mumps
   implicit none (type)
   private
   public :: use_lagged_factors, judge_factors
@@ -65,7 +66,6 @@ contains
     integer, intent(out) :: price
     PetscErrorCode, intent(out) :: ierr
     integer, parameter :: flops_place = 3, entries_place = 29 !! in MUMPS' RINFOG and INFOG
-    character(len=80) :: package
     PetscReal :: flops
     PetscInt :: entries
     Mat :: factors
@@ -73,8 +73,7 @@ contains
 
     price = least_krylov
     PetscCall(KSPGetPC(linear, preconditioner, ierr))
-    PetscCall(PCFactorGetMatSolverType(preconditioner, package, ierr))
-    if (package /= MATSOLVERMUMPS) return
+    if (.not. are_of_mumps(preconditioner)) return
     PetscCall(PCFactorGetMatrix(preconditioner, factors, ierr))
     PetscCall(MatMumpsGetRinfog(factors, int(flops_place, pint), flops, ierr))
     PetscCall(MatMumpsGetInfog(factors, int(entries_place, pint), entries, ierr))

@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> The linear solver of Newton's method: which one a system gets, and when it factors its matrix anew.
 !>
-!> - direct: MUMPS' factors. They serve again while that makes Newton's steps shrink fast.
+!> - direct: factors. They serve again while that makes Newton's steps shrink fast.
 !> - lagged: where matrices differ in few entries, earlier factors precondition GMRES.
 !> - iterative: multigrid, where the system knows its motions.
 module gfb_linear_solver
@@ -55,7 +55,7 @@ contains
     if (solver%iterates) then
       call use_multigrid(linear, prefix, system%symmetric, system%motions)
     else
-      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite)
+      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite, system%low_fill)
     end if
     if (.not. system%slow_change) return
     if (.not. solver%iterates) call use_lagged_factors(linear)

@@ -21,7 +21,7 @@ module gfb_newton
   use gfb_petsc_session, only: stop_is_asked
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: factor_matrix
+  use gfb_direct_solver, only: factor_matrix, factors_by
   use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, &
                                linear_failure, drop_failed_factors, forget_solver
   use gfb_line_search, only: line_search_type, take_step, remaining_error, stagnation
@@ -78,6 +78,7 @@ contains
     type(run_log_type), intent(in) :: log !! gets the lines of progress
 
     SNESLineSearch :: search
+    KSP :: linear
     PetscInt :: unknowns
     PetscErrorCode :: ierr
 
@@ -98,6 +99,10 @@ contains
     PetscCallA(SNESLineSearchShellSetApply(search, search_line, newton, ierr))
     call choose_solver(newton%snes, prefix, system, newton%linear)
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
+    if (system%low_fill) then
+      PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+      call log%detail('linear systems: '//factors_by(linear))
+    end if
     newton%created = .true.
   end subroutine create_newton
 

@@ -60,6 +60,7 @@ contains
     path%first = bearing%point
     path%last = last
     path%dense_rows = .true.
+    path%low_fill = bearing%low_fill
     PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
     call create_border(int(owned), 1, path%border)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(path%border%owned, pint), PETSC_DETERMINE, path%state, ierr))

@@ -31,6 +31,7 @@ class Gfb(CMakePackage):
     depends_on("mumps+mpi+double+complex")
     depends_on("petsc@3.18:+mpi+mumps+fortran+double~complex~int64")
     depends_on("slepc@3.18:")
+    depends_on("suite-sparse")
     depends_on("hdf5+mpi+fortran")
 
     # The tests are Python programs, too.
