@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> The derivatives of an answer as results and as a table of the log.
 module gfb_sensitivity_report
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use petscmat
   use gfb_kinds, only: wp
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
@@ -63,13 +64,14 @@ contains
 
     associate (asked => scene%sensitivity)
       do i = 1, size(derivative)
+        if (ieee_is_nan(derivative(i))) cycle ! there is none, which was told
         associate (key => asked%parameter(i))
           full = 'd_'//name//'_d_'//result_part(key%key)
           call add_quantity(list, number_quantity(full, derivative(i), quotient_unit(result_unit(name), key%unit), &
                                                   result_meaning(full, name//' by '//key%key%label())))
         end associate
       end do
-      if (size(asked%tolerances) == 0) return
+      if (size(asked%tolerances) == 0 .or. any(ieee_is_nan(derivative))) return
       associate (variance => variance_of(scene, derivative))
         call add_result(list, 'standard_deviation_'//name, sqrt(variance))
         call add_result(list, 'variance_'//name, variance)
@@ -113,7 +115,7 @@ contains
           call log%line('  '//parameter_line(asked%parameter(k), found%value(i), found%derivative(i, k), unit, &
                                              size(asked%tolerances) > 0))
         end do
-        if (size(asked%tolerances) == 0) cycle
+        if (size(asked%tolerances) == 0 .or. any(ieee_is_nan(found%derivative(i, :)))) cycle
         associate (deviation => sqrt(variance_of(scene, found%derivative(i, :))))
           call log%line('  standard deviation by all tolerances: '//text(deviation, digits)//' '//unit)
         end associate
@@ -131,7 +133,12 @@ contains
     character(len=:), allocatable :: words
 
     words = 'by '//key%key%label()
-    words = words//repeat(' ', max(0, 32 - len(words)))//text(derivative, digits)//' '//quotient_unit(unit, key%unit)
+    words = words//repeat(' ', max(0, 32 - len(words)))
+    if (ieee_is_nan(derivative)) then
+      words = words//'none'
+      return
+    end if
+    words = words//text(derivative, digits)//' '//quotient_unit(unit, key%unit)
     if (abs(value) > 0.0_wp .and. abs(key%value) > 0.0_wp) then
       words = words//'; by 1 % of it: '//text(percent*derivative*(key%value/percent)/value, few_digits)//' %'
     end if

@@ -1,13 +1,16 @@
-!> Moves the sides of a film's elements onto angles where the gap has a kink.
+!> Sides of elements where something lies: of a film's on angles where the gap has a kink, of top
+!> foil and film above the crests.
 module gfb_aligned_mesh
   use gfb_kinds, only: wp
   use gfb_film_mesh, only: film_mesh_type
   implicit none (type, external)
   private
-  public :: align_stations, kinks_inside
+  public :: align_stations, kinks_inside, aligned_stations, elements_at_ends
 
   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
   real(wp), parameter :: on_side = 1.0e-8_wp         !! nearer is on a side, over an element [1]
+  real(wp), parameter :: rounding = 1.0e-9_wp        !! of lengths that fit exactly, relative [1]
+  real(wp), parameter :: alike = 1.0e-6_wp           !! of elements, that is none [1]
   real(wp), parameter :: shortest = 0.25_wp          !! element it makes, over an equal one [1]
 
 contains
@@ -99,4 +102,48 @@ contains
       end associate
     end do
   end subroutine put_sides
+
+  !> Stations from x = 0 to a pad's length with one above every crest: equal elements from crest to
+  !> crest, before the first and behind the last one elements of at most 1.5 times their length, or
+  !> as many as are given.
+  pure function aligned_stations(length, crest, pitch, elements, at_ends) result(x)
+    real(wp), intent(in) :: length   !! of the pad [m]
+    real(wp), intent(in) :: crest(:) !! positions on the pad, rising [m]
+    real(wp), intent(in) :: pitch    !! regular [m]
+    integer, intent(in) :: elements  !! of a pitch
+    !> before the first crest and behind the last one; 0: as many as fit
+    integer, intent(in), optional :: at_ends(2)
+    real(wp), allocatable :: x(:)
+    real(wp) :: bound(size(crest) + 2)
+    integer :: fitting(2), i, k, n
+
+    bound = [0.0_wp, crest, length]
+    fitting = elements_at_ends(length, crest, pitch, elements)
+    if (present(at_ends)) fitting = merge(at_ends, fitting, at_ends > 0)
+    x = bound(:1)
+    do i = 1, size(bound) - 1
+      n = elements
+      if (i > size(crest)) n = fitting(2)
+      if (i == 1) n = fitting(1)
+      if (bound(i + 1) - bound(i) <= rounding*pitch) cycle ! a crest at the pad's edge
+      x = [x, (bound(i) + (bound(i + 1) - bound(i))*k/n, k=1, n - 1), bound(i + 1)]
+    end do
+  end function aligned_stations
+
+  !> Elements that fit before the first crest and behind the last one; of two numbers that fit alike
+  !> the smaller one, whatever rounding makes of half a pitch with an odd number of elements.
+  pure function elements_at_ends(length, crest, pitch, elements) result(number)
+    real(wp), intent(in) :: length   !! of the pad [m]
+    real(wp), intent(in) :: crest(:) !! positions on the pad, rising [m]
+    real(wp), intent(in) :: pitch    !! regular [m]
+    integer, intent(in) :: elements  !! of a pitch
+    integer :: number(2)
+    real(wp) :: bound(size(crest) + 2)
+
+    bound = [0.0_wp, crest, length]
+    associate (last => size(bound))
+      number = max(1, nint([bound(2) - bound(1), bound(last) - bound(last - 1)]/pitch*elements &
+                           - alike))
+    end associate
+  end function elements_at_ends
 end module gfb_aligned_mesh

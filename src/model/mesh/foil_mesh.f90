@@ -12,7 +12,7 @@ module gfb_foil_mesh
   implicit none (type, external)
   private
   public :: bump_strip_mesh, strip_substructures, top_foil_mesh
-  public :: crest_positions, aligned_stations, station_positions, dividing_stations
+  public :: crest_positions, station_positions, dividing_stations
   public :: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
@@ -126,27 +126,6 @@ contains
     x = shape%edge + merge(-1.0_wp, 1.0_wp, shape%mirrored)*pack(station%along, station%crest > 0)
     if (shape%mirrored) x = x(size(x):1:-1)
   end function crest_positions
-
-  !> Stations from x = 0 to a pad's length with one above every crest: equal elements from crest to
-  !> crest, before the first and behind the last one elements of at most 1.5 times their length.
-  pure function aligned_stations(length, crest, pitch, elements) result(x)
-    real(wp), intent(in) :: length   !! of the pad [m]
-    real(wp), intent(in) :: crest(:) !! positions on the pad, rising [m]
-    real(wp), intent(in) :: pitch    !! regular [m]
-    integer, intent(in) :: elements  !! of a pitch
-    real(wp), allocatable :: x(:)
-    real(wp) :: bound(size(crest) + 2)
-    integer :: i, k, n
-
-    bound = [0.0_wp, crest, length]
-    x = bound(:1)
-    do i = 1, size(bound) - 1
-      n = elements
-      if (i == 1 .or. i > size(crest)) n = max(1, nint((bound(i + 1) - bound(i))/pitch*elements))
-      if (bound(i + 1) - bound(i) <= rounding*pitch) cycle ! a crest at the pad's edge
-      x = [x, (bound(i) + (bound(i + 1) - bound(i))*k/n, k=1, n - 1), bound(i + 1)]
-    end do
-  end function aligned_stations
 
   !> A flat plate with given stations; sets leading_edge, trailing_edge, midplane.
   pure function top_foil_mesh(position_x, height, rows, half, window) result(mesh)

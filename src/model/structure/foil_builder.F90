@@ -15,7 +15,8 @@ module gfb_foil_builder
   use gfb_top_mesh, only: top_mesh
   use gfb_strip_rows, only: strip_rows, cut_rows, strips_of_rows
   use gfb_own_strips, only: put_strip, join_kinds
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, aligned_stations, crest_positions
+  use gfb_aligned_mesh, only: aligned_stations, elements_at_ends
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, crest_positions
   use gfb_substructures, only: substructure_type
   use gfb_partition, only: division_type
   use gfb_part_chains, only: strip_kinds, strip_columns
@@ -25,7 +26,7 @@ module gfb_foil_builder
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, &
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, keep_elements, &
             find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter, public :: axial = 3         !! component of a displacement
@@ -58,15 +59,32 @@ contains
     integer :: i
 
     length = pad_length(scene%bearing)
-    associate (elements => scene%mesh%circumferential_elements, pitch => scene%bump_foil%pitch)
-      if (scene%mesh%align_crests) then
-        x = aligned_stations(length, crest_positions(shape_on_pad(scene)), pitch, &
-                             max(1, nint(elements*pitch/length)))
-      else
+    if (scene%mesh%align_crests) then
+      x = aligned_stations(length, crest_positions(shape_on_pad(scene)), scene%bump_foil%pitch, elements_a_pitch(scene), &
+                           scene%mesh%elements_at_ends)
+    else
+      associate (elements => scene%mesh%circumferential_elements)
         x = [(length*real(i, wp)/real(elements, wp), i=0, elements)]
-      end if
-    end associate
+      end associate
+    end if
   end function plate_stations
+
+  !> Elements from crest to crest where stations lie above the crests.
+  elemental integer function elements_a_pitch(scene) result(elements)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    elements = max(1, nint(scene%mesh%circumferential_elements*scene%bump_foil%pitch/pad_length(scene%bearing)))
+  end function elements_a_pitch
+
+  !> A scene that differs in a number gets meshes with as many elements as another scene's.
+  subroutine keep_elements(scene, there)
+    type(scene_type), intent(in) :: scene    !! the other one
+    type(scene_type), intent(inout) :: there !! that differs from it
+
+    there%mesh%circumferential_elements = scene%mesh%circumferential_elements
+    if (.not. (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0)) return
+    there%mesh%elements_at_ends = elements_at_ends(pad_length(scene%bearing), crest_positions(shape_on_pad(scene)), &
+                                                   scene%bump_foil%pitch, elements_a_pitch(scene))
+  end subroutine keep_elements
 
   !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent; of the
   !> opposite motions all others. A node in the middle of a cut is part of nothing and cannot move.

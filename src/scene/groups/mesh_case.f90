@@ -24,6 +24,8 @@ module gfb_mesh_case
     real(wp) :: edge_refinement = 1.0_wp
     integer :: arc_elements = 12   !! of a bump's arc
     integer :: flat_elements = 3   !! of the flat between two bumps
+    !> before the first crest and behind the last one, of a mesh like another one; 0: as many as fit
+    integer :: elements_at_ends(2) = 0
     logical :: align_crests = .false. !! lines of nodes of film and top foil lie above the crests
   end type mesh_case_type
 

@@ -14,6 +14,7 @@ module gfb_changed_bearing
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: build_like, take_numbers
   use gfb_changed_foil, only: takes_numbers, add_changed_force
   use gfb_answer_gradient, only: extreme_nodes_type, measure
@@ -50,6 +51,7 @@ contains
         problem = error%message
         return
       end if
+      call keep_elements(scene, there)
       if (keeps_meshes(scene, parameter%key) .and. takes_numbers(bearing%pad(1)%foil)) then
         call evaluate_in_place(scene, there, parameter%key, bearing, unknown, nodes, residual, number, valid, error)
       else
