@@ -10,6 +10,7 @@ module gfb_start_list
   use gfb_start_problem, only: start_problem_type, cold_start_type, soft_contacts_type, never, after, before, &
                                clearance_of
   use gfb_kept_state, only: kept_state_type
+  use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
   use gfb_rigid_start, only: try_from_rest
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
@@ -22,6 +23,7 @@ module gfb_start_list
   public :: cold_starts, try_starts, start_pressed
 
   integer, parameter :: most_iterations = 800 !! Newton's, after which no other start begins
+  real(wp), parameter :: hardly_lifted = 0.1_wp !! edge of a pad that is no other branch, over the clearance [1]
   real(wp), parameter :: slow = 0.5_wp       !! speed of a slower shaft, over the one asked for [1]
   real(wp), parameter :: first_step = 0.25_wp !! from there, of the path to the speed asked for [1]
 
@@ -200,8 +202,8 @@ contains
     end if
   end subroutine try_half_speed
 
-  !> Soft contacts of several pads. Where that leads to an edge that is lifted, or to the end of a branch, there may be an
-  !> equilibrium whose edges all rest: with the edges fixed while contacts are released, or from nearer to the foil.
+  !> Soft contacts of several pads. Where that leads to an edge that is lifted, or to the end of a branch, and not to an answer
+  !> that looks stable with edges hardly off their bumps, there may be an equilibrium whose edges all rest: with the edges fixed while contacts are released, or from nearer to the foil.
   recursive subroutine try_several_edges(problem, soft, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(soft_contacts_type), intent(in) :: soft
@@ -213,14 +215,16 @@ contains
     integer :: trial
 
     call try_soft_contacts(problem, soft, report, ends)
-    rest = edges_rest(problem, report)
+    rest = edges_rest(problem, report, resting)
+    if (.not. rest) rest = edges_rest(problem, report, hardly_lifted)
+    if (rest) rest = may_be_stable(problem)
     if (rest .or. problem%on_the_way .or. .not. (report%converged .or. ends)) return
     call first%keep(problem%bearing)
     do trial = 1, 2
       call problem%newton%log%detail('an equilibrium whose edges rest:')
       if (trial == 1) call try_free_edge(problem, soft_contacts_type(), other, other_ends)
       if (trial == 2) call try_soft_contacts(problem, near_the_foil, other, other_ends)
-      rest = edges_rest(problem, other)
+      rest = edges_rest(problem, other, resting)
       if (.not. (rest .or. other%converged .and. .not. report%converged)) cycle
       report = other
       ends = other_ends
@@ -231,16 +235,27 @@ contains
     call first%destroy()
   end subroutine try_several_edges
 
+  !> Whether an answer may be a stable one: the sign of its determinant speaks for it.
+  function may_be_stable(problem) result(may_be)
+    type(start_problem_type), intent(in) :: problem
+    logical :: may_be
+    integer :: sign_of_determinant
+
+    call find_determinant_sign(problem%newton, sign_of_determinant)
+    may_be = sign_of_determinant > 0
+  end function may_be_stable
+
   !> Whether a start led to an answer at which no free edge is lifted.
-  function edges_rest(problem, report) result(rest)
+  function edges_rest(problem, report, highest) result(rest)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the start
+    real(wp), intent(in) :: highest !! edge that counts as resting, over the clearance [1]
     logical :: rest
     integer :: pad
 
     rest = report%converged
     do pad = 1, size(problem%bearing%pad)
-      if (rest) rest = edge_lift(problem%bearing, pad) < resting*clearance_of(problem%bearing)
+      if (rest) rest = edge_lift(problem%bearing, pad) < highest*clearance_of(problem%bearing)
     end do
   end function edges_rest
 
