@@ -1,10 +1,11 @@
 !> Foils as they are built: gaps at crests need a model in which crests touch something, sizes bump
 !> by bump one that has the bumps, foils that lie with a force at rest one in which they give way.
 module gfb_assembly_rules
-  use gfb_bump_foil_case, only: bump_pitches, bump_half_lengths, fixed_edge_none
+  use gfb_bump_foil_case, only: bump_pitches, bump_half_lengths, bump_heights, fixed_edge_none
+  use gfb_bump_list, only: complain_of_bumps
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: coupling_partitioned, foil_elastic_foundation, foil_rigid, &
-                            foundation_pressure_local, meshes_foils
+                            foil_shell, foundation_pressure_local, meshes_foils
   use gfb_modes_case, only: part_strip, part_top_foil
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
@@ -19,6 +20,7 @@ module gfb_assembly_rules
   character(len=*), parameter :: interference = 'assembly_interference'
   character(len=*), parameter :: monolithic = "needs coupling = 'monolithic' in &model: film"// &
                                  ' and foil in turns begin with a foil at rest without forces'
+  real(wp), parameter :: steepest = 0.9_wp !! height of a bump of shells, over half its length [1]
   real(wp), parameter :: rise = 0.0704_wp !! of a foil that springs open, over kappa_0 R^2 [1]
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
@@ -108,7 +110,32 @@ contains
     end associate
     call complain_of(keys, key, words)
     call check_nested_strips(keys, scene)
+    call check_steepness(keys, scene)
   end subroutine check_bump_sizes
+
+  !> Complains about bumps of shells whose arcs stand nearly upright on the flats: a rotation about
+  !> the one's director is none that the other's nodes have.
+  subroutine check_steepness(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    character(len=*), parameter :: rule = 'must not exceed 0.9 of half_length with shells: arcs '// &
+                                   'would stand upright on the flats'
+
+    associate (foil => scene%bump_foil)
+      if (scene%model%foil /= foil_shell .or. foil%bumps < 1 .or. foil%strips > 1) return
+      associate (high => bump_heights(foil), half => bump_half_lengths(foil))
+        if (any(high > half) .or. .not. any(high > steepest*half)) return
+        if (allocated(foil%bump_height) .or. allocated(foil%bump_half_length)) then
+          call complain_of_bumps(keys, 'bump_height', high > steepest*half, high, rule, &
+                                 'half_length', half)
+        else
+          call keys%complain('bump_foil', 'height', rule//', and half_length is '// &
+                             text(half(1))//' m')
+        end if
+      end associate
+    end associate
+  end subroutine check_steepness
 
   !> Complains where the meshes of an estimated error would not refine each other: each must share
   !> its elements out evenly among the strips.
