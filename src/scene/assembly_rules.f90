@@ -119,8 +119,8 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
 
-    character(len=*), parameter :: rule = 'must not exceed 0.9 of half_length with shells: arcs '// &
-                                   'would stand upright on the flats'
+    character(len=*), parameter :: rule = 'must not exceed 0.9 of half_length with shells: '// &
+                                   'arcs would stand upright on the flats'
 
     associate (foil => scene%bump_foil)
       if (scene%model%foil /= foil_shell .or. foil%bumps < 1 .or. foil%strips > 1) return

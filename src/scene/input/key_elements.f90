@@ -164,16 +164,24 @@ contains
     end do
   end function decimal_comma
 
-  !> A hint where a word among values looks like a key.
+  !> A hint where a word among values looks like a unit, or like a key.
   pure function missing_equals(file, first, last) result(words)
     type(namelist_file_type), intent(in) :: file
     integer, intent(in) :: first, last
     character(len=:), allocatable :: words
+    character(len=*), parameter :: units(*) = [character(len=4) :: 'm', 'mm', 'cm', 'um', 'nm', &
+                                               'in', 'Pa', 'kPa', 'MPa', 'GPa', 'bar', 'N', &
+                                               'kN', 'rpm', 'krpm', 'rad', 'deg', 's', 'ms', &
+                                               'kg', 'K', 'Hz']
     integer :: value
 
     words = ''
     do value = first, last
       if (file%values(value)%kind /= value_word) cycle
+      if (any(file%value_text(value) == units)) then
+        words = "; write the number alone, '"//file%value_shown(value)//"' is no part of it"
+        return
+      end if
       if (verify(file%value_text(value), 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_') &
           > 0) cycle
       words = "; is '=' missing after '"//file%value_shown(value)//"'?"

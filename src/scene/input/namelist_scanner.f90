@@ -71,6 +71,11 @@ contains
         call begin_group(self, i, complaints)
       else if (.not. self%in_group) then
         call take_stray(self, i, complaints)
+      else if (divides(self, i)) then
+        call complaints%add(token%line, place(self)//"'"//shown(token_words(self, i - 1)//'/'// &
+                            token_words(self, i + 1))//"' is an expression: write its value")
+        self%told = .true.
+        i = i + 1
       else if (closes) then
         call end_entry(self, complaints)
         self%in_group = .false.
@@ -89,6 +94,23 @@ contains
       end if
     end associate
   end subroutine take
+
+  !> Whether a slash stands between two words of a value, which it would divide: no blank is next to
+  !> it, and no key follows.
+  pure function divides(self, i)
+    type(scanner_type), intent(in) :: self
+    integer, intent(in) :: i !! token
+    logical :: divides
+
+    divides = self%in_entry .and. self%tokens(i)%kind == token_slash .and. i > 1 .and. &
+              i < size(self%tokens)
+    if (.not. divides) return
+    associate (before => self%tokens(i - 1), token => self%tokens(i), after => self%tokens(i + 1))
+      divides = before%kind == token_word .and. before%last + 1 == token%first .and. &
+                after%kind == token_word .and. token%last + 1 == after%first
+    end associate
+    if (divides) divides = key_length(self, i + 1) == 0
+  end function divides
 
   !> Begins a group; one that is still open was not ended.
   pure subroutine begin_group(self, i, complaints)

@@ -55,6 +55,9 @@ contains
         else if (letter == '#') then
           call complaints%add(line, "a comment begins with '!', not with '#'")
           at = end_of_line(words, at)
+        else if (words(at:min(at + 1, len(words))) == '//') then
+          call complaints%add(line, "a comment begins with '!', not with '//'")
+          at = end_of_line(words, at)
         else if (iachar(letter) > 127) then
           call skip_foreign(words, at, line, complaints)
         else
