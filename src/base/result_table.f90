@@ -76,8 +76,8 @@ module gfb_result_table
       'where the `parameter` of `&sweep` is keys: their value, in their unit'), &
     result_type('started_anew', '1', truth, sweep, &
       'found from nothing: no path led there from the point before', &
-      'where the `parameter` of `&sweep` is keys: 1 at a point to which no path led from the '// &
-      'one before, and that was found from nothing'), &
+      '1 at a point to which no path led from the one before, and that was found from nothing: '// &
+      'of keys at every point, else where there is such a point'), &
     result_type('branch_changed', '1', truth, sweep, &
       'the answer is on another branch than the one before', &
       'foils with a free leading edge: 1 at a point on another branch of equilibria than the '// &

@@ -93,8 +93,10 @@ def check_beams(checks, folder):
     def content(load):
         return case("load_capacity", {"smallest_gap": GAP_4}, load=load, **BEAMS)
 
-    light, above = (solve(folder, "beams", content(load)) for load in (50.0, 160.0))
+    light, above, heavy = (solve(folder, "beams", content(load)) for load in (50.0, 160.0, 1500.0))
     found = light["load_capacity"]
+    checks.below("capacity, beams: from a load at which the shaft touches down", heavy["load_capacity"]/found - 1.0, SAME)
+    checks.that("capacity, beams: it was halved", "from half of that load" in heavy.log)
     checks.below("capacity, beams: from above", above["load_capacity"]/found - 1.0, SAME)
     checks.that("capacity, beams: plain equilibria on both sides",
                 on_both_sides(lambda load: gap_of(folder, load=load, **BEAMS) > GAP_4, found))

@@ -10,6 +10,7 @@ import time
 
 import numpy
 
+from capacity import BEAMS, case
 from gfb_run import GFB, SECONDS, Bearing, Checks, case_groups, largest_difference, run_file, solve, write_case
 
 LIMIT = 1.0e-8  # runs and starts agree so far
@@ -106,6 +107,16 @@ def check_end(checks, folder):
                 not up["branch_changed"].any() and up["minimum_gap"][1] < 0.25*down["minimum_gap"][0])
 
 
+def check_lost(checks, folder):
+    """A sweep of the load whose steps may not be short: the branch is lost on the way, and the point starts from nothing."""
+    settings = {"solver": {"smallest_load_step": 0.9, "maximum_load_steps": 3}}
+    both = solve(folder, "lost", case("equilibrium", load=10.0, **BEAMS, **settings, **sweep_of("load", (10.0, 150.0))))
+    history = both.history()
+    checks.that("lost: the second point starts from nothing", history["started_anew"][1] == 1 and "starts from nothing" in both.log)
+    alone = solve(folder, "alone", case("equilibrium", load=150.0, **BEAMS, **settings))
+    checks.below("lost: the answer of its own scene", history["minimum_gap"][1]/alone["minimum_gap"] - 1.0, LIMIT)
+
+
 def killed_after(path, folder, words):
     """Kills a run as soon as its log has some words."""
     log = folder/"killed.log"
@@ -159,6 +170,7 @@ def main():
         check_smooth(checks, folder, "both frictions", FRICTIONS, (0.0, 0.1, 0.2, 0.3))
         check_smooth(checks, folder, "pitch, with more stations", "bump_foil%pitch", (3.6e-3, 3.58e-3, 3.56e-3))
         check_end(checks, folder)
+        check_lost(checks, folder)
         check_restart_and_groups(checks, folder)
     checks.close()
 

@@ -18,9 +18,17 @@ module gfb_capacity_case
     real(wp) :: smallest_gap = 0.0_wp    !! that the film may have [m]
     real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
     integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
+  contains
+    procedure :: seeks_load
   end type capacity_case_type
 
 contains
+
+  !> Whether it is a load that is asked for.
+  elemental logical function seeks_load(self)
+    class(capacity_case_type), intent(in) :: self !! what is asked for
+    seeks_load = self%question == analysis_load_capacity
+  end function seeks_load
 
   !> Reads the group, which belongs to analyses that look for a limit.
   subroutine read_capacity_case(keys, capacity, analysis)

@@ -19,7 +19,7 @@ module gfb_bearing_solution
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
   use gfb_bearing_restart, only: recall_bearing, find_restart_point
   use gfb_key_path, only: follow_keys
-  use gfb_reasons, only: reason_type
+  use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: take_walk
   use gfb_sweep, only: sweep_type
@@ -27,6 +27,8 @@ module gfb_bearing_solution
   implicit none (type)
   private
   public :: solve_bearing
+
+  integer, parameter :: most_halvings = 6 !! of the load from which a load capacity is looked for
 
 contains
 
@@ -101,6 +103,7 @@ contains
       else
         call start_bearing(scene, plan, operating_point(operation), sweep%tolerances, sweep%path, log, &
                            sweep%bearing, sweep%newton, report, error)
+        if (.not. allocated(error)) call start_lighter(scene, plan, operation, sweep, report, error)
       end if
     end associate
     if (allocated(error)) return
@@ -109,6 +112,31 @@ contains
     call sweep%begin(report%converged)
     if (report%converged) call sweep%keep_point(next - 1)
   end subroutine start
+
+  !> Where the load from which the largest one is looked for has no answer, half of it may have one, and so on.
+  !>
+  !> Fails where the mesh cannot be cut.
+  subroutine start_lighter(scene, plan, operation, sweep, report, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(operation_case_type), intent(in) :: operation !! with the first load
+    type(sweep_type), target, intent(inout) :: sweep
+    type(path_report_type), intent(inout) :: report !! of the last start
+    type(error_type), allocatable, intent(out) :: error
+    type(operation_case_type) :: lighter
+    integer :: halvings
+
+    if (.not. scene%capacity%seeks_load()) return
+    lighter = operation
+    do halvings = 1, most_halvings
+      if (report%converged) exit
+      lighter%load = lighter%load/2
+      call sweep%context%log%line('no equilibrium to begin with ('//report%reason//'): from half of that load')
+      call restart_bearing(scene, plan, operating_point(lighter), sweep%tolerances, sweep%path, sweep%context%log, &
+                           sweep%bearing, sweep%newton, report, error)
+      if (allocated(error)) return
+    end do
+  end subroutine start_lighter
 
   !> The scene with the value of a point in it, where the sweep changes keys; else as it is.
   !>
@@ -173,9 +201,44 @@ contains
     else if (sweep%scene%sweep%parameter == sweep_keys) then
       call walk_along_keys(plan, sweep, next, reason, error)
     else
-      call take_walk(sweep, next, size(sweep%scene%sweep%values), reason)
+      call walk_along_points(plan, sweep, next, reason, error)
     end if
   end subroutine finish
+
+  !> The points of a sweep, each from its neighbour's answer; from nothing where the branch is lost on the way and nothing
+  !> tells why.
+  !>
+  !> Fails where the mesh cannot be cut.
+  subroutine walk_along_points(plan, sweep, first, reason, error)
+    type(bearing_plan_type), intent(in) :: plan
+    type(sweep_type), target, intent(inout) :: sweep
+    integer, intent(in) :: first !! point
+    type(reason_type), intent(out) :: reason
+    type(error_type), allocatable, intent(out) :: error
+    type(path_report_type) :: report
+    integer :: next, point
+
+    next = first
+    do
+      call take_walk(sweep, next, size(sweep%scene%sweep%values), reason)
+      point = sweep%lost_at
+      if (point == 0) exit
+      sweep%lost_at = 0
+      report = sweep%lost
+      sweep%anew = .true.
+      call start_anew(plan, sweep, point, report, error)
+      if (allocated(error)) exit
+      reason = reason_type()
+      if (.not. report%converged) then
+        call sweep%stop_short(report, reason)
+        if (reason%code == reason_stopped) call sweep%keep_stopped(point - 1)
+        exit
+      end if
+      call sweep%record_point(point)
+      call sweep%keep_point(point)
+      next = point + 1
+    end do
+  end subroutine walk_along_points
 
   !> The points of a sweep over keys, each from its neighbour's answer; from nothing where no path leads there.
   !>
@@ -209,7 +272,7 @@ contains
     end do
   end subroutine walk_along_keys
 
-  !> A point of a sweep over keys from nothing, where the path from its neighbour has ended.
+  !> A point of a sweep from nothing, where the path from its neighbour has ended.
   !>
   !> Fails where the mesh cannot be cut.
   subroutine start_anew(plan, sweep, point, report, error)
@@ -223,6 +286,7 @@ contains
     call sweep%tell_end(point, report)
     call scene_of(sweep, point, scene, error)
     if (allocated(error)) return
+    if (sweep%scene%sweep%parameter /= sweep_keys) scene%operation = operation_at(scene%operation, scene%sweep, point)
     call restart_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
                          sweep%context%log, sweep%bearing, sweep%newton, report, error)
   end subroutine start_anew

@@ -4,7 +4,7 @@
 module gfb_sweep
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_words
+  use gfb_signals, only: stop_words, stop_agreed
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_petsc_session, only: wall_time
@@ -16,7 +16,7 @@ module gfb_sweep
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: keep_bearing
   use gfb_branch_watch, only: watch_branch, note_start
-  use gfb_reasons, only: reason_type
+  use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_missing_answer, only: explain_missing
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
@@ -39,6 +39,8 @@ module gfb_sweep
     type(bearing_record_type) :: record
     real(wp) :: value = 0.0_wp       !! of the keys that the sweep changes, at the present answer [their unit]
     logical :: anew = .false.        !! the present answer was found from nothing, where no path led to it
+    integer :: lost_at = 0           !! point to which no path led and nothing tells why; 0: none
+    type(path_report_type) :: lost   !! of that path
     logical :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type) :: sides  !! of the bearing, then
     type(last_answer_type) :: last
@@ -56,6 +58,7 @@ module gfb_sweep
     procedure :: explain
     procedure :: watch
     procedure :: tell_end
+    procedure, private :: may_start_anew
   end type sweep_type
 
 contains
@@ -92,8 +95,31 @@ contains
       call follow_branch(self%scene, self%bearing, self%newton, self%target_at(point), self%path, report)
     end if
     call self%approach_limit(report)
-    if (.not. report%converged) call self%stop_short(report, reason)
+    self%anew = .false.
+    if (report%converged) return
+    if (self%may_start_anew(report)) then
+      self%lost_at = point
+      self%lost = report
+      reason%code = reason_no_equilibrium ! until it has been tried
+    else
+      call self%stop_short(report, reason)
+    end if
   end subroutine reach_value
+
+  !> Whether a point may be tried from nothing: its answer hangs on nothing but the point, and nothing tells why the path to
+  !> it has ended.
+  function may_start_anew(self, report) result(may)
+    class(sweep_type), intent(in) :: self !! the sweep
+    type(path_report_type), intent(in) :: report !! of the path
+    logical :: may
+
+    associate (sweep => self%scene%sweep)
+      may = .not. (report%has_cause() .or. report%drawn .or. self%partitioned .or. sweep%friction_memory .or. &
+                   sweep%turn_folds .or. sweep%hold_position .or. self%scene%capacity%question > 0)
+    end associate
+    if (may) may = self%bearing%pad(1)%foil%has_contacts()
+    if (may) may = .not. stop_agreed()
+  end function may_start_anew
 
   !> From the present answer to its limit, where the scene asks for one.
   subroutine approach_limit(self, report)
@@ -132,7 +158,7 @@ contains
       end if
       call look_for_onset(scene, self%context%log, self%path, record%history, bearing, newton, self%build%opposite, &
                           record%dynamics%onset)
-      if (scene%sweep%parameter == sweep_keys) then
+      if (scene%sweep%parameter == sweep_keys .or. self%anew) then
         call note_start(record%history, self%anew)
       end if
       if (scene%sweep%friction_memory) call bearing%commit()
@@ -148,9 +174,13 @@ contains
     integer, intent(in) :: point !! number of the sweep's value
     type(path_report_type), intent(in) :: report !! of the path
 
+    real(wp) :: before
+
     associate (sweep => self%scene%sweep, log => self%context%log)
+      before = self%value
+      if (sweep%parameter /= sweep_keys) before = sweep%values(point - 1)
       call log%line('the path from the point before ends at '//sweep_name(sweep)//' = '// &
-                    text(self%value + report%fraction*(sweep%values(point) - self%value))//' '//sweep_unit(sweep)// &
+                    text(before + report%fraction*(sweep%values(point) - before))//' '//sweep_unit(sweep)// &
                     ': '//report%reason)
       call log%line('point '//text(point)//' starts from nothing')
     end associate
