@@ -23,7 +23,8 @@ sys.path[:0] = [str(PROJECT/"tools"), str(pathlib.Path(__file__).parent)]
 
 import gfb  # noqa: E402 (found only now)
 from gfb import steps  # noqa: E402
-from gfb.plot import animation, rolled, scene, transient  # noqa: E402
+from gfb.plot import animation, clearance, rolled, scene, transient  # noqa: E402
+from gfb.plot.strip import used_keys  # noqa: E402
 from plot_test import BEAMS, call  # noqa: E402
 
 CLEARANCE, RADIUS = 31.8e-6, 19.05e-3
@@ -70,16 +71,33 @@ class ShaftTest(unittest.TestCase):
             return transient.draw(path, file, kind).axes
 
     def test_orbit_is_the_shaft_in_its_bearing(self):
-        chart, = self.chart(shaft_file(self.folder/"a.h5"), "orbit")
+        path = shaft_file(self.folder/"a.h5", circle=8.0e-6)
+        with h5py.File(path, "r+") as file:  # two crests with two nodes each, a line that is held, and 26 bumps in the echo
+            for name, values in (("line", (1.0, 1.0, 0.0, 2.0, 2.0)), ("position_x", (2.0e-3, 2.0e-3, 3.0e-3, 7.0e-3, 7.0e-3))):
+                file[f"contact/top/{name}"] = values
+        chart, = self.chart(path, "orbit")
         way = next(line for line in chart.lines if len(line.get_xdata()) == 20001)
-        numpy.testing.assert_allclose([way.get_xdata().mean(), way.get_ydata().mean()], [-10.0, -4.0], atol=0.1)
-        self.assertAlmostEqual(chart.patches[0].radius, 31.8)
-        marks = [line for line in chart.lines if len(line.get_xdata()) == 2]
-        self.assertEqual(len(marks), 26)
-        places = sorted(math.degrees(math.atan2(line.get_ydata()[0], line.get_xdata()[0])) % 360.0 for line in marks)
-        # 26 pitches end at theta = 360 deg; the last bump is half_length from there.
-        self.assertAlmostEqual(places[-1], 360.0 - math.degrees(1.778e-3/RADIUS), places=6)
-        numpy.testing.assert_allclose(numpy.diff(places), math.degrees(4.572e-3/RADIUS), rtol=1e-6)
+        numpy.testing.assert_allclose([way.get_xdata().mean(), way.get_ydata().mean()], [-10.0, -4.0], atol=0.4)
+        lines = {line.get_label(): line for line in chart.lines}
+        numpy.testing.assert_allclose(numpy.hypot(*lines["clearance"].get_data()), 31.8, rtol=1e-12)
+        self.assertAlmostEqual(lines["pad edges"].get_ydata()[0], 0.0)
+        marks = chart.lines[chart.lines.index(lines["bumps"]):][:2]
+        places = [math.atan2(line.get_ydata()[0], line.get_xdata()[0])*RADIUS for line in marks]
+        numpy.testing.assert_allclose(places, (2.0e-3, 7.0e-3), atol=1e-10)
+        self.assertEqual([len(line.get_xdata()) for line in chart.lines].count(2), 2 + 2)  # crests, and the pad's two edges
+
+    def test_a_small_orbit_is_drawn_once_more_and_larger(self):
+        large, = self.chart(shaft_file(self.folder/"a.h5", circle=3.4e-6), "orbit")  # 6.8 um of 31.8
+        self.assertFalse(large.patches)
+        chart, larger = self.chart(shaft_file(self.folder/"b.h5", circle=3.0e-6), "orbit")
+        numpy.testing.assert_allclose([larger.get_xlim(), larger.get_ylim()], [(-13.6, -6.4), (-7.6, -0.4)], atol=0.01)
+        square, = chart.patches
+        numpy.testing.assert_allclose((*square.get_xy(), square.get_width()), (-13.6, -7.6, 7.2), atol=0.01)
+        whole = next(line for line in larger.lines if len(line.get_xdata()) == 20001)
+        self.assertAlmostEqual(numpy.ptp(whole.get_xdata()), 6.0, places=4)
+        self.assertEqual(len(self.chart(self.folder/"b.h5", None)), 3)
+        still = shaft_file(self.folder/"still.h5", circle=0.0)
+        self.assertAlmostEqual(numpy.ptp(self.chart(still, "orbit")[1].get_xlim()), 2.0e-4*31.8)
 
     def test_points_once_a_turn(self):
         chart, = self.chart(shaft_file(self.folder/"a.h5"), "bifurcation")
@@ -140,7 +158,7 @@ class ShaftTest(unittest.TestCase):
         with unittest.mock.patch.object(animation, "FRAMES", 6):
             self.assertEqual(call(self.folder, "a.h5", "--animate"), (0, "drawn: a.h5.gif\n"))
         with Image.open(self.folder/"a.h5.gif") as film:
-            self.assertEqual(film.n_frames, 6)
+            self.assertEqual((film.n_frames, film.width), (6, 960))  # the orbit is small: it is there twice
         for words, said in ((("short.h5", "--show", "waterfall"), "less than two turns"),
                             (("short.h5", "--show", "bifurcation"), "less than two turns"),
                             (("instant.h5",), "no more than 2 instants"),
@@ -148,6 +166,106 @@ class ShaftTest(unittest.TestCase):
                             (("a.h5", "--3d"), "no a.film.vtkhdf")):
             status, found = call(self.folder, *words)
             self.assertEqual((status, said in found), (1, True), found)
+
+
+class ClearanceTest(unittest.TestCase):
+    """Where pads, bumps and the limit of the shaft are, beside what gfb itself has."""
+
+    LAYOUTS = {  # keys of &bump_foil and the like; where the first crest is
+        "trailing": ("fixed_edge = 'trailing'", 2.0*math.pi*RADIUS - 25*4.572e-3 - 1.778e-3),
+        "leading": ("fixed_edge = 'leading'", 1.778e-3),
+        "flat": ("fixed_edge = 'leading' fixed_line = 'flat'", 4.572e-3 - 1.778e-3),
+        "half_flat": ("fixed_line = 'half_flat'", 2.0*math.pi*RADIUS - 25.5*4.572e-3),
+        "lists": ("fixed_edge = 'leading' bump_pitch = 13*4.4e-3, 13*4.6e-3 bump_half_length = 13*1.7e-3, 13*1.8e-3", 1.7e-3),
+        "strips": ("fixed_edge = 'leading' strips = 2 cut_width = 1.0e-3 strip_offset = 0.0, 0.5e-3", 1.778e-3)}
+
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = pathlib.Path(place.name)
+
+    def run_case(self, name, case):
+        """A case's result file and the keys of its echo."""
+        (self.folder/f"{name}.nml").write_text(case, encoding="utf-8")
+        subprocess.run([os.environ["GFB"], "--output", self.folder, self.folder/f"{name}.nml"], check=True, stdout=subprocess.DEVNULL)
+        file = h5py.File(self.folder/f"{name}.h5", "r")
+        self.addCleanup(file.close)
+        return file, used_keys(file)
+
+    def rest_gap(self, name):
+        """theta and the gap at rest that the program itself has there; where each pad begins."""
+        with h5py.File(self.folder/f"{name}.film.vtkhdf", "r") as film, h5py.File(self.folder/f"{name}.h5", "r") as file:
+            fields = {field: data[...] for field, data in film["VTKHDF/PointData"].items()}
+            e = [file[f"summary/eccentricity_{axis}"][()] for axis in "xy"]
+        theta = fields["theta"]
+        gap = fields["gap"] - fields["deflection"] - e[0]*numpy.cos(theta) - e[1]*numpy.sin(theta)
+        pad = fields.get("pad", numpy.ones(len(theta)))
+        return theta, gap, [theta[pad == number].min() for number in numpy.unique(pad)]
+
+    def crests_in(self, path):
+        """x of the crests at both ends in a bump foil's file: stations that are higher than their neighbours."""
+        with h5py.File(path, "r") as file:
+            points = file["VTKHDF/Points"][...]
+        found = set()
+        for z in (points[:, 2].min(), points[:, 2].max()):  # of two strips both
+            line = points[points[:, 2] == z]
+            line = line[numpy.argsort(line[:, 0])]
+            high = line[:, 1]
+            found |= set(numpy.round(line[1:-1, 0][(high[1:-1] > high[:-2]) & (high[1:-1] > high[2:])], 12))
+        return sorted(found)
+
+    def test_crests_are_those_of_the_program(self):
+        for name, (words, first) in self.LAYOUTS.items():
+            case = BEAMS.replace("bumps = 26 /", f"bumps = 26 {words} /").replace("25.0e-6, 8.0e-6", "5.0e-6, 3.0e-6")
+            if name == "lists":
+                case = case.replace("half_length = 1.778e-3\n", "\n").replace("pitch = 4.572e-3 bumps", "bumps")
+            if name == "strips":
+                case = case.replace("foil = 'beam'", "foil = 'shell'")
+            if "leading" in words:
+                case = case.replace("poissons_ratio = 0.29 /\n&bump_foil", "poissons_ratio = 0.29 fixed_edge = 'leading' /\n&bump_foil")
+            with self.subTest(name):
+                crests = clearance.crests_of(*self.run_case(name, case))
+                self.assertEqual(len(crests), 52 if name == "strips" else 26)
+                self.assertAlmostEqual(RADIUS*crests[0], first, delta=1e-10)
+                numpy.testing.assert_allclose(RADIUS*crests, self.crests_in(self.folder/f"{name}.bump_foil.vtkhdf"), atol=1e-10)
+
+    def test_several_pads_with_a_preload(self):
+        pads = "&pads count = 3 first_leading_edge = 0.3 gap = 0.1 preload = 0.3 preload_offset = 0.6 /\n"
+        case = BEAMS.replace("bumps = 26", "bumps = 8").replace("25.0e-6, 8.0e-6", "3.0e-6, 2.0e-6") + pads
+        file, keys = self.run_case("pads", case)
+        theta, gap, begins = self.rest_gap("pads")
+        bearing = clearance.bearing_of(keys)
+        numpy.testing.assert_allclose(bearing.begins, begins, rtol=1e-12)
+        crests = numpy.concatenate([begin + numpy.array(self.crests_in(self.folder/f"pads.bump_foil_{number}.vtkhdf"))/RADIUS
+                                    for number, begin in enumerate(begins, 1)])
+        numpy.testing.assert_allclose(clearance.crests_of(file, keys), crests, atol=2e-9)
+        angle = numpy.linspace(0.0, 2.0*math.pi, 200)
+        across = numpy.cos(theta[:, None] - angle)
+        touches = numpy.where(across > 0.1, gap[:, None]/numpy.maximum(across, 0.1), numpy.inf).min(axis=0)
+        # Between the film's nodes a pad is nearer by the square of half an element at most.
+        step = 0.5*numpy.diff(numpy.unique(theta)).max()
+        numpy.testing.assert_allclose(bearing.limit(angle), touches, rtol=1.5*step**2)
+        self.assertLess(bearing.limit(angle).min(), 0.75*CLEARANCE)
+        self.assertTrue((bearing.limit(angle) <= touches*(1.0 + 1e-9)).all())
+
+    def test_pads_as_they_may_be_given(self):
+        def bearing(pads="", edge=0.0, condition="slit"):
+            lines = [f"&bearing\n  radius = {RADIUS} !\n  clearance = {CLEARANCE} !\n  leading_edge_angle = {edge} !\n"
+                     f"  leading_edge_condition = '{condition}' !\n/\n&pads\n", *(f"  {line}\n" for line in pads.split(";")), "/\n"]
+            with h5py.File(self.folder/"keys.h5", "w") as file:
+                file["scene/used"] = "".join(lines)
+                return clearance.bearing_of(used_keys(file))
+        for found, arc, ring in ((bearing(), 2.0*math.pi, False), (bearing(condition="periodic"), 2.0*math.pi, True),
+                                 (bearing(edge=0.6), 2.0*math.pi - 0.6, False),
+                                 (bearing("count = 4 !;gap = 0.0 ! (default)"), 0.5*math.pi, False),
+                                 (bearing("count = 1 !;gap = 0.2 !"), 2.0*math.pi - 0.2, False),
+                                 (bearing("count = 3 !;arc = 1.5 !;gap = 0.0 ! (default)"), 1.5, False)):
+            self.assertAlmostEqual(found.arc, arc)
+            self.assertEqual(found.ring, ring)
+        half = bearing("count = 1 !;arc = 1.5 !")  # nothing holds the shaft back on the other side
+        self.assertEqual(half.limit(numpy.array(math.pi + 0.75)), numpy.inf)
+        self.assertAlmostEqual(float(half.limit(numpy.array(0.75))), CLEARANCE)
 
 
 class StepsTest(unittest.TestCase):

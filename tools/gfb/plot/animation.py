@@ -7,7 +7,6 @@ from gfb import steps
 from gfb.plot import transient
 from gfb.plot.film import READABLE, WORDS, around_zero, read_film
 from gfb.plot.scene import case_name, step_words
-from gfb.plot.strip import used_keys
 from gfb.results import open_results
 from gfb.tool import stop
 
@@ -90,26 +89,29 @@ def of_film(path, file):
 # --- orbit ---
 
 def of_orbit(path, file):
-    """The shaft's centre on its way, with a tail of two turns."""
-    history = {name: data[...] for name, data in file["transient"].items()}
-    keys = used_keys(file) if "scene/used" in file else {}
-    figure, chart = pyplot.subplots(figsize=(6.0, 6.0), layout="constrained")
-    transient.draw_orbit(chart, history, keys)
+    """The shaft's centre on its way, with a tail of two turns; a small orbit beside it enlarged."""
+    history, keys = transient.read(file)
+    many = 1 if transient.enlarged(history, keys) is None else 2
+    figure, axes = pyplot.subplots(1, many, figsize=(6.0*many, 6.2), squeeze=False, layout="constrained")
+    transient.draw_orbits(axes[0], history, keys)
     shafts = transient.journals(history)
-    for line in chart.get_lines()[-4*len(shafts):]:
-        line.set_alpha(0.15)
-    chart.get_legend().remove()
-    tails = [chart.plot([], [], color=colour, linewidth=1.5)[0] for _, colour, _ in shafts]
-    spots = [chart.plot([], [], "o", color="C3", markersize=8)[0] for _ in shafts]
+    axes[0, 0].get_legend().remove()
+    moving = []
+    for chart in axes[0]:
+        for line in chart.get_lines()[-4*len(shafts):]:
+            line.set_alpha(0.3)
+        for _, colour, place in shafts:
+            moving.append((chart.plot([], [], color=colour, linewidth=1.5)[0], chart.plot([], [], "o", color="C3", markersize=8)[0], *place))
     numbers = chosen(len(history["turns"]))
+    title = figure.suptitle(" ", fontsize=11)
 
     def frame(number):
         end = numbers[number]
         shown = (history["turns"] <= history["turns"][end]) & (history["turns"] >= history["turns"][end] - 2.0)
-        for tail, spot, (_, _, (x, y)) in zip(tails, spots, shafts):
+        for tail, spot, x, y in moving:
             tail.set_data(x[shown], y[shown])
             spot.set_data(x[end:end + 1], y[end:end + 1])
-        chart.set_title(f"{case_name(path)}: turn {history['turns'][end]:.1f}, {history['time'][end]:.4g} s, "
-                        f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm", fontsize=10)
+        title.set_text(f"{case_name(path)}: turn {history['turns'][end]:.1f}, {history['time'][end]:.4g} s, "
+                       f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm")
 
     return figure, frame, len(numbers), FAST

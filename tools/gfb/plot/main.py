@@ -22,7 +22,7 @@
   tools/plot CASE.film.steps.vtkhdf     a step of a sweep's film or foils, the last one or that of --step
   tools/plot --3d CASE.h5               film and foils rolled up on the shaft; beside the picture CASE.3d.vtkhdf for ParaView
   tools/plot --animate CASE.h5          moving picture of a sweep's film, or else of an orbit: a GIF, with -o NAME.mp4 an MP4
-  tools/plot CASE.h5                    of analysis = 'transient': orbit and thinnest film over time
+  tools/plot CASE.h5                    of analysis = 'transient': orbit, a small one once more and larger, and thinnest film over time
   tools/plot CASE.h5                    of analysis = 'periodic': the branch over its parameter, and its orbits
       --show orbit, thinnest              each alone
       --show waterfall                    spectra over the speed of a run-up

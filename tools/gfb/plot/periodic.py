@@ -3,9 +3,10 @@
 import math
 
 import numpy
-from matplotlib import patches, pyplot
+from matplotlib import pyplot
 
-from gfb.plot.scene import case_name, number, round_numbers
+from gfb.plot.clearance import crests_of, draw_limit
+from gfb.plot.scene import case_name, round_numbers
 from gfb.plot.strip import used_keys
 
 MICRO = 1.0e6
@@ -28,7 +29,7 @@ def draw(path, file):
         draw_branch(left, rows, followed[0])
     else:
         figure, right = pyplot.subplots(figsize=(6.6, 6.2), layout="constrained")
-    draw_orbits(right, rows, keys)
+    draw_orbits(right, rows, keys, crests_of(file, keys))
     figure.suptitle(f"{case_name(path)}: orbits that close", fontsize=11)
     return figure
 
@@ -56,17 +57,15 @@ def draw_branch(chart, rows, name):
     chart.grid(alpha=0.3)
 
 
-def draw_orbits(chart, rows, keys):
-    """Ways of the shaft's centre, -e, over a period, and the clearance circle."""
+def draw_orbits(chart, rows, keys, crests):
+    """Ways of the shaft's centre, -e, over a period, and the clearance with edges and bumps."""
     x, y = (-MICRO*rows[f"eccentricity_{axis}"] for axis in "xy")
-    far = numpy.hypot(x, y).max()
-    clearance = number(keys, "bearing", "clearance")
-    if clearance is not None:
-        far = max(far, MICRO*clearance)
-        chart.add_patch(patches.Circle((0.0, 0.0), MICRO*clearance, fill=False, color="k", linewidth=1.0, label="clearance"))
+    far = max(numpy.hypot(x, y).max(), draw_limit(chart, keys, crests))
     for row in numpy.unique(numpy.linspace(0, len(x) - 1, min(DRAWN, len(x))).astype(int)):
         chart.plot(x[row], y[row], "-" if rows["stable"][row] > 0.5 else "--", linewidth=1.0, color=pyplot.cm.viridis(row/max(1, len(x) - 1)))
     chart.set(xlabel="shaft's centre, -e_x [um]", ylabel="-e_y [um]", xlim=(-1.12*far, 1.12*far), ylim=(-1.12*far, 1.12*far),
               aspect="equal")
     chart.set_title("orbits: stable ones solid, later ones brighter", fontsize=10)
+    if chart.get_legend_handles_labels()[0]:
+        chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3)
     chart.grid(alpha=0.3)

@@ -5,6 +5,7 @@ import math
 import numpy
 from matplotlib import colors, patches, pyplot
 
+from gfb.plot.clearance import crests_of, draw_limit
 from gfb.plot.scene import case_name, number, round_numbers
 from gfb.plot.strip import used_keys
 from gfb.tool import stop
@@ -15,6 +16,9 @@ HIGHEST = 3.0     # frequency of a waterfall over that of the turns, at most
 LEAST = 0.1       # the same, at least
 STEADY = 1.0e-3   # of the speed: one that changes less stays
 LAST = 5.0        # turns of an orbit that are drawn darker
+SMALL = 0.2       # of the clearance: an orbit that spans less is drawn once more, enlarged
+STILL = 1.0e-4    # of the clearance: half the side of the smallest square that is enlarged
+LEAST_SQUARE = 0.045  # of the picture of the clearance: the smallest square drawn in it
 
 
 def is_transient(file):
@@ -26,20 +30,20 @@ def draw(path, file, kind):
     """The picture asked for; without a kind orbit and thinnest film."""
     if not is_transient(file):
         stop(f"{path}: nothing moves in it; --show {kind or KINDS[0]} is of analysis = 'transient'")
-    history = {name: data[...] for name, data in file["transient"].items()}
-    if "spectrum" in file:
-        history["spectrum"] = {name: data[...] for name, data in file["spectrum"].items()}
+    history, keys = read(file)
     if len(history["time"]) < 3:
         stop(f"{path}: no more than {len(history['time'])} instants, which make no picture")
-    keys = used_keys(file) if "scene/used" in file else {}
-    drawing = {"orbit": draw_orbit, "waterfall": draw_waterfall, "bifurcation": draw_bifurcation, "thinnest": draw_thinnest}
-    if kind is None:
-        figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.0, 5.4), layout="constrained")
-        draw_orbit(left, history, keys)
-        draw_thinnest(right, history, keys)
-    else:
-        figure, chart = pyplot.subplots(figsize=(6.6, 6.2) if kind == "orbit" else (8.0, 5.4), layout="constrained")
+    drawing = {"waterfall": draw_waterfall, "bifurcation": draw_bifurcation, "thinnest": draw_thinnest}
+    if kind in drawing:
+        figure, chart = pyplot.subplots(figsize=(8.0, 5.4), layout="constrained")
         drawing[kind](chart, history, keys)
+    else:
+        orbits = 1 if enlarged(history, keys) is None else 2
+        figure, axes = pyplot.subplots(1, orbits + (kind is None), squeeze=False, layout="constrained",
+                                       figsize=(6.6, 6.2) if kind and orbits == 1 else (5.5*(orbits + (kind is None)), 5.4))
+        draw_orbits(axes[0, :orbits], history, keys)
+        if kind is None:
+            draw_thinnest(axes[0, -1], history, keys)
     figure.suptitle(f"{case_name(path)}: {words_of(history)}", fontsize=11)
     return figure
 
@@ -67,24 +71,50 @@ def journals(history):
 
 # --- orbit ---
 
-def draw_orbit(chart, history, keys):
-    """The way of the shaft's centre, the clearance circle and where the bumps stand."""
-    shafts = journals(history)
-    turns = history["turns"]
-    late = turns >= turns[-1] - LAST
-    far = max(numpy.hypot(*place).max() for _, _, place in shafts)
+def read(file):
+    """What an open file tells of the motion, with the crests around the shaft, and the keys of its echo."""
+    history = {name: data[...] for name, data in file["transient"].items()}
+    if "spectrum" in file:
+        history["spectrum"] = {name: data[...] for name, data in file["spectrum"].items()}
+    keys = used_keys(file) if "scene/used" in file else {}
+    history["crests"] = crests_of(file, keys)
+    return history, keys
+
+
+def enlarged(history, keys):
+    """Middle and half the side of the square around an orbit that is small in its clearance [um]; None for a large one."""
     clearance = number(keys, "bearing", "clearance")
-    if clearance is not None:
-        far = max(far, MICRO*clearance)
-        chart.add_patch(patches.Circle((0.0, 0.0), MICRO*clearance, fill=False, color="k", linewidth=1.0, label="clearance"))
-        mark_bumps(chart, keys, MICRO*clearance)
-    for words, colour, (x, y) in shafts:
-        first = colour == "C0"
-        chart.plot(x, y, color=colour, linewidth=0.6, alpha=0.5)
-        chart.plot(x[late], y[late], color=colour, linewidth=1.3,
-                   label="bearing" + words if words else "all turns" if late.all() else f"the last {LAST:g} turns dark")
-        chart.plot(x[0], y[0], "o", color="C4" if words else "C2", markersize=5, label="begin" if first else None)
-        chart.plot(x[-1], y[-1], "s", color="C3", markersize=5, label="end" if first else None)
+    if clearance is None:
+        return None
+    ways = [place for _, _, place in journals(history)]
+    low, high = (numpy.array([function([function(way[axis]) for way in ways]) for axis in (0, 1)]) for function in (numpy.min, numpy.max))
+    span = (high - low).max()
+    if span >= SMALL*MICRO*clearance:
+        return None
+    return 0.5*(low + high), max(0.6*span, STILL*MICRO*clearance)
+
+
+def draw_orbits(charts, history, keys):
+    """The orbit in its clearance and, where there is a second chart, the same enlarged."""
+    charts = list(charts)
+    draw_orbit(charts[0], history, keys)
+    if len(charts) == 1:
+        return
+    (x, y), half = enlarged(history, keys)
+    draw_way(charts[1], history)
+    charts[1].set(xlabel="-e_x [um]", ylabel="-e_y [um]", xlim=(x - half, x + half), ylim=(y - half, y + half), aspect="equal")
+    across = charts[0].get_xlim()
+    charts[1].set_title(f"the orbit alone, {(across[1] - across[0])/(2.0*half):.3g} times larger", fontsize=10)
+    charts[1].grid(alpha=0.3)
+    side = max(half, LEAST_SQUARE*across[1])  # a smaller one is not seen
+    charts[0].add_patch(patches.Rectangle((x - side, y - side), 2.0*side, 2.0*side, fill=False, color="C3", linewidth=0.8, zorder=4))
+
+
+def draw_orbit(chart, history, keys):
+    """The way of the shaft's centre, how far it may go, where pads end and where bumps stand."""
+    far = max(numpy.hypot(*place).max() for _, _, place in journals(history))
+    far = max(far, draw_limit(chart, keys, history["crests"]))
+    draw_way(chart, history)
     chart.set(xlabel="shaft's centre, -e_x [um]", ylabel="-e_y [um]", xlim=(-1.12*far, 1.12*far), ylim=(-1.12*far, 1.12*far),
               aspect="equal")
     chart.set_title("orbit", fontsize=10)
@@ -92,18 +122,17 @@ def draw_orbit(chart, history, keys):
     chart.grid(alpha=0.3)
 
 
-def mark_bumps(chart, keys, radius):
-    """A mark at each bump's crest, on the clearance circle."""
-    needed = [number(keys, *key) for key in (("bearing", "radius"), ("bump_foil", "pitch"), ("bump_foil", "bumps"),
-                                                ("bump_foil", "half_length"))]
-    if None in needed:
-        return
-    shaft, pitch, bumps, half = needed
-    begin = math.radians(number(keys, "bearing", "leading_edge_angle") or 0.0)
-    angle = 2.0*math.pi - (half + numpy.arange(bumps)*pitch)/shaft  # the last bump ends at the trailing edge
-    angle = angle[angle >= begin]
-    chart.plot(numpy.array((1.0, 1.04))[:, None]*radius*numpy.cos(angle), numpy.array((1.0, 1.04))[:, None]*radius*numpy.sin(angle),
-               color="0.4", linewidth=1.6)
+def draw_way(chart, history):
+    """The way itself, its last turns dark, begin and end."""
+    turns = history["turns"]
+    late = turns >= turns[-1] - LAST
+    for words, colour, (x, y) in journals(history):
+        first = colour == "C0"
+        chart.plot(x, y, color=colour, linewidth=0.6, alpha=0.5)
+        chart.plot(x[late], y[late], color=colour, linewidth=1.3,
+                   label="bearing" + words if words else "all turns" if late.all() else f"the last {LAST:g} turns dark")
+        chart.plot(x[0], y[0], "o", color="C4" if words else "C2", markersize=5, label="begin" if first else None)
+        chart.plot(x[-1], y[-1], "s", color="C3", markersize=5, label="end" if first else None)
 
 
 # --- over time ---
