@@ -122,6 +122,32 @@ class ShaftTest(unittest.TestCase):
             near = abs(shown.get_xdata() - ratio*600.0/(2.0*math.pi)) < 1.0
             self.assertAlmostEqual(shown.get_ydata()[near].max(), height)
 
+    def test_lower_spectra_stand_in_front(self):
+        """Whether the shaft runs up or coasts down, the white below a line hides nothing of those in front of it."""
+        for speed in ((200.0, 1200.0), (1200.0, 200.0)):
+            chart = self.chart(shaft_file(self.folder/"a.h5", speed=speed), "waterfall")[0]
+            foot = [line.get_ydata()[-1] for line in chart.lines[:3]]  # behind the peaks a line is at its speed
+            numpy.testing.assert_allclose(foot, numpy.array((speed[0], 700.0, speed[1]))*30.0/math.pi)
+            depth = numpy.array([(line.get_zorder(), fill.get_zorder()) for line, fill in zip(chart.lines, chart.collections)])
+            order = depth[numpy.argsort(foot)[::-1]].ravel()[[1, 0, 3, 2, 5, 4]]
+            self.assertTrue((numpy.diff(order) > 0.0).all(), order)  # from the highest down: white, line, white, ...
+            (self.folder/"a.h5").unlink()
+
+    def test_whirl_does_not_hide_unbalance(self):
+        """Heights are roots, as the axis at the right has them: a peak of a hundredth is seen."""
+        path = shaft_file(self.folder/"a.h5", speed=(600.0, 1200.0))
+        with h5py.File(path, "r+") as file:
+            file["spectrum/amplitude_y"][...] *= numpy.array((0.01, 0.05, 1.0))[:, None]
+        chart = self.chart(path, "waterfall")[0]
+        peaks = [numpy.ptp(line.get_ydata()) for line in chart.lines[:3]]
+        apart = 300.0*30.0/math.pi
+        numpy.testing.assert_allclose(peaks, transient.TALLEST*apart*numpy.sqrt((0.01, 0.05, 1.0)), rtol=1e-12)
+        self.assertGreater(peaks[0], 0.3*apart)
+        axis, = chart.child_axes
+        self.assertIn("root", axis.get_ylabel())
+        self.assertEqual([text.get_text() for text in axis.get_yticklabels()], ["0", "0.1", "0.5", "2"])
+        numpy.testing.assert_allclose(axis.get_yticks() - 600.0*30.0/math.pi, peaks[2]*numpy.sqrt((0.0, 0.05, 0.25, 1.0)), atol=1e-9)
+
     def test_thinnest_film(self):
         chart, = self.chart(shaft_file(self.folder/"a.h5"), "thinnest")
         self.assertAlmostEqual(chart.lines[1].get_ydata()[0], 31.8 - math.hypot(10.0, 4.0) - 2.0, delta=0.01)

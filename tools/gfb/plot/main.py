@@ -25,7 +25,7 @@
   tools/plot CASE.h5                    of analysis = 'transient': orbit, a small one once more and larger, and thinnest film over time
   tools/plot CASE.h5                    of analysis = 'periodic': the branch over its parameter, and its orbits
       --show orbit, thinnest              each alone
-      --show waterfall                    spectra over the speed of a run-up
+      --show waterfall                    spectra over the speed of a run-up or coast-down; heights are roots of the amplitudes
       --show bifurcation                  the shaft's centre once a turn, over the speed
 
 Where no columns are named, the ones most asked for are drawn; --list prints the names there are.

@@ -19,6 +19,8 @@ LAST = 5.0        # turns of an orbit that are drawn darker
 SMALL = 0.2       # of the clearance: an orbit that spans less is drawn once more, enlarged
 STILL = 1.0e-4    # of the clearance: half the side of the smallest square that is enlarged
 LEAST_SQUARE = 0.045  # of the picture of the clearance: the smallest square drawn in it
+TALLEST = 4.0     # highest peak of a waterfall over the distance of its spectra
+RATIOS = ((1.0, "1 x", "--"), (0.5, "1/2 x", ":"))  # of the speed, that are marked in spectra
 
 
 def is_transient(file):
@@ -178,27 +180,50 @@ def draw_waterfall(chart, history, _):
     speeds, times = found["speed"]*30.0/math.pi, found["time"]
     place, = (name for name in ("amplitude_y", "amplitude_y_1") if name in found)
     lines = list(zip(found["frequency"], MICRO*found[place]))
-    steady = numpy.ptp(speeds) <= STEADY*speeds.max()
-    heights, words = (times, "time [s]") if steady else (speeds, "speed [rpm]")
     least, highest = LEAST*speeds.min()/60.0, HIGHEST*speeds.max()/60.0
-    largest = max(line[frequency > least].max(initial=0.0) for frequency, line in lines) or 1.0
-    turns = f"spectra of e_y{journals(history)[0][0]} over {speeds[0]/60.0/lines[0][0][1]:.0f} turns each"
+    shown = [(frequency[seen], line[seen]) for frequency, line in lines for seen in [(frequency <= highest) & (frequency > least)]]
+    turns = f"of e_y{journals(history)[0][0]} over {speeds[0]/60.0/lines[0][0][1]:.0f} turns"
+    chart.set(xlabel="frequency [Hz]", xlim=(0.0, highest))
     if len(lines) == 1:
-        heights, scale, words = numpy.zeros(1), 1.0, "amplitude of e_y [um]"
-        turns = turns.replace("spectra", "spectrum").removesuffix(" each")
+        draw_spectrum(chart, *shown[0], speeds[0])
+        chart.set_title(f"spectrum {turns}", fontsize=10)
     else:
-        scale = 2.5*numpy.ptp(heights)/(len(lines) - 1)/largest
-        turns += f"; highest peak {largest:.3g} um"
-    shades = pyplot.get_cmap("viridis")(colors.Normalize(0, len(lines))(numpy.arange(len(lines))))
-    for depth, (height, shade, (frequency, line)) in enumerate(zip(heights[::-1], shades[::-1], reversed(lines))):
-        shown = (frequency <= highest) & (frequency > least)
-        chart.fill_between(frequency[shown], height, height + scale*line[shown], color="white", zorder=2 + depth, linewidth=0.0)
-        chart.plot(frequency[shown], height + scale*line[shown], color=shade, linewidth=0.9, zorder=2 + depth)
-    for ratio, name, style in ((1.0, "1 x", "--"), (0.5, "1/2 x", ":")):
-        if len(lines) == 1:
-            chart.axvline(ratio*speeds[0]/60.0, linestyle=style, color="C3", linewidth=1.0, label=f"{name} speed")
-        else:
-            chart.plot(ratio*speeds/60.0, heights, style, color="C3", linewidth=1.0, zorder=3 + len(lines), label=f"{name} speed")
-    chart.set(xlabel="frequency [Hz]", ylabel=words, xlim=(0.0, highest))
-    chart.set_title(turns, fontsize=10)
+        largest = max(line.max(initial=0.0) for _, line in shown) or 1.0
+        draw_spectra(chart, shown, speeds, times, largest)
+        chart.set_title(f"spectra {turns} each; highest peak {largest:.3g} um", fontsize=10)
     chart.legend(fontsize=8)
+
+
+def draw_spectrum(chart, frequency, line, speed):
+    """A single one."""
+    chart.plot(frequency, line, color="C0", linewidth=0.9)
+    for ratio, name, style in RATIOS:
+        chart.axvline(ratio*speed/60.0, linestyle=style, color="C3", linewidth=1.0, label=f"{name} speed")
+    chart.set_ylabel("amplitude of e_y [um]")
+
+
+def draw_spectra(chart, lines, speeds, times, largest):
+    """Several: the height of each is the root of the amplitude, so that unbalance is seen beside whirl."""
+    steady = numpy.ptp(speeds) <= STEADY*speeds.max()
+    bases = times if steady else speeds
+    scale = TALLEST*numpy.ptp(bases)/(len(lines) - 1)/math.sqrt(largest)
+    shades = pyplot.get_cmap("viridis")(colors.Normalize(0, len(lines))(numpy.arange(len(lines))))
+    # The lower one stands in front, whether the speed rises or falls; those at one speed do not cover each other.
+    depths = len(lines) - numpy.unique(numpy.round(bases/(STEADY*numpy.ptp(bases))), return_inverse=True)[1]
+    for base, depth, shade, (frequency, line) in zip(bases, depths, shades, lines):
+        height = base + scale*numpy.sqrt(line)
+        chart.fill_between(frequency, base, height, color="white", zorder=2 + depth, linewidth=0.0)
+        chart.plot(frequency, height, color=shade, linewidth=0.9, zorder=2.5 + depth)
+    for ratio, name, style in RATIOS:
+        chart.plot(ratio*speeds/60.0, bases, style, color="C3", linewidth=1.0, zorder=4 + len(lines), label=f"{name} speed")
+    chart.set_ylabel("time [s]" if steady else "speed [rpm]")
+    values = numpy.array([0.0, *sorted({round_down(share*largest) for share in (1.0, 0.25, 0.05)})])
+    axis = chart.secondary_yaxis("right")
+    axis.set_yticks(bases.min() + scale*numpy.sqrt(values), [f"{value:g}" for value in values], fontsize=7)
+    axis.set_ylabel("amplitude of e_y [um], root scale from each line's foot; ticks at the lowest line", fontsize=8, loc="bottom")
+
+
+def round_down(value):
+    """The largest 1, 2 or 5 times a power of ten that is not larger."""
+    power = 10.0**math.floor(math.log10(value))
+    return max(step for step in (1.0, 2.0, 5.0) if step*power <= value*(1.0 + 1.0e-9))*power
