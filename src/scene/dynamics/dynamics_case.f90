@@ -7,6 +7,8 @@ module gfb_dynamics_case
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
   use gfb_foil_mass_words, only: mass_auto, mass_words
+  use gfb_maxwell_arm, only: maxwell_arm_type
+  use gfb_maxwell_keys, only: read_maxwell_keys, check_maxwell_keys
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, analysis_transient, analysis_periodic, &
                             asks_limit, &
@@ -30,6 +32,7 @@ module gfb_dynamics_case
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
+    type(maxwell_arm_type) :: arm             !! beside the springs of the elastic foundation
     integer :: foil_mass = mass_auto
     integer :: foil_modes = 2                 !! kept inside each condensed bump
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
@@ -79,6 +82,7 @@ contains
     call keys%real_key('foundation_damping', dynamics%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
+    call read_maxwell_keys(keys, dynamics%arm)
     call keys%choice_key('foil_mass', dynamics%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the frequencies '// &
                          'ask for it, always, never')
@@ -216,5 +220,6 @@ contains
       call keys%complain('dynamics', 'foundation_damping', &
                          "needs foil = 'elastic_foundation' in &model")
     end if
+    call check_maxwell_keys(keys, 'dynamics', model%foil == foil_elastic_foundation)
   end subroutine check_model
 end module gfb_dynamics_case

@@ -4,7 +4,7 @@
 !> A mode is a zero of the determinant of \( D(\lambda) \) (`gfb_rotor`). Those next to half the speed come
 !> from the eigenvalues of film, foil and rotor together; the one that decides is solved for once more with
 !> \( D \), which knows nothing of the eigenvalues' method. Dampers beside springs that have no unknowns of
-!> their own are let grow from nothing, and the modes are followed. A loss factor is defined for steady
+!> their own, and Maxwell arms, are let grow from nothing, and the modes are followed. A loss factor is defined for steady
 !> vibrations alone, so with one there are no growth rates.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
@@ -13,6 +13,7 @@ module gfb_rotor_modes
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
   use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
   use gfb_rotor_pencil, only: pencil_mode_type, find_pencil_modes, has_pencil
+  use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
   public :: find_rotor_modes, solve_mode, is_of_shaft
@@ -53,19 +54,19 @@ contains
     type(dynamic_response_type), intent(inout) :: response !! of it
     type(rotor_type), intent(in) :: rotor !! on the bearing
     type(rotor_answer_type), intent(out) :: answer !! what was found
-    real(wp) :: dampers ! beside springs without unknowns [s]
+    type(vibration_type) :: whole ! with dampers and arms of their full size
+    logical :: grows
     integer :: i
 
     allocate (answer%mode(0))
     answer%defined = .not. response%equations%vibration%loss_factor > 0.0_wp
     if (.not. answer%defined) return
-    dampers = response%equations%vibration%damping_time
-    if (.not. has_pencil(response%equations)) response%equations%vibration%damping_time = 0.0_wp
+    whole = response%equations%vibration
+    grows = .not. has_pencil(response%equations)
+    if (grows) call put_dampers(whole, 0.0_wp, response%equations%vibration)
     call collect_modes(bearing, response, rotor, answer)
-    if (answer%found .and. response%equations%vibration%damping_time < dampers) then
-      call let_dampers_grow(bearing, response, rotor, dampers, answer)
-    end if
-    response%equations%vibration%damping_time = dampers
+    if (answer%found .and. grows) call let_dampers_grow(bearing, response, rotor, whole, answer)
+    response%equations%vibration = whole
     if (.not. answer%found) return
     call sort_modes(answer%mode)
     answer%foil_grows = any(.not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > 0.0_wp)
@@ -104,11 +105,11 @@ contains
 
   !> Follows the rotor's modes that vibrate while dampers grow to their full size; all others are left out. A
   !> mode that is lost on the way is missed where it was the least damped one.
-  subroutine let_dampers_grow(bearing, response, rotor, dampers, answer)
+  subroutine let_dampers_grow(bearing, response, rotor, whole, answer)
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
     type(rotor_type), intent(in) :: rotor
-    real(wp), intent(in) :: dampers !! c/k [s]
+    type(vibration_type), intent(in) :: whole !! with dampers and arms of their full size
     type(rotor_answer_type), intent(inout) :: answer
     logical, allocatable :: kept(:)
     integer :: step, i
@@ -118,7 +119,7 @@ contains
     call sort_modes(answer%mode)
     allocate (kept(size(answer%mode)), source=.true.)
     do step = 1, damper_steps
-      response%equations%vibration%damping_time = dampers*real(step, wp)/real(damper_steps, wp)
+      call put_dampers(whole, real(step, wp)/real(damper_steps, wp), response%equations%vibration)
       do i = 1, size(answer%mode)
         if (kept(i)) call solve_mode(bearing, response, rotor, answer%mode(i)%kind, answer%mode(i)%rate, kept(i))
       end do
@@ -126,6 +127,16 @@ contains
     answer%found = all(kept(:1))
     answer%mode = pack(answer%mode, kept)
   end subroutine let_dampers_grow
+
+  !> Dampers and arms of a share of their full size.
+  pure subroutine put_dampers(whole, share, vibration)
+    type(vibration_type), intent(in) :: whole
+    real(wp), intent(in) :: share !! 0 .. 1 [1]
+    type(vibration_type), intent(inout) :: vibration
+
+    vibration%damping_time = whole%damping_time*share
+    vibration%arm%stiffness = whole%arm%stiffness*share
+  end subroutine put_dampers
 
   !> Solves det D = 0 next to a rate by the secant method.
   subroutine solve_mode(bearing, response, rotor, kind, rate, found)

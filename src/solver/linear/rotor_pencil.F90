@@ -70,13 +70,13 @@ module gfb_rotor_pencil
 
 contains
 
-  !> Whether the equations are linear in lambda: not with a loss factor, nor with dampers beside springs
-  !> that have no unknowns of their own.
+  !> Whether the equations are linear in lambda: not with a loss factor or a Maxwell arm, nor with dampers beside
+  !> springs that have no unknowns of their own.
   pure function has_pencil(equations)
     type(vibration_equations_type), intent(in) :: equations !! of a bearing
     logical :: has_pencil
-    has_pencil = .not. dissipates(equations) .or. &
-                 (.not. equations%local_springs .and. .not. equations%vibration%loss_factor > 0.0_wp)
+    has_pencil = .not. dissipates(equations) .or. .not. (equations%local_springs .or. equations%vibration%arm%is_present() .or. &
+                                                         equations%vibration%loss_factor > 0.0_wp)
   end function has_pencil
 
   !> Modes next to a real shift, nearest first, one of each complex pair.

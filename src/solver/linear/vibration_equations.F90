@@ -6,22 +6,24 @@
 !> $$ f_x + \lambda c_x + D(\lambda), $$
 !>
 !> with f the steady equations, c the gas that the film's elements hold, and D what dissipates in the foil
-!> and what it weighs: its springs are \( k (1 + i \eta \, sgn \, \omega) + \lambda c \), its mass is that of
-!> `gfb_foil_inertia`. This is the only place where a foil's stiffness depends on the frequency;
+!> and what it weighs: its springs are \( k (1 + i \eta \, sgn \, \omega) + \lambda c + k_m \lambda\tau/(1 + \lambda\tau) \), the
+!> last with a Maxwell arm (`gfb_maxwell_arm`), its mass is that of `gfb_foil_inertia`. This is the only place where a foil's stiffness depends on the frequency;
 !> `gfb_dynamic_response` fills the matrices, `gfb_foil_weighing` the mass.
 module gfb_vibration_equations
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_maxwell_arm, only: maxwell_arm_type, arm_stiffness
   use gfb_foil_inertia, only: foil_inertia_type, add_inertia, destroy_inertia
   implicit none (type)
   private
-  public :: combine, dissipates, destroy_equations
+  public :: combine, dissipates, loss_at, destroy_equations
 
   !> What a foil does under vibration.
   type, public :: vibration_type
     logical :: stick = .true.           !! contacts that rub stick; else they slide on as they did
     real(wp) :: loss_factor = 0.0_wp    !! eta of the foil's stiffness [1]
     real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs over their stiffness [s]
+    type(maxwell_arm_type) :: arm       !! beside its springs, its stiffness over theirs [1]
   end type vibration_type
 
   !> Derivatives of the equations by the unknowns.
@@ -40,8 +42,20 @@ contains
   pure function dissipates(equations)
     type(vibration_equations_type), intent(in) :: equations !! complete ones
     logical :: dissipates
-    dissipates = equations%vibration%loss_factor > 0.0_wp .or. equations%vibration%damping_time > 0.0_wp
+    associate (vibration => equations%vibration)
+      dissipates = vibration%loss_factor > 0.0_wp .or. vibration%damping_time > 0.0_wp .or. vibration%arm%is_present()
+    end associate
   end function dissipates
+
+  !> What a foil adds to its stiffness under motions \( e^{\lambda t} \), over the stiffness.
+  pure function loss_at(vibration, rate) result(loss)
+    type(vibration_type), intent(in) :: vibration !! of the foil
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp) :: loss             !! [1]
+
+    loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
+    if (vibration%arm%is_present()) loss = loss + arm_stiffness(vibration%arm, rate)
+  end function loss_at
 
   !> Real and imaginary part of the matrix of motions \( e^{\lambda t} \).
   subroutine combine(equations, rate)
@@ -53,9 +67,7 @@ contains
     PetscCallA(MatCopy(equations%steady, equations%real_part, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
     call add_multiple(rate, equations%squeeze)
-    associate (vibration => equations%vibration)
-      loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
-    end associate
+    loss = loss_at(equations%vibration, rate)
     call add_inertia(equations%inertia, rate, loss, equations%real_part, equations%imaginary_part)
     if (.not. dissipates(equations)) return
     if (equations%local_springs) then

@@ -250,6 +250,10 @@ contains
     if (scene%dynamics%foundation_damping > 0.0_wp) then
       vibration%damping_time = scene%dynamics%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
     end if
+    if (scene%dynamics%arm%is_present()) then
+      vibration%arm = scene%dynamics%arm
+      vibration%arm%stiffness = scene%dynamics%arm%stiffness/foundation_stiffness(scene%model, scene%bump_foil)
+    end if
   end function vibration_of
 
   !> What is modelled of the foil, and what is not.

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""A Maxwell arm beside the springs of an elastic foundation: k_m lambda tau/(1 + lambda tau) of closed forms, its limits,
+and the rotor's modes.
+"""
+
+import math
+import tempfile
+
+import numpy
+
+from dynamics import RING, SPRINGS, block_error, concentric, vibrate
+from gfb_run import Bearing, Checks, case_groups, solve
+from rotor import modes_of, nearest_root, ring_matrix, speed_of
+
+SPRING = SPRINGS["foundation_stiffness"]
+OMEGA = RING.speed_rpm(3.0)*math.pi/30.0
+ARM = {"maxwell_stiffness": 1.5*SPRING, "maxwell_time": 0.8/OMEGA}
+PRESSURES = ("local", "axial_mean")
+
+
+def arm_stiffness(rate):
+    """What the arm adds to the springs under motions exp(rate t)."""
+    turn = rate*ARM["maxwell_time"]
+    return ARM["maxwell_stiffness"]*turn/(1.0 + turn)
+
+
+def foundation(pressure, **model):
+    """Groups of a case on springs."""
+    return {"foil": "elastic_foundation", "groups": {"model": {"foundation_pressure": pressure, **SPRINGS, **model}}}
+
+
+def check_ring(checks, folder):
+    """The closed form of a concentric ring with k(w) for its stiffness, beside a loss factor and dampers."""
+    damping = 0.2*SPRING/OMEGA
+    case = {"mesh": (48, 16), "number": 3.0, "eccentricity": (0.0, 0.0), **foundation("local", film_order=2)}
+    for words, loss, viscous in (("alone", 0.0, 0.0), ("with losses", 0.3, damping)):
+        keys = {"frequency_ratios": (0.3, 1.0, 3.0), **ARM} | ({"loss_factor": loss, "foundation_damping": viscous} if loss else {})
+        _, frequency, found = vibrate(folder, "ring", RING, keys, **case)
+        wanted = numpy.array([concentric(RING, OMEGA, w, SPRING*(1.0 + 1j*loss) + 1j*w*viscous + arm_stiffness(1j*w), 0.0)
+                              for w in frequency])
+        bare = numpy.array([concentric(RING, OMEGA, w, SPRING, loss) for w in frequency])
+        checks.below(f"concentric ring, arm {words}: translation", block_error(found, wanted, [(0, 0)]), 1.0e-4)
+        checks.below(f"concentric ring, arm {words}: tilts", block_error(found, wanted, [(1, 1)]), 5.0e-4)
+        checks.that(f"concentric ring, arm {words}: it counts", block_error(bare, wanted, [(0, 0)]) > 0.05)
+
+
+def check_limits(checks, folder):
+    """A short time is a damper, a long one a spring more; the steady film knows of neither."""
+    case = {"mesh": (32, 6), "number": 2.0, "eccentricity": (0.4*RING.clearance, 0.2*RING.clearance)}
+    ratios = {"frequency_ratios": (0.3, 1.0)}
+    viscous = 0.3*SPRING/OMEGA
+    for pressure in PRESSURES:
+        springs = foundation(pressure)
+        plain, _, _ = vibrate(folder, "plain", Bearing(), ratios, **case, **springs)
+        damped, _, wanted = vibrate(folder, "damped", Bearing(), {**ratios, "foundation_damping": viscous}, **case, **springs)
+        answer, _, found = vibrate(folder, "short", Bearing(),
+                                   {**ratios, "maxwell_stiffness": viscous*1.0e14, "maxwell_time": 1.0e-14}, **case, **springs)
+        checks.below(f"{pressure}: a short relaxation time is a damper", block_error(found, wanted, [(0, 0), (1, 1)]), 1.0e-9)
+        # Where the steady film does not press, stiffer springs have the same one.
+        ring = {**case, "eccentricity": (0.0, 0.0)}
+        _, _, found = vibrate(folder, "long", RING, {**ratios, "maxwell_stiffness": 0.3*SPRING, "maxwell_time": 1.0e8},
+                              **ring, **springs)
+        _, _, wanted = vibrate(folder, "stiff", RING, ratios, **ring, **foundation(pressure, foundation_stiffness=1.3*SPRING))
+        checks.below(f"{pressure}: a long one is a spring", block_error(found, wanted, [(0, 0), (1, 1)]), 1.0e-9)
+        checks.that(f"{pressure}: the steady film is the same to the last digit",
+                    all(plain[key] == damped[key] == answer[key] for key in ("force_x", "force_y", "minimum_gap")))
+
+
+def check_modes(checks, folder):
+    """Modes of a rotor on concentric rings, both kinds, against the closed form at their complex rates."""
+    rotor = {"mass": 0.2, "transverse_inertia": 6.0e-4, "polar_inertia": 1.0e-4, "bearing_distance": 0.12}
+    content = case_groups(RING, mesh=(48, 16), number=3.0, eccentricity=(0.0, 0.0), **foundation("local", film_order=2))
+    content["scene"]["analysis"] = "linear_dynamics"
+    content["dynamics"] = {"frequency_ratios": (0.5,), **ARM}
+    content["rotor"] = rotor
+    growth, frequency, share, kind, _ = modes_of(solve(folder, "modes", content))
+    worst, count = 0.0, {1: 0, 2: 0}
+    for one in numpy.flatnonzero((share > 0.02) & (frequency > 0.0) & (growth > -OMEGA)):
+        found = growth[one] + 1j*frequency[one]
+        wanted = nearest_root(lambda rate, k=int(kind[one]): numpy.linalg.det(
+            ring_matrix(rotor, OMEGA, rate, SPRING + arm_stiffness(rate), 0.0)[k]), found)
+        worst = max(worst, abs(found - wanted)/abs(wanted))
+        count[int(kind[one])] += 1
+    checks.below(f"ring: {count[1]} cylindrical and {count[2]} conical modes, closed form", worst, 3.0e-4)
+    checks.that("ring: modes of both kinds", min(count.values()) >= 1)
+
+
+def loaded(pressure, mass):
+    """A rotor under a load on springs with the arm, under vibration."""
+    content = case_groups(Bearing(), mesh=(32, 6), load=(-40.0, 0.0), speed_rpm=30000.0, **foundation(pressure))
+    content["scene"]["analysis"] = "linear_dynamics"
+    content["dynamics"] = {"frequency_ratios": (0.5,), "maxwell_stiffness": SPRING, "maxwell_time": 2.0e-4}
+    content["rotor"] = {"mass": mass}
+    return content
+
+
+def check_threshold(checks, folder):
+    """At the critical mass no mode grows."""
+    for pressure in PRESSURES:
+        content = loaded(pressure, 1.0)
+        first = solve(folder, "threshold", content)
+        content["rotor"]["mass"] = first["critical_mass"]
+        answer = solve(folder, "threshold", content)
+        checks.below(f"{pressure}: no growth at the critical mass", answer["growth_rate"]/speed_of(content), 1.0e-8)
+        checks.below(f"{pressure}: whirl frequency there",
+                     answer["whirl_frequency"]/speed_of(content)/answer["whirl_ratio"] - 1.0, 1.0e-8)
+
+
+def main():
+    """All checks."""
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        check_ring(checks, folder)
+        check_limits(checks, folder)
+        check_modes(checks, folder)
+        check_threshold(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
