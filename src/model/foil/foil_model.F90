@@ -295,13 +295,11 @@ contains
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
   end subroutine add_springs
 
-  !> Over a step of time springs are damped by \( c (a_0 h_f + s) \): here nothing is.
-  subroutine put_damping(self, damping, factor, past_unknown, past_deflection)
+  !> Over a step of time dampers add a drag times h_f, and a pull, to the pressure of springs: here there are none.
+  subroutine put_damping(self, drag, pull)
     class(foil_model_type), intent(inout) :: self !! the foil
-    real(wp), intent(in) :: damping !! c [N s/m3]
-    real(wp), intent(in) :: factor !! a_0 [1/s]
-    real(wp), intent(in) :: past_unknown(:) !! what earlier values add to the rate of the bearing's local unknowns [SI]
-    real(wp), intent(in) :: past_deflection(:) !! s, the same of the deflection at the film nodes [m/s]
+    real(wp), intent(in) :: drag !! [N/m3]
+    real(wp), intent(in) :: pull(:) !! what earlier deflections add, at the local unknown that moves a spring [Pa]
   end subroutine put_damping
 
   !> The hardness to begin with: bumps that float between open and closed find their state at once; 1

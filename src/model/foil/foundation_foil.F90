@@ -29,7 +29,7 @@ module gfb_foundation_foil
   type, extends(foil_model_type), public :: foundation_foil_type
     real(wp) :: stiffness = 0.0_wp           !! K, pressure over deflection [N/m3]
     real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
-    real(wp) :: drag = 0.0_wp                !! of a step of time: damping times a_0 [N/m3]
+    real(wp) :: drag = 0.0_wp                !! of the dampers in a step of time [N/m3]
     real(wp), allocatable :: past_drag(:)    !! what earlier deflections of the owned stations add [Pa]
     integer, allocatable :: owned_station(:) !! foil unknowns whose equation this rank begins
     integer :: stations = 0                  !! of the whole film
@@ -203,20 +203,18 @@ contains
     end do
   end subroutine foundation_springs
 
-  !> Springs with a viscous damper beside each: \( K h_f + c (a_0 h_f + s) = p - p_a \).
-  subroutine foundation_damping(self, damping, factor, past_unknown, past_deflection)
+  !> Springs with dampers beside each: \( (K + drag) h_f + pull = p - p_a \).
+  subroutine foundation_damping(self, drag, pull)
     class(foundation_foil_type), intent(inout) :: self !! the elastic foundation
-    real(wp), intent(in) :: damping !! c [N s/m3]
-    real(wp), intent(in) :: factor !! a_0 [1/s]
-    real(wp), intent(in) :: past_unknown(:) !! what earlier values add to the rate of the bearing's local unknowns [SI]
-    real(wp), intent(in) :: past_deflection(:) !! s, the same of the deflection at the film nodes [m/s]
+    real(wp), intent(in) :: drag !! [N/m3]
+    real(wp), intent(in) :: pull(:) !! what earlier deflections add, at the local unknown that moves a spring [Pa]
 
-    self%drag = damping*factor
+    self%drag = drag
     if (size(self%global_unknown) > 0) then
-      self%past_drag = damping*past_unknown(self%first + self%owned_station)
+      self%past_drag = pull(self%first + self%owned_station)
     else
       self%rate = 1.0_wp/(self%stiffness + self%drag)
-      self%origin = self%ambient_pressure + damping*past_deflection
+      self%origin = self%ambient_pressure + pull(self%source)
     end if
   end subroutine foundation_damping
 

@@ -2,6 +2,7 @@
 module gfb_periodic_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_maxwell_keys, only: refuse_maxwell_keys
   use gfb_scene_case, only: analysis_periodic, misplaced_group
   use gfb_value_rules, only: any_value, positive, not_negative, at_least
   implicit none (type, external)
@@ -77,6 +78,7 @@ contains
     call keys%real_key('foundation_damping', periodic%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
+    call refuse_maxwell_keys(keys)
     call keys%finish_group()
   end subroutine read_periodic_case
 end module gfb_periodic_case

@@ -3,6 +3,8 @@ module gfb_transient_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_foil_mass_words, only: mass_auto, mass_words
+  use gfb_maxwell_arm, only: maxwell_arm_type
+  use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_transient, misplaced_group
   use gfb_value_rules, only: any_value, positive, not_negative
@@ -38,6 +40,7 @@ module gfb_transient_case
     real(wp) :: orbit_radius = 0.0_wp       !! of a sleeve whose position is given [m]
     real(wp) :: orbit_frequency = 0.0_wp    !! [rad/s]
     real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
+    type(maxwell_arm_type) :: arm           !! beside the springs of an elastic foundation
     integer :: foil_mass = mass_auto
     integer :: output_every = 1             !! steps
     real(wp) :: field_interval = 0.0_wp     !! between stored fields; 0: the last ones alone [s]
@@ -69,6 +72,7 @@ contains
     call keys%real_key('foundation_damping', transient%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
+    call read_maxwell_keys(keys, transient%arm)
     call keys%choice_key('foil_mass', transient%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the shaft moves '// &
                          'fast enough for it to count, always, never')

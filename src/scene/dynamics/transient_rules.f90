@@ -2,6 +2,7 @@
 module gfb_transient_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_maxwell_keys, only: check_maxwell_keys
   use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
                             half_width_yes
   use gfb_operation_case, only: operation_case_type
@@ -174,5 +175,6 @@ contains
       call keys%complain(group, 'foundation_damping', &
                          "needs foil = 'elastic_foundation' in &model")
     end if
+    call check_maxwell_keys(keys, group, any(model%foil == [0, foil_elastic_foundation]))
   end subroutine check_neighbours
 end module gfb_transient_rules

@@ -7,6 +7,8 @@ module gfb_march_state
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_operating_point, only: operating_point_type
   use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_maxwell_arm, only: maxwell_arm_type
+  use gfb_spring_history, only: spring_history_type
   implicit none (type)
   private
   public :: allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
@@ -16,7 +18,7 @@ module gfb_march_state
   !> What was before, on this rank, of a pad: now and one step ago.
   type, public :: pad_history_type
     real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
-    real(wp), allocatable :: deflection(:, :) !! (film nodes, 2) [m]
+    type(spring_history_type) :: springs      !! of a foundation with dampers
   end type pad_history_type
 
   !> How steps are chosen.
@@ -25,7 +27,10 @@ module gfb_march_state
     real(wp) :: least_steps = 60.0_wp   !! of a turn, then [1]
     real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
     real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
+    type(maxwell_arm_type) :: arm       !! beside its springs
     real(wp) :: end_time = 0.0_wp       !! [s]
+  contains
+    procedure :: damps
   end type march_settings_type
 
   !> The march: what drives it, its past, the next step.
@@ -54,6 +59,13 @@ module gfb_march_state
   end type march_type
 
 contains
+
+  !> Whether the springs of an elastic foundation have dampers beside them.
+  pure function damps(self)
+    class(march_settings_type), intent(in) :: self !! of the march
+    logical :: damps
+    damps = self%damping > 0.0_wp .or. self%arm%is_present()
+  end function damps
 
   !> The sleeve's place one step ahead, on the parabola through the last ones.
   pure function place_ahead(march, step) result(place)

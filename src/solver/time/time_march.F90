@@ -17,6 +17,7 @@ module gfb_time_march
   use gfb_backward_difference, only: difference_weights, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on
+  use gfb_spring_history, only: begin_springs, damp_springs, follow_springs, recall_springs
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
                              place_ahead, error_of
   use gfb_operating_point, only: operating_point_type
@@ -58,6 +59,9 @@ contains
     call bearing%get_unknowns(march%unknown(:, 1))
     march%unknown(:, 2:) = spread(march%unknown(:, 1), 2, kept_times - 1)
     do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        if (settings%damps()) call begin_springs(march%unknown(pad%first + 1:pad%last, 1), pad%foil, march%pad(i)%springs)
+      end associate
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
@@ -121,12 +125,15 @@ contains
     do step = 2, 1, -1
       if (.not. bearing%floats) bearing%point%eccentricity = march%place(:2, step)
       do i = 1, size(bearing%pad)
-        call look_at_pad(bearing, i, march%unknown(:, step), march%pad(i))
+        associate (pad => bearing%pad(i), unknown => march%unknown(:, step))
+          if (march%settings%damps()) call recall_springs(step, unknown(pad%first + 1:pad%last), pad%foil, march%pad(i)%springs)
+          call look_at_pad(bearing, i, unknown, march%pad(i))
+        end associate
       end do
     end do
   end subroutine rebuild_past
 
-  !> Gas and deflection of a pad at the present state become the newest ones.
+  !> The gas of a pad at the present state becomes the newest one.
   subroutine look_at_pad(bearing, i, unknown, history)
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: i !! of the pad
@@ -138,13 +145,10 @@ contains
     associate (pad => bearing%pad(i), film => bearing%pad(i)%film, nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node)
       if (.not. allocated(history%stored)) then
         allocate (history%stored(size(film%shape, 2), size(film%element_nodes, 2), 2), source=0.0_wp)
-        allocate (history%deflection(nodes, 2), source=0.0_wp)
       end if
       history%stored(:, :, 2) = history%stored(:, :, 1)
       history%stored(:, :, 1) = film%stored(unknown(pad%first + 1:pad%first + nodes), gap(pad%first_node + 1:pad%last_node), &
                                             bearing%position(unknown))
-      history%deflection(:, 2) = history%deflection(:, 1)
-      history%deflection(:, 1) = pad%foil%deflection(unknown(pad%first + 1:pad%last))
     end associate
   end subroutine look_at_pad
 
@@ -227,14 +231,19 @@ contains
     end do
     PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
     do i = 1, size(bearing%pad)
-      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
+      associate (pad => bearing%pad(i), unknown => march%unknown(:, 1))
+        if (march%settings%damps()) then
+          call follow_springs(march%settings%arm, unknown(pad%first + 1:pad%last), pad%foil, march%pad(i)%springs)
+        end if
+        call look_at_pad(bearing, i, unknown, march%pad(i))
+      end associate
     end do
     if (bearing%is_meshed()) call bearing%commit()
   end subroutine accept
 
   !> Puts what a step adds into the bearing's equations.
   subroutine put_terms(march, step, bearing)
-    type(march_type), intent(in) :: march
+    type(march_type), intent(inout) :: march
     real(wp), intent(in) :: step !! [s]
     type(bearing_system_type), intent(inout) :: bearing
     real(wp) :: weight(0:2), time, place(film_forces)
@@ -259,12 +268,7 @@ contains
       associate (pad => bearing%pad(i), past => march%pad(i))
         pad%film%storage = weight(0)
         pad%film%past = weight(1)*past%stored(:, :, 1) + weight(2)*past%stored(:, :, 2)
-        if (march%settings%damping > 0.0_wp) then
-          call pad%foil%put_damping(march%settings%damping, weight(0), &
-                                    weight(1)*march%unknown(pad%first + 1:pad%last, 1) &
-                                    + weight(2)*march%unknown(pad%first + 1:pad%last, 2), &
-                                    weight(1)*past%deflection(:, 1) + weight(2)*past%deflection(:, 2))
-        end if
+        if (march%settings%damps()) call damp_springs(march%settings%damping, march%settings%arm, weight, pad%foil, past%springs)
       end associate
     end do
   end subroutine put_terms

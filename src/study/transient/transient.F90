@@ -62,6 +62,7 @@ contains
     settings%steps_per_turn = scene%transient%steps_per_turn
     settings%tolerance = scene%transient%time_tolerance
     settings%damping = scene%transient%foundation_damping
+    settings%arm = scene%transient%arm
     settings%end_time = duration_of(scene)
     newton%log%verbose = .false.
     call begin_transient(scene, drive_of(scene), settings, context%restart%goes_on, context%log, bearing, newton, self%march)

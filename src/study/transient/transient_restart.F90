@@ -3,6 +3,7 @@
 module gfb_transient_restart
   use petscvec
   use gfb_memory, only: memory_type
+  use gfb_text, only: text
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
   use gfb_run_log, only: run_log_type
@@ -18,6 +19,7 @@ module gfb_transient_restart
   use gfb_time_march, only: march_type, rebuild_past
   use gfb_foil_mass_choice, only: resume_momentum
   use gfb_transient_history, only: transient_history_type
+  use gfb_spring_restart, only: keep_springs, recall_past_springs
   implicit none (type)
   private
   public :: keep_march, recall_march
@@ -54,6 +56,7 @@ contains
         call put_vector(bearing_order(bearing), bearing%momentum%rate(1), '/march/rate', 'of the scaled unknowns [1/s]', file)
         call put_vector(bearing_order(bearing), bearing%momentum%rate(2), '/march/rate_before', 'the same one step ago', file)
       end if
+      call keep_springs(bearing, march, file)
     end if
     call end_restart_file(file, log, error)
   end subroutine keep_march
@@ -86,6 +89,7 @@ contains
       call read_vector(bearing_order(bearing), '/march/rate', file, bearing%momentum%rate(1))
       call read_vector(bearing_order(bearing), '/march/rate_before', file, bearing%momentum%rate(2))
     end if
+    call recall_past_springs(bearing, file, march)
     call check_restart_file(file, error)
     call close_stored_file(file)
     if (allocated(error)) return
@@ -97,6 +101,7 @@ contains
     type(memory_type), intent(inout) :: memory
     type(march_type), intent(inout) :: march
     logical, intent(inout) :: has_mass !! of the foils
+    integer :: i
 
     call memory%visit('time', march%time)
     call memory%visit('step', march%step)
@@ -109,5 +114,8 @@ contains
     call memory%visit('past_step', march%past_step)
     call memory%visit('start', march%start%eccentricity)
     call memory%visit('foil_mass', has_mass)
+    do i = 1, size(march%pad)
+      if (march%pad(i)%springs%local) call memory%visit('spring_drag_'//text(i), march%pad(i)%springs%drag)
+    end do
   end subroutine remember_march
 end module gfb_transient_restart
