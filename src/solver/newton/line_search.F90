@@ -11,7 +11,7 @@ module gfb_line_search
   use gfb_kinds, only: wp
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_bent_step, only: bent_step_type, bend_step, state_on_path, destroy_bent_step
-  use gfb_linear_solver, only: linear_solver_type, judge_linear, choose_factors
+  use gfb_linear_solver, only: linear_solver_type, judge_linear, choose_factors, ask_for_factors
   use gfb_secant_steps, only: secants_type, improve_step, expect_next
   implicit none (type)
   private
@@ -102,8 +102,10 @@ contains
     end if
     if (.not. found) then
       line%length = 0.0_wp
-      if (solver%fresh .or. system%slow_change) then
+      if (solver%fresh) then
         PetscCall(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT, ierr))
+      else
+        call ask_for_factors(solver)
       end if
       line%impossible = line%impossible .and. solver%fresh
     end if

@@ -14,8 +14,8 @@ module gfb_linear_solver
   use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
   implicit none (type)
   private
-  public :: choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, linear_failure, &
-            drop_failed_factors, forget_solver
+  public :: choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, ask_for_factors, &
+            linear_failure, drop_failed_factors, forget_solver
 
   real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
   real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
@@ -163,6 +163,18 @@ contains
     end if
     if (.not. small) solver%keep = solver%keep .and. after < chord_fall*before
   end subroutine choose_factors
+
+  !> A step of earlier factors has led nowhere: the next one gets new ones.
+  !>
+  !> Iterations with earlier factors end by the residual that those have been applied to. Where a strip that lies free
+  !> glides as a whole that is next to all of it, and the rest of the step may be anything.
+  pure subroutine ask_for_factors(solver)
+    type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
+
+    solver%keep = .false.
+    solver%lagged%outdated = .true.
+    solver%level%outdated = .true.
+  end subroutine ask_for_factors
 
   !> Why PETSc gave up a linear system, in words.
   function linear_failure(snes) result(words)
