@@ -20,6 +20,7 @@ module gfb_load_step
 
   real(wp), parameter :: softening(3) = [100.0_wp, 10.0_wp, 1.0_wp] !! of the stick length in a homotopy
   integer, parameter :: most_halvings = 6
+  real(wp), parameter :: less = 1.0e-2_wp !! of what is lent to strips that lie free, where steps shrink too slowly [1]
 
   !> The last two answers.
   type, public :: load_path_type
@@ -65,7 +66,7 @@ contains
     do
       if (abs(target - reached) <= abs(step)*1.000001_wp) step = target - reached
       call start_values(strip, newton, path, reached, reached + step)
-      call solve_newton(newton, report)
+      call solve_step(strip, newton, report)
       if (.not. report%converged) call follow_softening(strip, newton, path, reached, reached + step, report)
       if (.not. report%converged) then
         if (stop_agreed() .or. halvings == most_halvings) exit
@@ -115,6 +116,26 @@ contains
     end if
   end subroutine start_values
 
+  !> Solves from the start values; where that does not end, on from there with less lent along the surfaces.
+  !>
+  !> Friction whose slope is below the stiffness that is lent lets the steps shrink by their ratio only. Less lent from
+  !> the beginning would let round-off move a strip that slides everywhere.
+  subroutine solve_step(strip, newton, report)
+    type(strip_system_type), intent(inout) :: strip
+    type(newton_type), target, intent(inout) :: newton
+    type(newton_report_type), intent(out) :: report
+    real(wp) :: lent
+
+    call solve_newton(newton, report)
+    lent = strip%contacts%floor_tangential
+    if (report%converged .or. .not. lent > 0.0_wp) return
+    if (stop_agreed()) return
+    call newton%log%detail('on with less lent along the surfaces: '//report%reason)
+    strip%contacts%floor_tangential = less*lent
+    call solve_newton(newton, report)
+    strip%contacts%floor_tangential = lent
+  end subroutine solve_step
+
   !> Tries a step with stick lengths that grow shorter.
   subroutine follow_softening(strip, newton, path, from, to, report)
     type(strip_system_type), intent(inout) :: strip
@@ -130,7 +151,7 @@ contains
     call start_values(strip, newton, path, from, to)
     do i = 1, size(softening)
       strip%contacts%softening = softening(i)
-      call solve_newton(newton, report)
+      call solve_step(strip, newton, report)
       if (.not. report%converged) exit
     end do
     strip%contacts%softening = 1.0_wp
