@@ -164,6 +164,7 @@ contains
     call open_result_file(restart%path, PETSC_COMM_WORLD, this_rank() == 0, file, error)
     call share_failure(error)
     if (allocated(error)) return
+    file%compressed = .false.
     call file%group('/scene')
     call file%put_text('/scene/case_file', scene%verbatim, 'the case file as it was read')
     call file%put_text('/scene/used', scene%echo, 'every key with the value used')

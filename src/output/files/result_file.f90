@@ -12,6 +12,7 @@ module gfb_result_file
   use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
                           error_words
   use gfb_rank_parts, only: gather_parts, share_truth
+  use gfb_dataset_layout, only: choose_layout
   use gfb_hdf5_text, only: text_kind, write_texts, write_text_attribute, write_fixed_attribute
   implicit none (type, external)
   private
@@ -24,6 +25,7 @@ module gfb_result_file
     character(len=:), allocatable :: path
     logical :: first_rank = .false. !! this rank builds and writes the file
     logical :: failed = .false.     !! something could not be added
+    logical :: compressed = .true.  !! long datasets are; takes time that a restart file should not
     type(unfinished_file_type) :: written !! on the first rank, once it is closed
     integer, private :: communicator = 0  !! MPI's, of the ranks that add to it
     integer(hid_t), private :: file = -1
@@ -315,18 +317,21 @@ contains
     character(len=*), intent(in) :: unit, meaning !! of the numbers (1: none); a sentence
     integer, intent(in), optional :: shape(:) !! of an entry that is no list, fastest index first
     integer(hsize_t), allocatable :: extent(:)
-    integer(hid_t) :: space, dataset
+    integer(hid_t) :: space, dataset, layout
     integer :: status
 
     extent = int([pack([components], [components /= 1]), entries], hsize_t)
     if (present(shape)) extent = int([shape, entries], hsize_t)
     call h5screate_simple_f(size(extent), extent, space, status)
-    call h5dcreate_f(self%file, path, kind, space, dataset, status)
+    call choose_layout(extent, self%compressed, layout, status)
+    if (status /= 0) self%failed = .true.
+    call h5dcreate_f(self%file, path, kind, space, dataset, status, dcpl_id=layout)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, unit, meaning)
     if (entries > 0) call h5dwrite_f(dataset, kind, buffer, status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, status)
+    call h5pclose_f(layout, status)
     call h5sclose_f(space, status)
   end subroutine put_whole
 

@@ -66,12 +66,19 @@ module hdf5_reader
       integer(c_int64_t) :: native
     end function h5t_native
 
-    function h5d_bytes(dataset) bind(c, name='H5Dget_storage_size') result(bytes)
+    function h5d_space(dataset) bind(c, name='H5Dget_space') result(space)
       import :: c_int64_t
       implicit none (type, external)
       integer(c_int64_t), value :: dataset
-      integer(c_int64_t) :: bytes
-    end function h5d_bytes
+      integer(c_int64_t) :: space
+    end function h5d_space
+
+    function h5s_points(space) bind(c, name='H5Sget_simple_extent_npoints') result(points)
+      import :: c_int64_t
+      implicit none (type, external)
+      integer(c_int64_t), value :: space
+      integer(c_int64_t) :: points
+    end function h5s_points
 
     function h5a_open(place, object, name, access, link) bind(c, &
         name='H5Aopen_by_name') result(attribute)
@@ -149,7 +156,7 @@ contains
     if (file < 0) return
     dataset = h5d_open(file, name//c_null_char, 0_c_int64_t)
     if (dataset >= 0) then
-      allocate (buffer(h5d_bytes(dataset)/8))
+      allocate (buffer(h5s_points(h5d_space(dataset))))
       if (read_native(dataset, c_loc(buffer))) numbers = buffer
       status = h5d_close(dataset)
     end if
@@ -170,7 +177,8 @@ contains
     allocate (numbers(0))
     file = h5f_open(path//c_null_char, 0_c_int, 0_c_int64_t)
     dataset = h5d_open(file, name//c_null_char, 0_c_int64_t)
-    allocate (wide(h5d_bytes(dataset)/8), narrow(h5d_bytes(dataset)))
+    allocate (wide(h5s_points(h5d_space(dataset))))
+    allocate (narrow(size(wide)))
     if (bytes == 1) then
       if (read_native(dataset, c_loc(narrow))) numbers = narrow
     else
