@@ -281,6 +281,78 @@ def check_touch_down(checks, folder):
     checks.below("touch-down: the same with few lines", ends[1] - ends[0], 1.0e-12)
 
 
+def extent(rows, name):
+    """Extent of a motion over the last turn, on parabolas through each row and the two before."""
+    time, values = rows["time"], rows[name]
+    begin = numpy.interp(rows["turns"][-1] - 1.0, rows["turns"], time)
+    found = []
+    for i in range(2, len(time)):
+        unit = time[i] - time[i - 1]
+        parabola = numpy.polynomial.Polynomial(numpy.linalg.solve(
+            numpy.vander((time[i - 2:i + 1] - time[i - 1])/unit, increasing=True), values[i - 2:i + 1]))
+        first = max(begin, time[i - 1])
+        if first < time[i]:
+            inside = [1.0, *parabola.deriv().roots()]
+            found += [parabola(one) for one in inside if (first - time[i - 1])/unit <= one <= 1.0]
+            found.append(parabola((first - time[i - 1])/unit))
+    return max(found) - min(found)
+
+
+def check_lines(checks, folder):
+    """Few lines and many: the same orbit, the same end; a spectrum as far as the lines resolve it; long histories are compressed."""
+    found = {}
+    for every in (1, 16, 80):
+        content, _ = foil_case(0.3, (-60.0, 0.0), turns=40, steps_per_turn=80, unbalance=1.0e-6, steady_tolerance=1.0e-7,
+                               output_every=every)
+        found[every] = solve(folder, f"lines_{every}", content)
+    omega, one = speed_of(content), found[1]
+    checks.that(f"lines: the orbit is steady after {one['turns']:.1f} turns", one["ending"] == "the orbit is steady" and one["turns"] < 20.0)
+    same = ("turns", "time_steps", "orbit_x", "orbit_y", "minimum_gap_over_time", "ending", "eccentricity_x")
+    for every in (16, 80):
+        checks.that(f"lines: every {every} steps the same summary", all(found[every][name] == one[name] for name in same))
+    rows = history(one)
+    checks.below("lines: extents", abs(one["orbit_x"]/extent(rows, "eccentricity_x") - 1.0), 1.0e-10)
+    with h5py.File(f"{found[16].stem}.h5", "r") as file:
+        frequency = file["spectrum/frequency"][0, -1]*2.0*math.pi/omega
+    checks.below("lines: five a turn, and the spectrum ends at 2.5 times the speed", abs(frequency - 2.5), 1.0e-6)
+    with h5py.File(f"{found[80].stem}.h5", "r") as file:
+        checks.that("lines: one a turn, and no spectrum", "spectrum" not in file)
+    checks.that("lines: the log says so", "no spectrum: less than two lines a turn, with output_every = 80" in found[80].log)
+    with h5py.File(f"{one.stem}.h5", "r") as file:
+        for name, values in file["transient"].items():
+            checks.that(f"lines: {name} is compressed", values.size > 1000 and values.chunks is not None
+                        and values.compression == "gzip" and values.shuffle)
+    with h5py.File(f"{found[16].stem}.h5", "r") as file:
+        checks.that("lines: short ones are in one piece", file["transient/time"].chunks is None)
+    wanted = 1.0e-6*omega**2*numpy.exp(1j*omega*rows["time"]) - 60.0
+    checks.below("lines: loads come back", numpy.abs(plane(rows, "load") - wanted).max()/60.0, 1.0e-12)
+
+
+def check_steady(checks, folder):
+    """An orbit is steady when nothing changes any more, whether the error chooses the steps or not."""
+    keys = {"turns": 40, "unbalance": 2.0e-6, "steady_tolerance": 1.0e-5}
+    found = [solve(folder, "steady", foil_case(0.3, (-60.0, 0.0), **keys, **steps)[0])
+             for steps in ({}, {"steps_per_turn": 200})]
+    checks.that("steady: by chosen steps and by equal ones", all("ending" in answer.summary for answer in found))
+    checks.below("steady: after the same time", abs(found[0]["turns"] - found[1]["turns"]), 0.5)
+    for name in ("orbit_x", "orbit_y"):
+        checks.below(f"steady: {name}", abs(found[0][name]/found[1][name] - 1.0), 5.0e-3)
+    keys = {"duration": 0.02, "steps_per_turn": 40, "unbalance": 1.0e-9, "steady_tolerance": 1.0e-3}
+    change = {"it speeds up": ({"final_speed_rpm": 31000.0}, 0.02), "it speeds up for a while": (
+        {"final_speed_rpm": 31000.0, "ramp_time": 0.008}, 0.008), "a pulse comes": (
+        {"pulse": (1.0e-9, 0.0), "pulse_start": 0.006, "pulse_length": 0.003}, 0.009), "the base moves": (
+        {"base_time": (0.0, 0.006, 0.007), "base_acceleration_x": (0.01, 0.01, 0.0)}, 0.007)}
+    for words, (drive, until) in change.items():
+        content, _ = foil_case(0.3, (-60.0, 0.0), **keys, **drive)
+        answer = solve(folder, "settled", content)
+        turn = 2.0*math.pi/speed_of(content)
+        if until < keys["duration"]:
+            checks.within(f"steady: {words}: two turns after that", (answer["time"] - until)/turn, 1.9, 2.2)
+            checks.that(f"steady: {words}: then it ends", answer["ending"] == "the orbit is steady")
+        else:
+            checks.that(f"steady: {words}: it goes on", "ending" not in answer.summary and answer["time"] == until)
+
+
 def friction_loop(folder, turns):
     """Loads and positions while a load doubles and goes back, over so many turns in as many steps, and the same in load steps
     of a sweep [N], [m]."""
@@ -364,6 +436,8 @@ def main():
             check_same(checks, folder)
             check_steps(checks, folder)
             check_touch_down(checks, folder)
+            check_lines(checks, folder)
+            check_steady(checks, folder)
             check_friction(checks, folder)
             check_start(checks, folder)
     checks.close()

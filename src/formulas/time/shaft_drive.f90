@@ -36,6 +36,7 @@ module gfb_shaft_drive
     procedure :: torque_at
     procedure :: orbit_at
     procedure :: jumps
+    procedure :: settled
   end type shaft_drive_type
 
 contains
@@ -162,4 +163,23 @@ contains
     times = pack(times, times > time*(1.0_wp + 1.0e-9_wp) .and. times > 0.0_wp)
     if (size(times) > 0) next = minval(times)
   end function jumps
+
+  !> From when on the speed stays and nothing acts on the shaft but its load and its unbalance.
+  pure function settled(self) result(time)
+    class(shaft_drive_type), intent(in) :: self !! the drive
+    real(wp) :: time             !! [s]
+    integer :: i
+
+    time = 0.0_wp
+    if (abs(self%acceleration) > 0.0_wp) time = self%ramp
+    if (any(abs([self%pulse, self%couple_pulse]) > 0.0_wp)) then
+      time = max(time, self%pulse_start + self%pulse_length)
+    end if
+    if (.not. allocated(self%base_time)) return
+    do i = size(self%base_time), 1, -1
+      if (.not. any(abs(self%base_acceleration(:, i)) > 0.0_wp)) cycle
+      time = max(time, self%base_time(min(i + 1, size(self%base_time))))
+      exit
+    end do
+  end function settled
 end module gfb_shaft_drive

@@ -6,12 +6,13 @@
 !> $$ A_k = \frac{2}{\sum w_j} \left| \sum_{j=0}^{n-1} w_j (y(t_j) - \bar y)
 !>    e^{-2 \pi i j k/n} \right|, \quad w_j = \sin^2 \frac{\pi j}{n}, \quad f_k = \frac{k}{T} $$
 !>
-!> so that an oscillation with whole periods in the window has its amplitude in its line.
+!> so that an oscillation with whole periods in the window has its amplitude in its line. There are
+!> lines up to eight times the speed, or to half the frequency of the instants where that is less.
 module gfb_spectra
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: spectra_of
+  public :: spectra_of, points_a_turn
 
   real(wp), parameter :: pi = acos(-1.0_wp)
   integer, parameter :: most_turns = 8     !! of a window
@@ -31,7 +32,8 @@ module gfb_spectra
 
 contains
 
-  !> The spectra of values; none where there are less than two turns.
+  !> The spectra of values; none where there are less than two turns, or less than two instants in
+  !> one of them.
   pure function spectra_of(time, turns, values) result(spectra)
     real(wp), intent(in) :: time(:)      !! (instants) that does not fall [s]
     real(wp), intent(in) :: turns(:)     !! (instants) so far [1]
@@ -39,21 +41,25 @@ contains
     type(spectra_type) :: spectra
     integer, allocatable :: kept(:)
     real(wp), allocatable :: sample(:)
-    real(wp) :: first, span, ends(2)
+    real(wp) :: first, span, resolved, ends(2)
     integer :: windows, length, lines, i, k
 
     kept = [(i, i=1, size(time))]
     kept = pack(kept, [(i == 1 .or. time(i) > time(max(1, i - 1)), i=1, size(time))])
     span = 0.0_wp
-    if (size(kept) >= points) span = turns(kept(size(kept))) - turns(kept(1))
-    if (.not. span >= real(least_turns, wp)) then
+    resolved = 0.0_wp
+    if (size(kept) >= points) then
+      span = turns(kept(size(kept))) - turns(kept(1))
+      resolved = 0.5_wp*points_a_turn(turns(kept))
+    end if
+    if (.not. (span >= real(least_turns, wp) .and. resolved >= 1.0_wp)) then
       allocate (spectra%time(0), spectra%speed(0), spectra%frequency(0, 0), &
                 spectra%amplitude(0, 0, 0))
       return
     end if
     length = min(most_turns, int(span))
     windows = max(1, min(most_windows, int(2.0_wp*span/real(length, wp)) - 1))
-    lines = highest*length
+    lines = int(min(real(highest, wp), resolved)*real(length, wp))
     allocate (spectra%time(windows), spectra%speed(windows), spectra%frequency(0:lines, windows), &
               spectra%amplitude(0:lines, windows, size(values, 1)))
     do i = 1, windows
@@ -68,6 +74,17 @@ contains
       end do
     end do
   end function spectra_of
+
+  !> Instants in a turn, where they are farthest apart.
+  pure function points_a_turn(turns) result(instants)
+    real(wp), intent(in) :: turns(:) !! (instants) so far [1]
+    real(wp) :: instants !! [1]
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of turns
+    real(wp) :: farthest
+
+    farthest = maxval(turns(2:) - turns(:size(turns) - 1))
+    instants = (1.0_wp + rounding)/max(farthest, tiny(farthest))
+  end function points_a_turn
 
   !> Values at even times between two, the second one left out.
   pure function samples_of(time, value, ends, samples) result(sample)

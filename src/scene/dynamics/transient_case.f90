@@ -10,8 +10,9 @@ module gfb_transient_case
   use gfb_value_rules, only: any_value, positive, not_negative
   implicit none (type, external)
   private
-  public :: transient_case_type, read_transient_case
+  public :: transient_case_type, read_transient_case, duration_of
 
+  real(wp), parameter :: pi = acos(-1.0_wp)
   integer, parameter :: longest_table = 100000
 
   !> What is asked for.
@@ -156,4 +157,29 @@ contains
     call keys%real_list_key('base_acceleration_y', transient%base_acceleration_y, longest_table, &
                             'm/s^2', 'the same along y', any_value, .false., 'none')
   end subroutine read_drive
+
+  !> The whole time: as given, or that of the turns while the speed changes [s].
+  pure function duration_of(transient, operation) result(duration)
+    type(transient_case_type), intent(in) :: transient !! what `&transient` asks for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    real(wp) :: duration, first, last, angle, rising
+
+    duration = transient%duration
+    if (duration > 0.0_wp) return
+    first = angular_speed(operation%speed_rpm)
+    last = angular_speed(transient%final_speed_rpm)
+    angle = 2.0_wp*pi*transient%turns
+    associate (ramp => transient%ramp_time)
+      if (.not. ramp > 0.0_wp) then
+        duration = 2.0_wp*angle/(first + last)
+        return
+      end if
+      rising = 0.5_wp*(first + last)*ramp
+      if (angle > rising) then
+        duration = ramp + (angle - rising)/last
+      else ! while it rises: the smaller root of the parabola
+        duration = 2.0_wp*angle/(first + sqrt(first**2 + 2.0_wp*(last - first)/ramp*angle))
+      end if
+    end associate
+  end function duration_of
 end module gfb_transient_case

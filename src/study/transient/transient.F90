@@ -8,26 +8,23 @@ module gfb_transient
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_operation_case, only: angular_speed
-  use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
+  use gfb_transient_drive, only: drive_of, settings_of
   use gfb_transient_start, only: begin_transient
-  use gfb_time_march, only: march_type, march_settings_type, take_step, end_march
+  use gfb_time_march, only: march_type, take_step, end_march
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
   use gfb_run_context, only: run_context_type
-  use gfb_transient_history, only: transient_history_type, plane_columns, tilt_columns
+  use gfb_transient_history, only: transient_history_type
+  use gfb_orbit_record, only: plane_motion, tilt_motion
   use gfb_bearing_record, only: bearing_record_type
   use gfb_restart, only: restart_type
   use gfb_transient_restart, only: keep_march, recall_march
   use gfb_transient_fields, only: keep_fields
   implicit none (type)
   private
-  public :: duration_of, drive_of
-
-  real(wp), parameter :: pi = acos(-1.0_wp)
 
   !> The way of a shaft.
   type, public :: transient_type
@@ -56,16 +53,11 @@ contains
     type(bearing_record_type), intent(inout) :: record !! of where the shaft begins, for restart files; gets fields
     type(reason_type), intent(inout) :: reason !! why the time has no end
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(march_settings_type) :: settings
 
     call context%log%heading('time')
-    settings%steps_per_turn = scene%transient%steps_per_turn
-    settings%tolerance = scene%transient%time_tolerance
-    settings%damping = scene%transient%foundation_damping
-    settings%arm = scene%transient%arm
-    settings%end_time = duration_of(scene)
     newton%log%verbose = .false.
-    call begin_transient(scene, drive_of(scene), settings, context%restart%goes_on, context%log, bearing, newton, self%march)
+    call begin_transient(scene, drive_of(scene), settings_of(scene), context%restart%goes_on, context%log, bearing, newton, self%march)
+    call self%history%orbit%see(self%march)
     call self%history%add(self%march, bearing, newton)
     if (.not. context%restart%goes_on) then
       call keep_fields(scene, self%march, bearing, record%series)
@@ -99,12 +91,12 @@ contains
       do while (march%time < march%settings%end_time)
         call take_step(march, bearing, newton, report)
         if (report%converged) then
-          call self%history%see_gap(bearing)
+          call self%history%see(march, bearing)
           call keep_fields(scene, march, bearing, record%series)
           call self%look_for_limits(scene)
+          if (self%ending == '') call self%look_for_steady_orbit(scene)
           if (modulo(march%steps, every) == 0 .or. march%time >= march%settings%end_time .or. self%ending /= '') then
             call self%history%add(march, bearing, newton)
-            if (self%ending == '') call self%look_for_steady_orbit(scene)
           end if
         else
           reason%code = reason_no_answer
@@ -132,6 +124,9 @@ contains
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
                     text(self%history%smallest_gap*1.0e6_wp, 4)//' um')
+      if (self%history%lacks_spectrum()) then
+        call log%line('no spectrum: less than two lines a turn, with output_every = '//text(every))
+      end if
       if (allocated(record%series%value)) then
         call log%line('film and foils are stored at '//text(size(record%series%value))//' times')
       end if
@@ -162,17 +157,18 @@ contains
     end associate
   end subroutine look_for_limits
 
-  !> Whether the orbit stays as it is, by the lines of the last two turns.
+  !> Whether the orbit stays as it is, by all steps of the last two turns, while nothing changes what drives the shaft.
   subroutine look_for_steady_orbit(self, scene)
     class(transient_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     real(wp), allocatable :: now(:), before(:)
 
     if (.not. scene%transient%steady_tolerance > 0.0_wp) return
-    associate (turn => self%march%turns())
-      if (turn < 2.0_wp .or. self%march%drive%jumps(self%march%time) < self%march%settings%end_time) return
-      now = self%history%extents(turn - 1.0_wp, turn)
-      before = self%history%extents(turn - 2.0_wp, turn - 1.0_wp)
+    associate (turn => self%march%turns(), orbit => self%history%orbit)
+      if (turn < 2.0_wp) return
+      if (orbit%turn_began(turn - 2.0_wp) < self%march%drive%settled()) return
+      now = orbit%extents(turn - 1.0_wp, turn)
+      before = orbit%extents(turn - 2.0_wp, turn - 1.0_wp)
     end associate
     if (maxval(abs(now - before)) > scene%transient%steady_tolerance*scene%bearing%clearance) return
     self%ending = 'the orbit is steady'
@@ -185,20 +181,20 @@ contains
     real(wp), allocatable :: box(:)
     integer :: i
 
-    associate (march => self%march)
-      box = self%history%extents(march%turns() - 1.0_wp, march%turns(), plane_columns)
+    associate (march => self%march, orbit => self%history%orbit)
+      box = orbit%extents(march%turns() - 1.0_wp, march%turns(), plane_motion)
       call add_result(found, 'time', march%time)
       call add_result(found, 'turns', march%turns())
       call add_result(found, 'time_steps', march%steps)
       call add_result(found, 'orbit_x', box(2) - box(1))
       call add_result(found, 'orbit_y', box(4) - box(3))
       if (self%history%tilts) then
-        box = self%history%extents(march%turns() - 1.0_wp, march%turns())
+        box = orbit%extents(march%turns() - 1.0_wp, march%turns())
         do i = 1, 2
           call add_result(found, 'orbit_x_'//text(i), box(4*i - 2) - box(4*i - 3))
           call add_result(found, 'orbit_y_'//text(i), box(4*i) - box(4*i - 1))
         end do
-        box = self%history%extents(march%turns() - 1.0_wp, march%turns(), tilt_columns)
+        box = orbit%extents(march%turns() - 1.0_wp, march%turns(), tilt_motion)
         call add_result(found, 'orbit_tilt_x', box(2) - box(1))
         call add_result(found, 'orbit_tilt_y', box(4) - box(3))
       end if
@@ -213,63 +209,4 @@ contains
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get a dataset a name
     call add_arrays(arrays, self%history%arrays())
   end subroutine add_transient_arrays
-
-  !> What drives the shaft of a scene: what each of two bearings carries of a rotor that tilts counts twice.
-  pure function drive_of(scene) result(drive)
-    type(scene_type), intent(in) :: scene !! with `&transient`
-    type(shaft_drive_type) :: drive
-    real(wp) :: bearings
-
-    drive%bearing_distance = scene%rotor%distance_in_time
-    bearings = merge(2.0_wp, 1.0_wp, drive%bearing_distance > 0.0_wp)
-    associate (transient => scene%transient)
-      drive%mass = bearings*scene%rotor%mass
-      drive%transverse_inertia = scene%rotor%transverse_inertia
-      drive%polar_inertia = scene%rotor%polar_inertia
-      drive%load = bearings*scene%operation%load
-      drive%speed = angular_speed(scene%operation%speed_rpm)
-      drive%ramp = duration_of(scene)
-      if (transient%ramp_time > 0.0_wp) drive%ramp = transient%ramp_time
-      drive%acceleration = (angular_speed(transient%final_speed_rpm) - drive%speed)/drive%ramp
-      drive%unbalance = bearings*transient%unbalance
-      drive%unbalance_angle = transient%unbalance_angle
-      drive%couple_unbalance = transient%couple_unbalance
-      drive%couple_unbalance_angle = transient%couple_unbalance_angle
-      drive%pulse = bearings*transient%pulse
-      drive%couple_pulse = transient%couple_pulse
-      drive%pulse_start = transient%pulse_start
-      drive%pulse_length = transient%pulse_length
-      drive%orbit_radius = transient%orbit_radius
-      drive%orbit_frequency = transient%orbit_frequency
-      if (size(transient%base_time) == 0) return
-      drive%base_time = transient%base_time
-      allocate (drive%base_acceleration(2, size(drive%base_time)), source=0.0_wp)
-      if (size(transient%base_acceleration_x) > 0) drive%base_acceleration(1, :) = transient%base_acceleration_x
-      if (size(transient%base_acceleration_y) > 0) drive%base_acceleration(2, :) = transient%base_acceleration_y
-    end associate
-  end function drive_of
-
-  !> The whole time: as given, or that of the turns while the speed changes [s].
-  pure function duration_of(scene) result(duration)
-    type(scene_type), intent(in) :: scene !! with `&transient`
-    real(wp) :: duration, first, last, angle, rising
-
-    duration = scene%transient%duration
-    if (duration > 0.0_wp) return
-    first = angular_speed(scene%operation%speed_rpm)
-    last = angular_speed(scene%transient%final_speed_rpm)
-    angle = 2.0_wp*pi*scene%transient%turns
-    associate (ramp => scene%transient%ramp_time)
-      if (.not. ramp > 0.0_wp) then
-        duration = 2.0_wp*angle/(first + last)
-        return
-      end if
-      rising = 0.5_wp*(first + last)*ramp
-      if (angle > rising) then
-        duration = ramp + (angle - rising)/last
-      else ! while it rises: the smaller root of the parabola
-        duration = 2.0_wp*angle/(first + sqrt(first**2 + 2.0_wp*(last - first)/ramp*angle))
-      end if
-    end associate
-  end function duration_of
 end module gfb_transient

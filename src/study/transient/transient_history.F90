@@ -9,12 +9,13 @@ module gfb_transient_history
   use gfb_time_march, only: march_type
   use gfb_newton, only: newton_type
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
-  use gfb_spectra, only: spectra_type, spectra_of
+  use gfb_spectra, only: spectra_type, spectra_of, points_a_turn
+  use gfb_orbit_record, only: orbit_record_type
   implicit none (type)
   private
 
   integer, parameter :: planar = 21, columns = 35 !! of a shaft that does not tilt, of a rotor that does
-  integer, parameter, public :: plane_columns(2) = [4, 5], tilt_columns(2) = [22, 23] !! e_x and e_y; tilts
+  integer, parameter :: plane_columns(2) = [4, 5] !! e_x and e_y
   integer, parameter :: journal_columns(4) = [30, 31, 32, 33] !! the same of both bearings
   character(len=*), parameter :: names(columns) = [character(len=17) :: &
     'time', 'turns', 'speed', 'eccentricity_x', 'eccentricity_y', 'velocity_x', 'velocity_y', &
@@ -54,11 +55,12 @@ module gfb_transient_history
     logical :: tilts = .false.                  !! a rotor does, on two bearings
     real(wp), allocatable :: values(:, :)       !! (columns, lines), with room for more [SI]
     real(wp) :: smallest_gap = huge(1.0_wp)     !! of all steps [m]
+    type(orbit_record_type) :: orbit            !! of all steps of the last turns
   contains
     procedure :: add => add_line
-    procedure :: see_gap
+    procedure :: see => see_step
     procedure :: arrays => history_arrays
-    procedure :: extents
+    procedure :: lacks_spectrum
     procedure :: remember => remember_history
   end type transient_history_type
 
@@ -97,13 +99,15 @@ contains
                                             minval(answer%pad_gap(:pads)), minval(answer%pad_gap(pads + 1:))]
   end subroutine add_line
 
-  !> Notes the smallest gap of the present state, which no line need show.
-  subroutine see_gap(self, bearing)
-    class(transient_history_type), intent(inout) :: self !! notes it
-    type(bearing_system_type), intent(in) :: bearing !! after a step
+  !> Notes the smallest gap and the place of the present state, which no line need show.
+  subroutine see_step(self, march, bearing)
+    class(transient_history_type), intent(inout) :: self !! notes them
+    type(march_type), intent(in) :: march !! after a step
+    type(bearing_system_type), intent(in) :: bearing !! the same
 
     self%smallest_gap = min(self%smallest_gap, bearing%smallest_gap())
-  end subroutine see_gap
+    call self%orbit%see(march)
+  end subroutine see_step
 
   !> The gas that the films hold, and what leaves them a time.
   function gas_balance(bearing) result(gas)
@@ -146,7 +150,8 @@ contains
     call add_spectra(self, arrays)
   end function history_arrays
 
-  !> Adds the spectra of the shaft's motion, a row a window of some turns; none where there are less than two turns.
+  !> Adds the spectra of the shaft's motion, a row a window of some turns; none where there are less than two turns, or less
+  !> than two lines a turn.
   subroutine add_spectra(self, arrays)
     class(transient_history_type), intent(in) :: self
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
@@ -175,6 +180,15 @@ contains
     end do
   end subroutine add_spectra
 
+  !> Whether there are turns enough for a spectrum, but lines too far apart to show what happens once a turn.
+  pure logical function lacks_spectrum(self)
+    class(transient_history_type), intent(in) :: self !! the lines
+
+    associate (turns => self%values(2, :self%lines))
+      lacks_spectrum = turns(self%lines) - turns(1) >= 2.0_wp .and. points_a_turn(turns) < 2.0_wp
+    end associate
+  end function lacks_spectrum
+
   !> Packs or unpacks the lines.
   subroutine remember_history(self, memory)
     class(transient_history_type), intent(inout) :: self !! written where the memory unpacks
@@ -184,28 +198,11 @@ contains
     lines = self%values(:, :self%lines)
     call memory%visit_sized('lines', lines)
     call memory%visit('smallest_gap', self%smallest_gap)
+    call self%orbit%remember(memory)
     memory%failed = memory%failed .or. .not. allocated(lines)
     if (memory%packs .or. memory%failed) return
     memory%failed = size(lines, 1) /= size(self%values, 1)
     self%lines = size(lines, 2)
     call move_alloc(lines, self%values)
   end subroutine remember_history
-
-  !> Smallest and largest values of some columns in the lines of the turns between two numbers.
-  pure function extents(self, from, to, asked) result(box)
-    class(transient_history_type), intent(in) :: self !! the lines
-    real(wp), intent(in) :: from, to !! turns of the shaft [1]
-    integer, intent(in), optional :: asked(:) !! default: where the shaft is, in both bearings where it has two
-    real(wp), allocatable :: box(:)  !! smallest value of the first column, largest, those of the next [SI]
-    integer, allocatable :: column(:)
-    logical :: there(self%lines)
-    integer :: i
-
-    column = plane_columns
-    if (self%tilts) column = journal_columns
-    if (present(asked)) column = asked
-    there = self%values(2, :self%lines) >= from .and. self%values(2, :self%lines) <= to
-    box = [(minval(self%values(column(i), :self%lines), there), maxval(self%values(column(i), :self%lines), there), &
-            i=1, size(column))]
-  end function extents
 end module gfb_transient_history
