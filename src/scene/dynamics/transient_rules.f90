@@ -5,15 +5,17 @@ module gfb_transient_rules
   use gfb_maxwell_keys, only: check_maxwell_keys
   use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
                             half_width_yes
-  use gfb_operation_case, only: operation_case_type
+  use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_rotor_case, only: rotor_case_type
   use gfb_scene_case, only: analysis_equilibrium
-  use gfb_transient_case, only: transient_case_type
+  use gfb_text, only: text
+  use gfb_transient_case, only: transient_case_type, duration_of
   implicit none (type, external)
   private
   public :: check_transient
 
   character(len=*), parameter :: group = 'transient'
+  real(wp), parameter :: least_steps = 20.0_wp !! of a turn, or of a pulse [1]
 
 contains
 
@@ -47,6 +49,8 @@ contains
       call check_given_orbit(keys)
     end if
     call check_pulse_and_base(keys, transient)
+    call check_ends(keys, transient, operation)
+    call check_steps(keys, transient, operation)
     call check_neighbours(keys, transient, model)
   end subroutine check_transient
 
@@ -137,8 +141,69 @@ contains
       if (any(time(2:) <= time(:size(time) - 1))) then
         call keys%complain(group, 'base_time', 'must rise from value to value')
       end if
+      if (size(time) == 1) call keys%complain(group, 'base_time', 'must have two times at least')
+      if (size(time) > 0 .and. size(transient%base_acceleration_x) == 0 .and. &
+          size(transient%base_acceleration_y) == 0) then
+        call keys%complain(group, 'base_time', &
+                           'has no use without base_acceleration_x or base_acceleration_y')
+      end if
     end associate
   end subroutine check_pulse_and_base
+
+  !> What drives the shaft does so before the run ends.
+  subroutine check_ends(keys, transient, operation)
+    type(case_keys_type), intent(inout) :: keys
+    type(transient_case_type), intent(in) :: transient
+    type(operation_case_type), intent(in) :: operation
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of times, over them [1]
+    real(wp) :: slowest, end_time
+
+    slowest = min(operation%speed_rpm, transient%final_speed_rpm)
+    if (.not. slowest >= 0.0_wp .or. .not. has_end(transient, operation)) return
+    end_time = duration_of(transient, operation)
+    if (.not. end_time < huge(end_time)) then
+      call keys%complain(group, 'turns', 'are never reached: the shaft stands still before; '// &
+                         'give duration')
+      return
+    end if
+    if (keys%meant(group, 'pulse_start') .and. .not. transient%pulse_start < end_time) then
+      call keys%complain(group, 'pulse_start', 'must lie before the end of the run, '// &
+                         text(end_time, 6)//' s')
+    end if
+    if (keys%meant(group, 'ramp_time') .and. &
+        transient%ramp_time > (1.0_wp + rounding)*end_time) then
+      call keys%complain(group, 'ramp_time', 'must not be longer than the run, '// &
+                         text(end_time, 6)//' s')
+    end if
+  end subroutine check_ends
+
+  !> Whether the case file says how long a run takes.
+  pure logical function has_end(transient, operation)
+    type(transient_case_type), intent(in) :: transient
+    type(operation_case_type), intent(in) :: operation
+
+    has_end = transient%duration > 0.0_wp .or. &
+      (transient%turns > 0.0_wp .and. &
+       max(operation%speed_rpm, transient%final_speed_rpm) > 0.0_wp)
+  end function has_end
+
+  !> Steps resolve a turn; longer ones are for a slow push, where nothing turns with the shaft.
+  subroutine check_steps(keys, transient, operation)
+    type(case_keys_type), intent(inout) :: keys
+    type(transient_case_type), intent(in) :: transient
+    type(operation_case_type), intent(in) :: operation
+    real(wp) :: speed, steps
+    logical :: slow
+
+    if (.not. transient%steps_per_turn > 0.0_wp .or. transient%steps_per_turn >= least_steps) return
+    speed = max(angular_speed(operation%speed_rpm), angular_speed(transient%final_speed_rpm))
+    steps = transient%pulse_length*speed/angular_speed(60.0_wp)*transient%steps_per_turn
+    slow = steps >= least_steps .and. .not. max(transient%unbalance, transient%couple_unbalance, &
+                                                transient%orbit_radius) > 0.0_wp
+    if (slow .and. size(transient%base_time) == 0) return
+    call keys%complain(group, 'steps_per_turn', 'must be at least 20: fewer steps do not '// &
+                       'resolve a turn; or give a pulse alone, of 20 steps or more')
+  end subroutine check_steps
 
   !> A column of the table has a value a time, or none at all.
   subroutine check_column(keys, name, values, times)
