@@ -19,6 +19,7 @@ def loop(folder, name, gap, friction=0.1, steps=10, contact=(), **groups):
     foil["crest_gap"] = [MICROMETRE*one for one in gap]
     foil |= groups.pop("bump_foil", {})
     load = {"kind": "plates", "maximum_displacement": TRAVEL, "steps_up": steps, "steps_down": steps}
+    load |= groups.pop("strip_load", {})
     contact = {"friction_top": friction, "friction_sleeve": friction, **dict(contact)}
     return solve(folder, name, bump_foil=foil, mesh=SMALL, contact=contact, strip_load=load, **groups)
 
@@ -45,6 +46,17 @@ def check_steps(checks, folder):
     checks.below("40 steps against 80: lost work", lost[0]/lost[1] - 1.0, 1.0e-2)
 
 
+def check_out_of_reach(checks, folder):
+    """A strip that no plate has come to lies still, however its numbers are rounded; then it is met."""
+    gap = [4.905, 4.843, 6.503]
+    load = {"maximum_displacement": 8.7*MICROMETRE, "steps_up": 12, "steps_down": 6}
+    rows = loop(folder, "far", gap, 0.142, contact={"friction_law": "coulomb"}, strip_load=load,
+                bump_foil={"fixed_line": "flat"}).history()
+    far = rows["plate_travel"] < min(gap)*MICROMETRE
+    checks.that("out of reach: no force", far.sum() > 6 and numpy.abs(rows["force"][far]).max() < 1.0e-9*rows["force"].max())
+    checks.that("in reach: force", (rows["force"][~far] > 0.0).all())
+
+
 def check_heights(checks, folder):
     """Crests low by their bumps' heights: nearly the strip with gaps in their place."""
     height = [FOIL["height"] - MICROMETRE*one for one in GAPS[0]]
@@ -69,6 +81,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_answers(checks, folder)
         check_steps(checks, folder)
+        check_out_of_reach(checks, folder)
         check_heights(checks, folder)
         check_little_friction(checks, folder)
     checks.close()

@@ -12,7 +12,8 @@ module gfb_load_step
   use gfb_signals, only: stop_agreed
   use gfb_petsc_session, only: any_rank
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
-  use gfb_strip_system, only: strip_system_type
+  use gfb_bump_contacts, only: contact_top
+  use gfb_strip_system, only: strip_system_type, plate_moved
   implicit none (type)
   private
   public :: create_load_path, take_load_step, destroy_load_path
@@ -125,16 +126,32 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(newton_report_type), intent(out) :: report
     real(wp) :: lent
+    PetscErrorCode :: ierr
 
     call solve_newton(newton, report)
     lent = strip%contacts%floor_tangential
     if (report%converged .or. .not. lent > 0.0_wp) return
     if (stop_agreed()) return
+    if (is_out_of_reach(strip)) then ! round-off moves a strip that floats: it is at rest
+      PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
+    end if
     call newton%log%detail('on with less lent along the surfaces: '//report%reason)
     strip%contacts%floor_tangential = less*lent
     call solve_newton(newton, report)
     strip%contacts%floor_tangential = lent
   end subroutine solve_step
+
+  !> Whether a plate that is moved has not come to any crest of the strip at rest.
+  function is_out_of_reach(strip) result(out_of_reach)
+    type(strip_system_type), intent(in) :: strip
+    logical :: out_of_reach
+
+    out_of_reach = strip%plate == plate_moved
+    if (.not. out_of_reach) return
+    associate (point => strip%contacts%point)
+      out_of_reach = .not. any_rank(any(point%law == contact_top .and. point%gap < 0.0_wp))
+    end associate
+  end function is_out_of_reach
 
   !> Tries a step with stick lengths that grow shorter.
   subroutine follow_softening(strip, newton, path, from, to, report)
