@@ -9,6 +9,7 @@ import tempfile
 
 import numpy
 
+from sample import normal
 from gfb_run import Checks, largest_difference, observed_order, solve
 
 REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"pads.json").read_text(encoding="utf-8"))["cases"]
@@ -103,6 +104,20 @@ def check_three(checks, folder):
         centred = solve(folder, "centred", of_pads(foil, {"count": 3}, (0.0, 0.0)))
         checks.below(f"{foil}: no force on a centred shaft",
                      math.hypot(*centred.force)/math.hypot(centred["force_x_1"], centred["force_y_1"]), 1.0e-10)
+
+
+def check_heights(checks, folder):
+    """With random heights each pad has a draw of its own: the numbers of a seed one after the other; the first is that of one pad."""
+    bumps = FOILS["bump_foil"]["bumps"]
+    deviations = normal(7, 3*bumps).reshape(3, bumps)*1.0e-6
+    for foil in ("beam", "shell"):
+        random = {"bump_foil": FOILS["bump_foil"] | {"height_deviation": 1.0e-6, "seed": 7}}
+        three = solve(folder, "three", of_pads(foil, {"count": 3}) | random)
+        for i, heights in enumerate(deviations):
+            given = {"bump_foil": FOILS["bump_foil"] | {"crest_gap": tuple(heights.max() - heights)}}
+            one = solve(folder, "single", of_pads(foil, {"count": 1, "first_leading_edge": i*TURN}) | given)
+            checks.below(f"{foil}, random heights: force_x_{i + 1}", (three[f"force_x_{i + 1}"] - one["force_x"])/math.hypot(*three.force),
+                         1.0e-9)
 
 
 def with_free_edges(bearing, load):
@@ -230,7 +245,8 @@ def check_sweep(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_reference, check_order, check_preload, check_three, check_turns, check_free_edges, check_branches, check_bore, check_film, check_sweep):
+        for check in (check_reference, check_order, check_preload, check_three, check_heights, check_turns, check_free_edges, check_branches,
+                      check_bore, check_film, check_sweep):
             check(checks, folder)
     checks.close()
 

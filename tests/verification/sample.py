@@ -125,8 +125,8 @@ def check_first_order(checks, folder):
     checks.that("strip: a quantile of the stiffness", rows["loading_stiffness_q05"] < rows["loading_stiffness_q95"])
 
 
-def drawn(seed, count):
-    """Gaps of heights with deviation 1: L'Ecuyer's combined generator, Box and Muller's normal law."""
+def normal(seed, count):
+    """Numbers of deviation 1: L'Ecuyer's combined generator, Box and Muller's normal law."""
     modulus, factor = (2147483563, 2147483399), (40014, 40692)
     state = [1 + seed % (modulus[0] - 1), 1 + (seed*69069 + 12345) % (modulus[1] - 1)]
 
@@ -141,6 +141,12 @@ def drawn(seed, count):
     for _ in range(count):
         first, second = uniform(), uniform()
         heights.append(numpy.sqrt(-2.0*numpy.log(first))*numpy.cos(2.0*numpy.pi*second))
+    return numpy.array(heights)
+
+
+def drawn(seed, count):
+    """Gaps of heights with deviation 1."""
+    heights = normal(seed, count)
     return numpy.max(heights) - heights
 
 

@@ -5,10 +5,10 @@ module gfb_bearing_builder
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, leading_edge_periodic
+  use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
-  use gfb_foil_builder, only: plate_stations, shape_on_pad
+  use gfb_foil_builder, only: plate_stations, shape_on_pad, further_gaps
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
@@ -22,7 +22,7 @@ module gfb_bearing_builder
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_pad, only: pad_place_type, create_pad_film
+  use gfb_pad, only: pad_place_type, create_pad_film, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   implicit none (type)
   private
@@ -99,6 +99,7 @@ contains
     type(error_type), allocatable, intent(out) :: error
     class(foil_model_type), allocatable :: foil
     type(division_type) :: division
+    type(pad_place_type), allocatable :: place(:)
 
     call divide_bearing(scene, film, rank_count(), division, error)
     if (allocated(error)) return
@@ -109,7 +110,8 @@ contains
     bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
-    call create_bearing_system(bearing, foil, floats, places_of(scene%bearing, film%offset))
+    call find_places(scene, film%offset, place)
+    call create_bearing_system(bearing, foil, floats, place)
     bearing%low_fill = scene%model%foil /= foil_shell
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
@@ -145,10 +147,10 @@ contains
   subroutine take_numbers(scene, bearing)
     type(scene_type), intent(in) :: scene !! with the same meshes
     type(bearing_system_type), intent(inout) :: bearing !! its state and scales stay
-    type(pad_place_type) :: place(scene%bearing%pads)
+    type(pad_place_type), allocatable :: place(:)
     integer :: i
 
-    place = pad_places(scene%bearing)
+    call find_places(scene, 0.0_wp, place)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         pad%film%clearance = scene%bearing%clearance
@@ -156,37 +158,39 @@ contains
         pad%film%flow%viscosity = scene%gas%viscosity
         pad%film%shift = place(i)%shift
         call take_foil_numbers(scene, pad%foil)
+        call move_crests(place(i), pad)
       end associate
     end do
     call take_film_numbers(scene, bearing)
   end subroutine take_numbers
 
   !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
-  !> \( m C \cos(\theta - \theta_p) \).
-  pure function pad_places(bearing) result(place)
-    type(bearing_case_type), intent(in) :: bearing
-    type(pad_place_type) :: place(bearing%pads)
+  !> \( m C \cos(\theta - \theta_p) \). Of two bearings of a rotor that tilts the pads of the first one, at +z, come first.
+  !>
+  !> No function: gfortran 12 leaves out the defaults of a result of this type.
+  pure subroutine find_places(scene, offset, place)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: offset !! of two bearings' midplanes; 0: there is one bearing [m]
+    type(pad_place_type), allocatable, intent(out) :: place(:)
     integer :: i
 
-    do i = 1, size(place)
-      place(i)%turn = pad_turn(bearing, i)
-      associate (angle => preload_angle(bearing, i))
-        if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
-      end associate
-    end do
-  end function pad_places
-
-  !> The same of the pads of both bearings of a rotor that tilts: the first one at +z, the second one at -z.
-  pure function places_of(bearing, offset) result(place)
-    type(bearing_case_type), intent(in) :: bearing
-    real(wp), intent(in) :: offset !! of the bearings' midplanes; 0: there is one bearing [m]
-    type(pad_place_type), allocatable :: place(:)
-
-    place = pad_places(bearing)
-    if (.not. offset > 0.0_wp) return
-    place = [place, place]
-    place%offset = [spread(offset, 1, bearing%pads), spread(-offset, 1, bearing%pads)]
-  end function places_of
+    associate (bearing => scene%bearing)
+      allocate (place(bearing%pads*merge(2, 1, offset > 0.0_wp)))
+      do i = 1, bearing%pads
+        place(i)%turn = pad_turn(bearing, i)
+        associate (angle => preload_angle(bearing, i))
+          if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
+        end associate
+        if (scene%bump_foil%random%deviation > 0.0_wp) place(i)%further_gap = further_gaps(scene%bump_foil, i)
+      end do
+      if (size(place) == bearing%pads) return
+      do i = 1, bearing%pads
+        place(bearing%pads + i) = place(i)
+        place(i)%offset = offset
+        place(bearing%pads + i)%offset = -offset
+      end do
+    end associate
+  end subroutine find_places
 
   !> The parts of film and foils: what touches belongs to one part.
   !>

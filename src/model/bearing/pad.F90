@@ -15,6 +15,7 @@ module gfb_pad
   use gfb_part_chains, only: film_chain, film_columns
   use gfb_film_load, only: film_forces
   use gfb_solid_contact, only: solid_contact_type, contact_pressure
+  use gfb_bump_contacts, only: contact_top
   use gfb_foil_model, only: foil_model_type
   use gfb_cost_events, only: cost_events_type
   use gfb_operating_point, only: operating_point_type
@@ -22,13 +23,14 @@ module gfb_pad
   use gfb_free_edge, only: free_edge_type, find_free_edge
   implicit none (type)
   private
-  public :: create_pad_film, complete_pad, place_pads
+  public :: create_pad_film, complete_pad, place_pads, move_crests
 
   !> Where a pad stands.
   type, public :: pad_place_type
     real(wp) :: turn = 0.0_wp     !! from the first pad [rad]
     real(wp) :: shift(2) = 0.0_wp !! of its centre of curvature relative to the bearing's, seen as an eccentricity [m]
     real(wp) :: offset = 0.0_wp   !! of its midplane along the axis from the rotor's centre of mass [m]
+    real(wp), allocatable :: further_gap(:) !! of its crests, over those of the first pad; none: the same [m]
   end type pad_place_type
 
   !> A pad on this rank.
@@ -143,7 +145,23 @@ contains
     end associate
     if (allocated(error)) error stop 'a pad that is equal to a good one is not'
     pad%film%shift = place%shift
+    call move_crests(place, pad)
   end subroutine create_equal_pad
+
+  !> Gives the crests of a pad, which has the first one's gaps, its own.
+  subroutine move_crests(place, pad)
+    type(pad_place_type), intent(in) :: place !! of the pad
+    type(pad_type), intent(inout) :: pad !! whose contacts stay linearised where they are
+    integer :: i
+
+    if (.not. allocated(place%further_gap)) return
+    do i = 1, size(pad%foil%contacts%point)
+      associate (point => pad%foil%contacts%point(i))
+        if (point%law == contact_top) point%gap = point%gap + place%further_gap(point%line)
+      end associate
+    end do
+    call pad%foil%contacts%linearise_again()
+  end subroutine move_crests
 
   !> Gap at this rank's nodes [m].
   pure function pad_gap(self, point, unknown) result(gap)

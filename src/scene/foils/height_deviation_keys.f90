@@ -20,14 +20,20 @@ module gfb_height_deviation_keys
 
 contains
 
-  !> The gaps that random heights leave [m].
-  pure function drawn_gaps(random, seed, bumps) result(gap)
+  !> The gaps that random heights leave; pads have the numbers of the seed one after the other [m].
+  pure function drawn_gaps(random, seed, bumps, pad) result(gap)
     type(height_deviation_type), intent(in) :: random !! their law
     integer, intent(in) :: seed  !! in the place of the law's own
     integer, intent(in) :: bumps !! of the strip
+    integer, intent(in), optional :: pad !! number of the pad; default: 1
     real(wp) :: gap(bumps)       !! [m]
+    integer :: before
 
-    gap = crest_gaps(random%deviation*normal_deviations(seed, bumps))
+    before = 0
+    if (present(pad)) before = (pad - 1)*bumps
+    associate (drawn => normal_deviations(seed, before + bumps))
+      gap = crest_gaps(random%deviation*drawn(before + 1:))
+    end associate
   end function drawn_gaps
 
   !> Reads the law of the heights, and the gaps that they leave where none are given.
