@@ -30,9 +30,6 @@ contains
       call keys%complain('sample', 'count', 'cannot stand beside &accuracy: one member on one '// &
                          'mesh has its error, then all have it on that mesh')
     end if
-    if (scene%dynamics%present) then
-      call keys%complain('sample', 'count', "has no use with analysis = 'linear_dynamics'")
-    end if
     if (scene%output%restart_every > 0) then
       call keys%complain('sample', 'count', 'is of many runs, which no restart file resumes: '// &
                          'restart_every must be 0')

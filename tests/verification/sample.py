@@ -150,6 +150,17 @@ def drawn(seed, count):
     return numpy.max(heights) - heights
 
 
+def check_vibrations(checks, folder):
+    """Members that vibrate: critical mass and growth are those of single runs, and have statistics."""
+    groups = {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 0.5}, "rotor": {"mass": 0.3}}
+    many = bearing(folder, "many", {**sampled(2), **groups}, random(0.5*MICROMETRE))
+    rows = many.history()
+    one = bearing(folder, "alone", groups, random(0.5*MICROMETRE, 6))
+    for name in ("critical_mass", "whirl_ratio", "growth_rate"):
+        checks.below(f"vibrations: {name} of a member", rows[name][1]/one[name] - 1.0, 1.0e-10)
+    checks.below("vibrations: mean critical mass", many["critical_mass_mean"]/rows["critical_mass"].mean() - 1.0, 1.0e-14)
+
+
 def check_no_answer(checks, folder):
     """Members without an answer are named, and not in the statistics."""
     none = bearing(folder, "few", {**sampled(2), "solver": {"maximum_iterations": 1}}, random(0.5*MICROMETRE), status=2)
@@ -166,6 +177,7 @@ def main():
         check_members(checks, folder, many)
         check_small_spread(checks, folder)
         check_first_order(checks, folder)
+        check_vibrations(checks, folder)
         check_no_answer(checks, folder)
     checks.close()
 
