@@ -11,7 +11,6 @@ import signal
 import subprocess
 import tempfile
 
-import gfb.run
 import numpy
 
 from gfb_run import GFB, Bearing, Checks, observed_order, solve, summary_difference, write_case
@@ -164,8 +163,8 @@ def check_suction(checks, folder):
 
     reason = "the film draws the free edge of the top foil to the shaft"
     # With the rounding of another processor the branch is lost at 41.5 N, and met again beyond.
-    path = write_case(folder, "drawn", content("load_capacity", 40.0, capacity={"smallest_gap": GAP_4}))
-    end = gfb.run.run_file(GFB, path, folder, environment={"OPENBLAS_CORETYPE": "Nehalem"})
+    end = solve(folder, "drawn", content("load_capacity", 40.0, capacity={"smallest_gap": GAP_4}),
+                environment={"OPENBLAS_CORETYPE": "Nehalem"})
     checks.that("suction: told by the search", end["limit_reached"] == "false" and f"a little beyond {reason}" in end.log)
     over = solve(folder, "over", content("equilibrium", 1.1*end["load_capacity"]), status=2)
     checks.that("suction: told by an equilibrium beyond", reason in over.log)

@@ -67,18 +67,18 @@ def case_groups(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=N
     return content
 
 
-def run_file(path, folder, ranks=1, options=(), status=0):
+def run_file(path, folder, ranks=1, options=(), status=0, environment=None):
     """Runs gfb on a case file; stops the whole check where it ends with another status."""
-    answer = gfb.run.run_file(GFB, path, folder, ranks, options, seconds=SECONDS)
+    answer = gfb.run.run_file(GFB, path, folder, ranks, options, seconds=SECONDS, environment=environment)
     if answer.status != status:
         sys.exit(f"{path} {' '.join(options)}: status {answer.status}, not {status}\n{answer.log[-3000:]}\n"
                  f"{answer.complaint[-3000:]}")
     return answer
 
 
-def solve(folder, name, content, ranks=1, options=(), status=0):
+def solve(folder, name, content, ranks=1, options=(), status=0, environment=None):
     """Writes a case file from its groups and runs it."""
-    return run_file(write_case(folder, name, content), folder, ranks, options, status)
+    return run_file(write_case(folder, name, content), folder, ranks, options, status, environment)
 
 
 def run(folder, name, bearing, ranks=1, status=0, **case):
