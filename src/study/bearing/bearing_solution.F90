@@ -255,7 +255,7 @@ contains
 
     do point = first, size(sweep%scene%sweep%values)
       call sweep%leave(operating_point(sweep%here%operation))
-      call follow_keys(sweep%scene, plan, sweep%value, sweep%scene%sweep%values(point), sweep%path, sweep%bearing, &
+      call follow_keys(sweep%scene, scene_at_value, plan, sweep%value, sweep%scene%sweep%values(point), sweep%path, sweep%bearing, &
                        sweep%newton, report)
       sweep%anew = .not. (report%converged .or. report%touched)
       if (sweep%anew) call start_anew(plan, sweep, point, report, error)

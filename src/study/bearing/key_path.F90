@@ -8,7 +8,6 @@ module gfb_key_path
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_scene, only: scene_type
-  use gfb_scene_reading, only: scene_at_value
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type
@@ -23,6 +22,17 @@ module gfb_key_path
   implicit none (type)
   private
   public :: follow_keys
+
+  abstract interface
+    !> A scene with another value in it, on its mesh; fails where the value breaks a rule.
+    subroutine scene_at_interface(scene, value, there, error)
+      import :: wp, scene_type, error_type
+      type(scene_type), intent(in) :: scene !! what is asked for
+      real(wp), intent(in) :: value         !! of the keys [their unit]
+      type(scene_type), intent(out) :: there !! the scene with the value in it
+      type(error_type), allocatable, intent(out) :: error !! which rule is broken
+    end subroutine scene_at_interface
+  end interface
 
   integer, parameter :: hasty_iterations = 20      !! of a step that can be cut: one that converges does so soon
   integer, parameter :: straight_steps = 8         !! of a leap, before they are bent at contacts that change
@@ -43,16 +53,17 @@ module gfb_key_path
 
 contains
 
-  !> Leads the bearing from a value of the keys that its scene's sweep changes, where its state is the answer, to another.
+  !> Leads the bearing from a value of keys of its scene, where its state is the answer, to another.
   !>
   !> Each step starts from the answer before, from the second one on from the line through two. A step that does not
   !> converge, or moves the shaft or the free edge far, which may be to another branch, is halved. Where Newton's method
   !> goes to and fro between contacts however short the step, longer steps are tried, bent at contacts that change; what
   !> they find has to be near, too. On return the bearing is at the last answer.
-  subroutine follow_keys(scene, plan, from, to, settings, bearing, newton, report)
-    type(scene_type), intent(in) :: scene !! whose sweep changes keys
+  subroutine follow_keys(scene, scene_at, plan, from, to, settings, bearing, newton, report)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    procedure(scene_at_interface) :: scene_at !! puts a value into it
     type(bearing_plan_type), intent(in) :: plan !! of its meshes
-    real(wp), intent(in) :: from, to !! values [the sweep's unit]
+    real(wp), intent(in) :: from, to !! values [the keys' unit]
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft; is built anew
     type(newton_type), target, intent(inout) :: newton !! of the bearing; is created anew
@@ -75,7 +86,8 @@ contains
         exit
       end if
       trial = min(1.0_wp, report%fraction + step)
-      call try_value(scene, plan, value_at(from, to, trial), trial, here, before, leaps, bearing, newton, iterations, problem)
+      call try_value(scene, scene_at, plan, value_at(from, to, trial), trial, here, before, leaps, bearing, newton, iterations, &
+                     problem)
       if (problem == '') then
         if (has_moved(here, bearing)) problem = 'the shaft or the free edge jumps'
       end if
@@ -107,7 +119,7 @@ contains
     report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
     if (report%converged) report%reason = 'converged'
     if (report%fraction < 1.0_wp .and. .not. report%touched) then
-      call rebuild(scene, plan, value_at(from, to, report%fraction), here, bearing, newton, problem)
+      call rebuild(scene, scene_at, plan, value_at(from, to, report%fraction), here, bearing, newton, problem)
       if (problem /= '') error stop 'a bearing that had been built cannot be built again'
     end if
     report%reached = bearing%point
@@ -125,8 +137,9 @@ contains
   end function value_at
 
   !> Builds the bearing at a value and solves it from the answers before.
-  subroutine try_value(scene, plan, value, at, here, before, leaps, bearing, newton, iterations, problem)
+  subroutine try_value(scene, scene_at, plan, value, at, here, before, leaps, bearing, newton, iterations, problem)
     type(scene_type), intent(in) :: scene
+    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     real(wp), intent(in) :: value              !! [the sweep's unit]
     real(wp), intent(in) :: at                 !! path parameter [1]
@@ -140,7 +153,7 @@ contains
     type(newton_settings_type) :: kept
 
     iterations = 0
-    call rebuild(scene, plan, value, here, bearing, newton, problem)
+    call rebuild(scene, scene_at, plan, value, here, bearing, newton, problem)
     if (problem /= '') return
     if (before%at >= 0.0_wp .and. .not. leaps) then
       call predict(here, before, (at - here%at)/(here%at - before%at), bearing)
@@ -158,8 +171,9 @@ contains
   end subroutine try_value
 
   !> The bearing at a value, with a carried answer as its state; nothing is done where the value breaks a rule.
-  subroutine rebuild(scene, plan, value, carried, bearing, newton, problem)
+  subroutine rebuild(scene, scene_at, plan, value, carried, bearing, newton, problem)
     type(scene_type), intent(in) :: scene
+    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     real(wp), intent(in) :: value !! [the sweep's unit]
     type(carried_type), intent(in) :: carried
@@ -173,7 +187,7 @@ contains
     logical :: fits
 
     problem = ''
-    call scene_at_value(scene, value, there, error)
+    call scene_at(scene, value, there, error)
     if (allocated(error)) then
       problem = error%message
       return
@@ -190,7 +204,7 @@ contains
     if (fits) then
       call bearing%set_unknowns(carried%unknown)
     else
-      call interpolate(scene, plan, carried, bearing)
+      call interpolate(scene, scene_at, plan, carried, bearing)
     end if
   end subroutine rebuild
 
@@ -206,8 +220,9 @@ contains
   end subroutine compare_nodes
 
   !> Interpolates an answer on other nodes: where a pitch changes, the top foil may get more stations between its bumps.
-  subroutine interpolate(scene, plan, carried, bearing)
+  subroutine interpolate(scene, scene_at, plan, carried, bearing)
     type(scene_type), intent(in) :: scene
+    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     type(carried_type), intent(in) :: carried
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
@@ -215,7 +230,7 @@ contains
     type(scene_type) :: there
     type(error_type), allocatable :: error
 
-    call scene_at_value(scene, carried%value, there, error)
+    call scene_at(scene, carried%value, there, error)
     if (.not. allocated(error)) call build_bearing(there, plan, other, error)
     if (allocated(error)) error stop 'a bearing that had been built cannot be built again'
     other%point = operating_point(there%operation)
