@@ -18,7 +18,7 @@ module gfb_bearing_solution
   use gfb_cold_start, only: start_bearing, restart_bearing, start_partitioned
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
   use gfb_bearing_restart, only: recall_bearing, find_restart_point
-  use gfb_key_path, only: follow_keys
+  use gfb_key_path, only: follow_keys, come_from_thicker
   use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: take_walk
@@ -103,6 +103,9 @@ contains
       else
         call start_bearing(scene, plan, operating_point(operation), sweep%tolerances, sweep%path, log, &
                            sweep%bearing, sweep%newton, report, error)
+        if (.not. allocated(error)) then
+          call come_from_thicker(start_bearing, scene, plan, operation, sweep%path, sweep%bearing, sweep%newton, report, error)
+        end if
         if (.not. allocated(error)) call start_lighter(scene, plan, operation, sweep, report, error)
       end if
     end associate
@@ -289,5 +292,7 @@ contains
     if (sweep%scene%sweep%parameter /= sweep_keys) scene%operation = operation_at(scene%operation, scene%sweep, point)
     call restart_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
                          sweep%context%log, sweep%bearing, sweep%newton, report, error)
+    if (allocated(error)) return
+    call come_from_thicker(start_bearing, scene, plan, scene%operation, sweep%path, sweep%bearing, sweep%newton, report, error)
   end subroutine start_anew
 end module gfb_bearing_solution
