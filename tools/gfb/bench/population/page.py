@@ -5,7 +5,7 @@ import textwrap
 
 from gfb.bench.population.members import MODELS
 from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, CHEAP, FALLING, LEAST, LIGHTER, OUTCOMES,
-                                        REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, TURNED, imbalance)
+                                        REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, THINNER, TURNED, imbalance)
 from gfb.tables import markdown_table, plain_table
 
 WORST = 10
@@ -53,16 +53,16 @@ def notes(title):
     """What a table's words mean."""
     if title != SHOWN:
         return ""
-    rising, falling, slower, lighter = (", ".join(f"{share:g}" for share in shares)
-                                        for shares in (RISING, FALLING, SLOWER, LIGHTER))
+    rising, falling, slower, lighter, thinner = (", ".join(f"{share:g}" for share in shares)
+                                                 for shares in (RISING, FALLING, SLOWER, LIGHTER, THINNER))
     return (f"*{BY_GAP}*: the smallest gap of the last state is at most {THIN:g} touch_down_gap. *by a load sweep*: else a sweep of "
             f"the load, from a\ncold start at {rising} of it, ends for the same reason before the whole load; where the film draws "
             f"the edge to the shaft, also at\n{falling}, and it ends in a fold or there. *by a speed sweep*: else one of the speed, "
             f"at {rising}\nor {slower} of it. A touch-down that neither shows: a sweep of the load at\n"
             f"{lighter} of it, too; *{BELOW}*: that one ends in a fold before the load.\n"
             f"*by a turned load*: else the same load, from a cold start {TURNED[0]:g} degrees away and turned to its direction by "
-            f"{TURNED[0] - TURNED[1]:g} degrees a step, ends on its\nway for the same reason or in a fold. "
-            f"Each sweep has {CHEAP:g} times the CPU time of the refusal, {LEAST:g} s at least.\n"
+            f"{TURNED[0] - TURNED[1]:g} degrees a step, ends on its\nway for the same reason or in a fold.\n*by a thicker foil*: else a sweep of the top foil's, or the "
+            f"bumps', thickness from {thinner} of it ends so on its way.\nEach sweep has {CHEAP:g} times the CPU time of the refusal, {LEAST:g} s at least.\n"
             "*contradicted*: a sweep gets to the member itself. *not shown*: none of these.\n\n")
 
 

@@ -27,14 +27,17 @@ SLOWER = (2.0, 1.6, 1.3, 1.15, 1.0)   # of the speed, where the film gives way a
 TURNED = tuple(7.5*step for step in range(12, -1, -1))  # of the load's direction, from where it has an answer [deg]
 TURNED_BACK = tuple(-angle for angle in TURNED)
 BY_GAP, BELOW, AGAINST, OPEN = "by its last film", "by a fold below it", "contradicted", "not shown"
-BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep", "load_angle": "by a turned load"}
-TURNS = (("load_angle", TURNED), ("load_angle", TURNED_BACK))
-SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER), *TURNS),
-          "emptied": (("load", RISING), ("speed_rpm", SLOWER), *TURNS),
-          "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER), *TURNS),
-          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *TURNS))}
+THINNER = (4.0, 3.0, 2.5, 2.0, 1.6, 1.3, 1.15, 1.0)  # of a foil's thickness, from where it is stiff
+TOP_FOIL, BUMP_FOIL = "top_foil%thickness", "bump_foil%thickness"
+BY_SWEEP = {"load": "by a load sweep", "speed_rpm": "by a speed sweep", "load_angle": "by a turned load",
+            TOP_FOIL: "by a thicker foil", BUMP_FOIL: "by a thicker foil"}
+REST = (("load_angle", TURNED), ("load_angle", TURNED_BACK), (TOP_FOIL, THINNER), (BUMP_FOIL, THINNER))
+SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER), *REST),
+          "emptied": (("load", RISING), ("speed_rpm", SLOWER), *REST),
+          "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER), *REST),
+          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *REST))}
 CHEAP, LEAST = 3.0, 30.0  # CPU time of a sweep: times that of the run that is to be shown, at least [s]
-SECOND_WAYS = (BY_GAP, *BY_SWEEP.values(), BELOW, AGAINST, OPEN)
+SECOND_WAYS = (BY_GAP, *dict.fromkeys(BY_SWEEP.values()), BELOW, AGAINST, OPEN)
 
 
 def run_bounded(gfb, path, folder, seconds):
@@ -109,6 +112,8 @@ def second_way(gfb, member, row):
         return BY_GAP, 0.0
     spent = 0.0
     for parameter, shares in SWEEPS[row["outcome"]]:
+        if parameter == TOP_FOIL and "contact" not in member.groups:
+            break  # an elastic foundation
         again = try_case(gfb, swept(member, parameter, shares), max(LEAST, CHEAP*row["cpu"]))
         spent += again["cpu"]
         if again["outcome"] == ANSWER:
@@ -126,13 +131,17 @@ def ends_of(outcome, parameter):
     """How a sweep ends that shows a refusal."""
     if outcome in SUCTION:
         return ("fold", *SUCTION)
-    if outcome == "touch-down" and parameter == "load_angle":
-        return (outcome, "fold")
+    if parameter in (TOP_FOIL, BUMP_FOIL) or (outcome == "touch-down" and parameter == "load_angle"):
+        return (outcome, "touch-down", "fold")
     return (outcome,)
 
 
 def swept(member, parameter, shares):
-    """A member's groups with a sweep of its load, the load's direction or its speed to what it has."""
+    """A member's groups with a sweep of its load, the load's direction, its speed or a foil's thickness to what it has."""
+    group, _, key = parameter.partition("%")
+    if key:
+        values = tuple(share*member.groups[group][key] for share in shares)
+        return {**member.groups, group: {**member.groups[group], key: values[0]}, "sweep": {"parameter": parameter, "values": values}}
     operation = dict(member.groups["operation"])
     x, y = operation["load"]
     if parameter == "load_angle":
