@@ -19,6 +19,7 @@ from transient import ORBITS, foil_case, history, stepped
 CLEARANCE = 31.8e-6
 UNBALANCE = 1.0e-9  # of a tiny orbit [kg m]
 RIGID = {"foil": "rigid"}
+LOCAL = {"foundation_pressure": "local"}  # springs whose deflections are no unknowns, but with dampers part of a state
 
 
 def orbits(answer):
@@ -29,14 +30,16 @@ def orbits(answer):
     return rows
 
 
-def periodic_case(mass, load, keys, name="PT2", mesh=(32, 4), rigid=False):
+def periodic_case(mass, load, keys, name="PT2", mesh=(32, 4), model=None):
     """A rotor on damped springs, or a rigid pad, on orbits that close, and the linear case beside it."""
+    model = model or {}
     content, linear = foil_case(mass, load, mesh, name)
     content["scene"]["analysis"] = "periodic"
     content["periodic"] = content.pop("transient") | keys
-    if rigid:
+    for one in (content, linear):
+        one["model"] |= model
+    if model == RIGID:
         for one in (content, linear):
-            one["model"] |= RIGID
             del one["model"]["foundation_stiffness"], one["model"]["foundation_pressure"]
         del content["periodic"]["foundation_damping"], linear["dynamics"]["foundation_damping"]
     return content, linear
@@ -45,25 +48,33 @@ def periodic_case(mass, load, keys, name="PT2", mesh=(32, 4), rigid=False):
 def check_march(checks, folder):
     """The orbit under a large unbalance is that which a long march with the same steps ends in."""
     steps, turns = 40, 60
-    content, _ = periodic_case(0.3, (-60.0, 0.0), {"unbalance": 3.0e-6, "unbalance_angle": 0.3, "steps_per_turn": steps})
-    answer = solve(folder, "closed", content)
-    found = orbits(answer)
-    checks.that("forced orbit: stable", answer["orbit_stable"] == "true" and abs(found["multipliers"]).max() < 1.0)
-    march, _ = foil_case(0.3, (-60.0, 0.0), turns=turns, steps_per_turn=steps, unbalance=3.0e-6, unbalance_angle=0.3)
-    march["solver"] = {"residual_tolerance": 1.0e-11, "step_tolerance": 1.0e-11}
-    rows = history(solve(folder, "march", march))
-    for axis in "xy":
-        checks.below(f"forced orbit, {axis}: the last turn of a long march", largest_difference(
-            found[f"eccentricity_{axis}"][0], rows[f"eccentricity_{axis}"][-steps - 1:], CLEARANCE), 1.0e-7)
-    checks.that("forced orbit: large", found["orbit_x"][0] > 0.1*CLEARANCE)
+    for words, mass, load, unbalance, model in (("forced orbit", 0.3, -60.0, 3.0e-6, {}),
+                                                ("forced orbit, local springs", 0.1, -20.0, 1.0e-6, LOCAL)):
+        keys = {"unbalance": unbalance, "unbalance_angle": 0.3, "steps_per_turn": steps}
+        content, _ = periodic_case(mass, (load, 0.0), keys, model=model)
+        answer = solve(folder, "closed", content)
+        found = orbits(answer)
+        checks.that(f"{words}: stable", answer["orbit_stable"] == "true" and abs(found["multipliers"]).max() < 1.0)
+        march, _ = foil_case(mass, (load, 0.0), turns=turns, **keys)
+        march["model"] |= model
+        march["solver"] = {"residual_tolerance": 1.0e-11, "step_tolerance": 1.0e-11}
+        rows = history(solve(folder, "march", march))
+        for axis in "xy":
+            checks.below(f"{words}, {axis}: the last turn of a long march", largest_difference(
+                found[f"eccentricity_{axis}"][0], rows[f"eccentricity_{axis}"][-steps - 1:], CLEARANCE), 1.0e-7)
+        checks.that(f"{words}: large", found["orbit_x"][0] > 0.1*CLEARANCE)
+    content, _ = periodic_case(0.1, (-20.0, 0.0), {"unbalance": 2.0e-7, "steps_per_turn": 24}, mesh=(16, 2), model=LOCAL)
+    one, two = (orbits(solve(folder, "ranks", content, ranks)) for ranks in (1, 2))
+    checks.below("local springs: two ranks", largest_difference(one["eccentricity_x"], two["eccentricity_x"], CLEARANCE), 1.0e-7)
+    checks.below("local springs: two ranks, multipliers", largest_difference(one["multipliers"], two["multipliers"], 1.0), 1.0e-4)
 
 
 def check_small(checks, folder):
     """A tiny orbit: first harmonic of the linear theory, multipliers of the rotor's modes."""
-    for words, rigid in (("foundation", False), ("rigid pad", True)):
+    for words, model in (("foundation", {}), ("local springs", LOCAL), ("rigid pad", RIGID)):
         harmonics = []
         for steps in (60, 120):
-            content, linear = periodic_case(0.1, (-20.0, 0.0), {"unbalance": UNBALANCE, "steps_per_turn": steps}, rigid=rigid)
+            content, linear = periodic_case(0.1, (-20.0, 0.0), {"unbalance": UNBALANCE, "steps_per_turn": steps}, model=model)
             found = orbits(solve(folder, "tiny", content))
             first = numpy.exp(-2j*math.pi*numpy.arange(steps)/steps)*2.0/steps
             harmonics.append(numpy.array([first @ found[f"eccentricity_{axis}"][0, :-1] for axis in "xy"]))

@@ -4,7 +4,8 @@
 !> A state is all that the march remembers: film, foil and sleeve now and one step ago, and the sleeve's velocity then and
 !> now. As the past is part of it, a state that the map leads back to itself is an orbit whose steps wrap round: it has no
 !> first step that differs from the others. Contacts with friction remember their slips as well, which are then part of the
-!> state: those of contacts that always stick stay as they began, so an orbit closes whatever they are.
+!> state: those of contacts that always stick stay as they began, so an orbit closes whatever they are. So are the deflections
+!> of damped springs under local pressures, now and one step ago, which have no unknowns.
 !>
 !> A point x holds the state, the period and one parameter, all over their sizes; every rank has its own unknowns and all of
 !> the rest.
@@ -15,6 +16,8 @@ module gfb_period_map
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_contact_slips, only: slips_of, put_slips
+  use gfb_spring_history, only: begin_springs, put_deflections
+  use gfb_march_state, only: pad_history_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
   use gfb_time_march, only: march_type, march_settings_type, begin_march, resume_march, take_step, end_march
@@ -45,6 +48,7 @@ module gfb_period_map
     integer :: owned = 0             !! unknowns of this rank
     logical :: rubs = .false.        !! contacts have friction, whose slips are part of the state
     integer :: slips = 0             !! of this rank's contacts, where they rub
+    integer :: springs = 0           !! entries of deflections that are no unknowns, where dampers feel how fast they change
     integer :: local = 0             !! entries of a point that no other rank has
     integer :: periods = 0           !! marched so far
     real(wp), allocatable :: orbit(:, :) !! (2, steps + 1) the sleeve's places in the last of them [m]
@@ -67,7 +71,9 @@ contains
     map%rubs = rubs(bearing)
     map%slips = 0
     if (map%rubs) map%slips = 2*contacts_of(bearing)
-    map%local = 2*map%owned + map%slips
+    map%springs = 0
+    if (map%damping > 0.0_wp .and. bearing%pad(1)%foil%local_unknowns() == 0) map%springs = 2*map%owned
+    map%local = 2*map%owned + map%slips + map%springs
     map%share = 1.0_wp/sqrt(real(all, wp))
     map%length = bearing%pad(1)%film%clearance
     map%clock = map%drive%speed
@@ -79,10 +85,20 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! in equilibrium
     real(wp) :: x(map%local + tail) !! with the drive's parameter and the map's own period [1]
     real(wp) :: unknown(bearing%local_size(), 2), speed
+    type(pad_history_type) :: rest(size(bearing%pad))
+    integer :: i
 
     call bearing%get_unknowns(unknown(:, 1))
     unknown(:, 2) = unknown(:, 1)
     call pack_point(map, bearing, unknown, spread([0.0_wp, 0.0_wp], 2, 2), x)
+    if (map%springs > 0) then
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i))
+          call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i)%springs)
+        end associate
+      end do
+      call pack_springs(map, bearing, rest, x)
+    end if
     speed = map%drive%speed
     x(size(x) - 1) = 2.0_wp*pi*map%turns/speed/map%period_scale
     select case (map%parameter)
@@ -187,6 +203,7 @@ contains
     bearing%point%speed = drive%speed
     call bearing%set_unknowns(unknown(:, 1))
     call begin_at(map, bearing, x, march)
+    if (map%springs > 0) call unpack_springs(map, x, unknown, bearing, march)
     call resume_march(unknown, velocity, bearing, march)
     map%periods = map%periods + 1
     map%smallest_gap = huge(1.0_wp)
@@ -202,6 +219,7 @@ contains
     end do
     if (done) then
       call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
+      if (map%springs > 0) call pack_springs(map, bearing, march%pad, y)
     else
       map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
       if (.not. report%converged) map%problem = map%problem//': '//report%reason
@@ -285,6 +303,62 @@ contains
       end associate
     end do
   end subroutine unpack_point
+
+  !> Deflections of local springs, now and one step ago, as entries of a point.
+  subroutine pack_springs(map, bearing, history, x)
+    type(period_map_type), intent(in) :: map
+    type(bearing_system_type), intent(in) :: bearing
+    type(pad_history_type), intent(in) :: history(:) !! of all pads
+    real(wp), intent(inout) :: x(:)
+    real(wp) :: moved(bearing%local_size(), 2)
+    PetscScalar, pointer :: values(:)
+    Vec :: vector
+    PetscErrorCode :: ierr
+    integer :: i, k, first
+
+    moved = 0.0_wp
+    do i = 1, size(bearing%pad)
+      moved(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = history(i)%springs%deflection
+    end do
+    PetscCallA(VecDuplicate(bearing%state, vector, ierr))
+    do k = 1, 2
+      call bearing%exchange%put(moved(:, k), vector)
+      first = map%local - map%springs + (k - 1)*map%owned
+      PetscCallA(GFB_VecGetArrayRead(vector, values, ierr))
+      x(first + 1:first + map%owned) = map%share/map%length*values(:map%owned)
+      PetscCallA(GFB_VecRestoreArrayRead(vector, values, ierr))
+    end do
+    PetscCallA(VecDestroy(vector, ierr))
+  end subroutine pack_springs
+
+  !> The reverse.
+  subroutine unpack_springs(map, x, unknown, bearing, march)
+    type(period_map_type), intent(in) :: map
+    real(wp), intent(in) :: x(:)
+    real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
+    type(bearing_system_type), intent(inout) :: bearing !! its foils are without dampers after that
+    type(march_type), intent(inout) :: march !! that has begun; gets them
+    real(wp) :: moved(size(unknown, 1), 2)
+    PetscScalar, pointer :: values(:)
+    Vec :: vector
+    PetscErrorCode :: ierr
+    integer :: i, k, first
+
+    PetscCallA(VecDuplicate(bearing%state, vector, ierr))
+    do k = 1, 2
+      first = map%local - map%springs + (k - 1)*map%owned
+      PetscCallA(GFB_VecGetArray(vector, values, ierr))
+      values(:map%owned) = x(first + 1:first + map%owned)*map%length/map%share
+      PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
+      call bearing%exchange%get(vector, moved(:, k))
+    end do
+    PetscCallA(VecDestroy(vector, ierr))
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), from => bearing%pad(i)%first + 1, to => bearing%pad(i)%last)
+        call put_deflections(moved(from:to, :), unknown(from:to, :), pad%foil, march%pad(i)%springs)
+      end associate
+    end do
+  end subroutine unpack_springs
 
   !> Whether contacts rub.
   pure function rubs(bearing)

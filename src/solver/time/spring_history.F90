@@ -12,7 +12,7 @@ module gfb_spring_history
   use gfb_foil_model, only: foil_model_type
   implicit none (type, external)
   private
-  public :: begin_springs, damp_springs, follow_springs, recall_springs
+  public :: begin_springs, damp_springs, follow_springs, recall_springs, put_deflections
 
   !> What damped springs of a pad remember, at its unknowns: now and one step ago.
   type, public :: spring_history_type
@@ -91,6 +91,24 @@ contains
     if (history%recalled) call foil%put_damping(history%drag(step), history%pull(:, step))
     history%deflection(:, step) = spring_deflection(foil, unknown)
   end subroutine recall_springs
+
+  !> Makes deflections the past of local springs, which follow neither from pressures nor from unknowns: with the pull that
+  !> holds each there, and without drag.
+  subroutine put_deflections(deflection, unknown, foil, history)
+    real(wp), intent(in) :: deflection(:, :) !! (unknowns, 2) now and one step ago [m]
+    real(wp), intent(in) :: unknown(:, :)    !! of the pad then [SI]
+    class(foil_model_type), intent(inout) :: foil !! the springs, without dampers after that
+    type(spring_history_type), intent(inout) :: history !! that has begun; gets them when it is recalled
+    integer :: step
+
+    history%recalled = .true.
+    history%drag = 0.0_wp
+    history%pull = 0.0_wp
+    call foil%put_damping(0.0_wp, history%pull(:, 1))
+    do step = 1, 2
+      history%pull(foil%source, step) = unknown(foil%source, step) - foil%origin - deflection(foil%source, step)/foil%rate
+    end do
+  end subroutine put_deflections
 
   !> Deflections at the unknowns that move the springs; 0 at others.
   pure function spring_deflection(foil, unknown) result(deflection)
