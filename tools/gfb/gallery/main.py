@@ -10,7 +10,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-from gfb.gallery import contact, field, film, frame, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
+from gfb.gallery import contact, field, film, frame, orbit, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
 from gfb.gallery.page import Page, write_index  # noqa: E402
 from gfb.gallery.runs import Runs  # noqa: E402
 from gfb.run import find_gfb  # noqa: E402
@@ -32,6 +32,7 @@ PAGES = {  # name: what makes the page; frame, contact: pictures of docs/manual/
     "fig11b": torque.draw_about_y,
     "fig12": field.draw_pressures,
     "fig13": field.draw_films,
+    "orbit": orbit.draw,
 }
 
 

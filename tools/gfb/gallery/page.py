@@ -25,6 +25,8 @@ UNSAID = {"scene", "solver", "output"}
 UNSAID_KEYS = {"foundation_pressure"}
 UNSAID_OF_STRIPS = {"foundation_pressure", "coupling", "film_scheme", "circumferential_elements", "align_crests"}
 SHORT = "**In short:** "
+BARE = ("rigid", "elastic_foundation")  # foils without a mesh
+UNSAID_OF_BARE = {"arc_elements", "flat_elements", "align_crests", "coupling", "foil_mass"}
 PARTLY = "partly"  # a statement that some answers agree with
 WIDTH = 118  # letters of a line
 DOTS = 110  # a picture's, an inch
@@ -127,6 +129,8 @@ class Page:
         """All keys of a run that matter for its answer."""
         groups = {}
         unsaid = UNSAID_KEYS if ("bearing", "radius") in result.used else UNSAID_OF_STRIPS
+        if foil_of(result) in BARE:
+            unsaid = UNSAID_OF_BARE
         for (group, key), (value, default) in result.used.items():
             if group not in UNSAID and key not in unsaid:
                 groups.setdefault(group, ([], []))[default].append(f"{key} = {short_value(value)}")
@@ -159,13 +163,14 @@ def write_index(folder, names):
         if path.exists():
             text = path.read_text(encoding="utf-8")
             short = re.search(re.escape(SHORT) + r"(.*?)\n\n", text, re.DOTALL)[1]
-            rows.append(f"| [{text.splitlines()[0].removeprefix('# [Gu2020] ')}]({path.name}) | "
+            rows.append(f"| [{text.splitlines()[0].removeprefix('# ').removeprefix('[Gu2020] ')}]({path.name}) | "
                         f"{' '.join(short.split())} |")
     return write_lines(folder/"README.md", "\n".join([
         "# Gallery: gfb beside [Gu2020]", "",
         "A page for every result of [Gu2020] section 4: picture, numbers, parameters, what agrees with the paper's "
         "text and what does not, what the paper leaves open and what that does to the answer. The paper prints curves "
-        "and few numbers; no curve was digitised. All numbers and judgements are computed, by criteria the pages name.",
+        "and few numbers; no curve was digitised. All numbers and judgements are computed, by criteria the pages name. The last "
+        "page is beside the paper: a shaft over time.",
         "",
         "One command makes everything here (`--only NAME,...` some pages, `--reuse` without running again what was "
         "run):", "",
@@ -207,12 +212,19 @@ def mesh_words(result):
     """A mesh in words, as it was solved."""
     def key(name):
         return result.used["mesh", name][0]
+    if foil_of(result) in BARE:
+        return f"{key('circumferential_elements')} x {key('axial_elements')} elements of the film"
     bumps = f"{key('arc_elements')} + {key('flat_elements')} elements of an arc and a flat"
     if ("bearing", "radius") not in result.used:
         return f"{bumps}, {key('axial_elements')} over the width"
     film = result.film
     lines = "crests on lines of nodes" if key("align_crests") == ".true." else "crests inside elements"
     return f"{len(film.theta) - 1} x {len(film.z) - 1} elements of film and top foil, {lines}; bumps of {bumps}"
+
+
+def foil_of(result):
+    """The model of the foils of a bearing; empty for a strip."""
+    return result.used.get(("model", "foil"), ("",))[0].strip("'")
 
 
 def short_value(value):
@@ -231,7 +243,7 @@ def short_number(found):
 
 def input_link(case):
     """A link to a case file."""
-    return f"[inputs/{case}.nml](../../inputs/{case}.nml)"
+    return f"[inputs/{case}.nml](../../../inputs/{case}.nml)"
 
 
 def change_words(changes):
