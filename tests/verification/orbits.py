@@ -5,6 +5,8 @@ and steps, each with the error it states.
 gfb's orbits have the error of N equal steps a turn, which begins with N^-2, and that of biquadratic elements of the size h, which
 begins with h^4. Both are taken away by polynomials: over the steps on each mesh, and over three meshes (--long). What is left of
 the finest mesh was solved in few steps only: there the change from the next coarser mesh is extrapolated over these.
+Of pairs of powers of h, (4, 5) comes nearest to the reference; by the order seen, 3.2, the first harmonic is 6e-7 off. So what gfb
+itself is sure of ends there, above the 2e-8 that the reference states.
 """
 
 import sys
