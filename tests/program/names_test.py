@@ -71,6 +71,36 @@ def check_odd_files(checks, folder):
         checks.that(f"{name}: {wrong.strip()}", status == 1 and "is a pipe, a terminal or another device" in wrong)
 
 
+def check_encoding(checks, folder):
+    """A file in Latin-1 is read, with a warning; what is written is UTF-8."""
+    text = TEXT.replace("&scene", "&scene title = 'M\u00fcller',", 1)
+    (folder/"latin.nml").write_bytes(text.encode("latin-1"))
+    status, log, _ = call(folder, "latin.nml")
+    checks.that(f"Latin-1: status {status}", status == 0)
+    checks.that("Latin-1: a warning", "the byte 252 is no UTF-8" in log)
+    checks.that("Latin-1: the echo is UTF-8", "M\u00fcller" in (folder/"latin.used.nml").read_bytes().decode("utf-8"))
+
+
+def check_older_results(checks, folder):
+    """A state without an answer goes when the case has one, and leaves an older answer alone; a case of that name stays."""
+    place = folder/"older"
+    heavy = CASE | {"operation": CASE["operation"] | {"load": (-1.0e5, 0.0)}, "solver": {"maximum_load_steps": 1}}
+    for number, (case, wanted, words) in enumerate((
+            (CASE, {"older"}, ""), (heavy, {"older", "older.unconverged"}, "are of an earlier run"),
+            (CASE, {"older"}, "older.unconverged.*, of an earlier run without an answer"))):
+        (folder/"older.nml").write_text(case_text(case), encoding="utf-8")
+        status, log, _ = call(folder, "--output", place, "older.nml")
+        checks.that(f"run {number + 1}: status {status}", status == (2 if case is heavy else 0))
+        checks.that(f"run {number + 1} says '{words}'", words in log)
+        files = {path.name for path in place.iterdir()}
+        checks.that(f"run {number + 1} leaves {sorted(files)}", files == {
+            f"{name}.{ending}" for name in wanted for ending in ("summary", "h5", "film.vtkhdf", "used.nml")})
+    (folder/"older.unconverged.nml").write_text(case_text(CASE), encoding="utf-8")
+    call(folder, "--output", place, "older.unconverged.nml")
+    call(folder, "--output", place, "older.nml")
+    checks.that("the answer of a case that is called so stays", (place/"older.unconverged.summary").exists())
+
+
 def check_ranks(checks, folder):
     """A small mesh on more and more ranks: the same answer, or a sentence."""
     (folder/"small.nml").write_text(TEXT, encoding="utf-8")
@@ -108,7 +138,7 @@ def check_memory(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_names, check_folders, check_odd_files, check_ranks, check_memory):
+        for check in (check_names, check_folders, check_odd_files, check_encoding, check_older_results, check_ranks, check_memory):
             check(checks, pathlib.Path(name))
     checks.close()
 

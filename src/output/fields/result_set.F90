@@ -12,6 +12,7 @@ module gfb_result_set
   use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, history_csv
   use gfb_grid, only: result_grid_type
   use gfb_grid_file, only: write_grid_file
+  use gfb_older_results, only: has_answer, remove_unanswered
   use gfb_grid_series, only: grid_series_type, begin_step, add_surface
   use gfb_series_file, only: write_series_file
   use gfb_text_file, only: write_unfinished_text
@@ -84,7 +85,25 @@ contains
     if (allocated(error)) return
     call log%line('')
     call log%tell('results: '//names//', .used.nml')
+    if (this_rank() == 0) call tell_of_older(folder//'/'//scene%name, converged, log)
   end subroutine write_result_set
+
+  !> Leaves no state without an answer beside an answer; says where an older answer stands beside such a state.
+  subroutine tell_of_older(stem, converged, log)
+    character(len=*), intent(in) :: stem !! folder and name of the case
+    logical, intent(in) :: converged !! the new results are an answer
+    type(run_log_type), intent(in) :: log
+    logical :: removed
+
+    if (.not. converged) then
+      if (has_answer(stem)) then
+        call log%tell('the results without .unconverged, '//stem//'.summary and the like, are of an earlier run')
+      end if
+      return
+    end if
+    call remove_unanswered(stem, removed)
+    if (removed) call log%tell('removed: '//stem//'.unconverged.*, of an earlier run without an answer')
+  end subroutine tell_of_older
 
   !> Writes the small files too and gives all of them their names, the summary last; none stays unfinished.
   subroutine keep_all(stem, files, summary, table, scene, error)

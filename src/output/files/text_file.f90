@@ -1,14 +1,14 @@
 !> Small text files, written by one rank.
 module gfb_text_file
   use, intrinsic :: iso_c_binding, only: c_int8_t
-  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_errors, only: error_type, fail, status_input, status_machine
   use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
                           error_words
   implicit none (type, external)
   private
   public :: write_unfinished_text, write_text_file, try_folder
 
-  integer, parameter :: input_output = 5, no_space = 28, no_quota = 122 !! errno on Linux
+  integer, parameter :: name_too_long = 36 !! errno on Linux: the command line is wrong
 
 contains
 
@@ -57,7 +57,7 @@ contains
     call write_unfinished(folder//'/trial', [integer(c_int8_t) ::], .false., trial, status)
     call drop_unfinished(trial)
     if (status == 0) return
-    call fail(error, folder//': results cannot be written to this folder: '//error_words(status))
-    if (any(status == [no_space, no_quota, input_output])) error%status = status_machine
+    call fail(error, folder//': results cannot be written to this folder: '//error_words(status), &
+              merge(status_input, status_machine, status == name_too_long))
   end subroutine try_folder
 end module gfb_text_file
