@@ -5,6 +5,7 @@ module gfb_scene_reading
   use gfb_case_keys, only: case_keys_type
   use gfb_changed_text, only: changed_text, changed_list_text
   use gfb_case_text, only: read_case_text
+  use gfb_foreign_characters, only: as_utf8
   use gfb_listed_keys, only: list_length
   use gfb_key_notes, only: noted_key_type
   use gfb_scene, only: scene_type
@@ -13,6 +14,7 @@ module gfb_scene_reading
   use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
   use gfb_swept_key_rules, only: check_swept_keys
   use gfb_scene_groups, only: read_groups
+  use gfb_text, only: text
   implicit none (type, external)
   private
   public :: read_scene, read_scene_text, scene_at_value, scene_with_key, key_table, all_keys
@@ -44,9 +46,14 @@ contains
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     logical, intent(in), optional :: strict !! warnings are mistakes
     type(case_keys_type) :: keys
+    character(len=:), allocatable :: utf8
+    integer :: line, byte
     logical :: sweeps_keys
 
-    call read_and_check(words, file, keys, scene, strict)
+    call as_utf8(words, utf8, line, byte)
+    call read_and_check(utf8, file, keys, scene, strict)
+    if (line > 0) call keys%warn_of_line(line, 'the byte '//text(byte)//' is no UTF-8: it is '// &
+                                         'read as a character of Latin-1; save the file as UTF-8')
     call check_sensitivity(keys, scene)
     call check_swept_keys(keys, scene, sweeps_keys)
     if (sweeps_keys) call check_swept_values(keys, scene, strict)

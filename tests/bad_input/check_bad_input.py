@@ -4,7 +4,7 @@
     check_bad_input.py GFB_EXECUTABLE
 
 Each `*.nml` beside this script begins with comment lines `! expect: <part of the message>`, and may have a line
-`! options: ...` for the command line. gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
+`! messages: <their number>`, and `! options: ...` for the command line. gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
 that are no text files (a missing file, a folder, ...) are made in a temporary folder.
 """
 
@@ -33,7 +33,7 @@ def run(gfb, arguments, folder):
             done.stderr.decode("utf-8", "replace"))
 
 
-def complaints(gfb, arguments, expected, folder, status=1):
+def complaints(gfb, arguments, expected, folder, status=1, messages=()):
     """What is wrong with gfb's answer, one a line; empty where all is as expected."""
     before = sorted(folder.iterdir())
     try:
@@ -44,6 +44,8 @@ def complaints(gfb, arguments, expected, folder, status=1):
     if found != status:
         wrong.append(f"status {found}, not {status}")
     wrong += [f"not said: {part}" for part in expected if part not in words]
+    if messages and messages[0] != len(words.splitlines()):
+        wrong.append(f"{len(words.splitlines())} messages, not {messages[0]}")
     if status and not words.strip():
         wrong.append("nothing on the error stream")
     if "Fortran runtime" in words or "Backtrace" in words:
@@ -59,14 +61,15 @@ def complaints(gfb, arguments, expected, folder, status=1):
 
 
 def files_with_mistakes():
-    """Name, arguments and expected parts of the case files beside this script."""
+    """Name, arguments, expected parts and number of messages of the case files beside this script."""
     for path in sorted(HERE.glob("*.nml")):
         lines = path.read_text(encoding="utf-8").splitlines()
         expected = [line[len("! expect: "):] for line in lines if line.startswith("! expect: ")]
         if not expected:
             raise SystemExit(f"{path}: no line '! expect: ...'")
         options = [word for line in lines if line.startswith("! options: ") for word in line.split()[2:]]
-        yield path.stem, ["--check", *options, str(path)], expected
+        number = [int(line.split()[2]) for line in lines if line.startswith("! messages: ")]
+        yield path.stem, ["--check", *options, str(path)], expected, *number
 
 
 def places_with_mistakes(folder):
@@ -95,7 +98,6 @@ def places_with_mistakes(folder):
     yield "10 MB", ["--check", "large.nml"], ["has 10.25 MB, more than the limit of 1 MB"]
     yield "long line", ["--check", "long_line.nml"], ["x" * 60 + "..."]
     yield "garbage", ["--check", "garbage.nml"], [" more"]
-    yield "output below a file", ["--output", "in_the_way/results", "good.nml"], ["in_the_way"]
 
 
 def main():
@@ -108,8 +110,11 @@ def main():
         tests = list(files_with_mistakes()) + list(places_with_mistakes(folder))
         # A program that refuses everything would pass all the rest.
         wrong = {"the good case": complaints(gfb, ["--check", "good.nml"], [], folder, status=0)}
-        for test, arguments, expected in tests:
-            wrong[test] = complaints(gfb, arguments, expected, folder)
+        for place in ("in_the_way/results", "in_the_way", "/proc/results"):  # the scene is right, the folder is not
+            wrong[f"output {place}"] = complaints(gfb, ["--output", place, "good.nml"], [f"{place}: results cannot be"],
+                                                  folder, status=3)
+        for test, arguments, expected, *number in tests:
+            wrong[test] = complaints(gfb, arguments, expected, folder, messages=number)
     for test, lines in wrong.items():
         if lines:
             failed += 1

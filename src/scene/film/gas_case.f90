@@ -53,7 +53,7 @@ contains
     logical :: needed, by_law, given
     integer :: mistakes !! before the group
 
-    mistakes = keys%complaints%count
+    mistakes = keys%mistakes()
     needed = is_bearing(analysis)
     call keys%start_group(group, required=needed, optional=.not. needed, &
                           misplaced=misplaced_group(analysis, needed))
@@ -80,10 +80,10 @@ contains
     call read_state(keys, said, needed, gas%law%viscosity_exponent)
     call read_table(keys, said, needed)
     call keys%finish_group()
-    if (.not. needed .or. keys%complaints%count > mistakes) return
+    if (.not. needed .or. keys%mistakes() > mistakes) return
     if (.not. is_complete(said, gas)) return
     call check_keys(keys, said, gas)
-    if (keys%complaints%count > mistakes) return
+    if (keys%mistakes() > mistakes) return
     call make_law(said, gas)
     if (gas%ambient_pressure >= gas%law%fluid%saturation) then
       call keys%complain(group, 'ambient_pressure', 'must be below '// &

@@ -1,6 +1,7 @@
 !> `&scene`: what is asked for.
 module gfb_scene_case
   use gfb_case_keys, only: case_keys_type
+  use gfb_text, only: lower_case, nearest_word
   implicit none (type, external)
   private
   public :: scene_case_type, read_scene_case, is_bearing, is_structure, asks_limit, &
@@ -46,8 +47,34 @@ contains
                          'about one of the first two; load, speed or tilt up to a limit: '// &
                          'see `&capacity`; the shaft over time: see `&transient`; orbits '// &
                          'that close: see `&periodic`')
+    if (is_misplaced(keys)) scene%analysis = 0
     call keys%finish_group()
   end subroutine read_scene_case
+
+  !> Whether the analysis may be said where it is not read: in a group or by a key that is misspelt.
+  !> The rest of the file must not be judged by the default then.
+  function is_misplaced(keys) result(misplaced)
+    type(case_keys_type), intent(in) :: keys
+    logical :: misplaced
+    character(len=:), allocatable :: key
+    integer :: i
+
+    misplaced = .false.
+    if (keys%holds('scene', 'analysis')) return
+    associate (file => keys%file)
+      do i = 1, size(file%entries)
+        key = file%key_name(i)
+        if (key == 'analysis') misplaced = .true.
+        if (key == 'title' .or. file%group_name(file%entries(i)%group) /= 'scene') cycle
+        if (nearest_word(key, ['analysis']) /= '') misplaced = .true.
+      end do
+      do i = 1, size(file%strays)
+        associate (word => file%strays(i))
+          if (lower_case(file%words(word%first:word%last)) == 'scene') misplaced = .true.
+        end associate
+      end do
+    end associate
+  end function is_misplaced
 
   !> Whether an analysis has a shaft and a film.
   pure function is_bearing(analysis) result(bearing)

@@ -25,7 +25,8 @@ module gfb_case_reader
     type(key_notes_type) :: notes          !! the echo and the table of keys
     type(key_type) :: key                  !! the one that is being read
     type(key_book_type) :: book            !! the groups and keys there are
-    integer, private :: complaints_before = 0 !! the key that is being read
+    integer, private :: mistakes_before = 0 !! the key that is being read
+    integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has told
     integer, private :: group_line = 0     !! of the open group, 0 where the file has none
     logical, private :: strict = .false.   !! warnings are mistakes
   contains
@@ -36,11 +37,13 @@ module gfb_case_reader
     procedure :: report
     procedure :: complain
     procedure :: warn
+    procedure :: warn_of_line
     procedure :: warning_lines
     procedure :: add_new
     procedure :: meant
     procedure :: holds
     procedure :: last_key_is_right
+    procedure :: mistakes
     procedure :: describe
     procedure :: begin_key
     procedure :: take_real
@@ -123,7 +126,8 @@ contains
     words = self%warnings%report('warning: ')
   end function warning_lines
 
-  !> Complains about a key whose value does not fit the rest of the scene.
+  !> Complains about a key whose value does not fit the rest of the scene; one that was wrong when
+  !> it was read is not judged again.
   subroutine complain(self, group, key, rule, element)
     class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: group, key !! names in the case file
@@ -132,6 +136,7 @@ contains
     character(len=:), allocatable :: place
     integer :: line
 
+    if (is_known_wrong(self, group, key, element)) return
     call find_place(self, group, key, line, place, element)
     call self%complaints%add(line, place//': '//rule)
   end subroutine complain
@@ -146,12 +151,21 @@ contains
     integer :: line
 
     call find_place(self, group, key, line, place, element)
-    if (self%strict) then
-      call self%complaints%add(line, place//': '//words)
-    else
-      call self%warnings%add(line, place//': '//words)
-    end if
+    call self%warn_of_line(line, place//': '//words)
   end subroutine warn
+
+  !> Warns of a line; a mistake where the reader is strict.
+  subroutine warn_of_line(self, line, words)
+    class(case_reader_type), intent(inout) :: self !! the case file being read
+    integer, intent(in) :: line           !! of the file, 0 where it has no place
+    character(len=*), intent(in) :: words !! what is odd
+
+    if (self%strict) then
+      call self%complaints%add(line, words)
+    else
+      call self%warnings%add(line, words)
+    end if
+  end subroutine warn_of_line
 
   !> Adds the mistakes and warnings that another reading of the file has and one has not, as those
   !> of a key's element.
@@ -168,6 +182,24 @@ contains
     call self%complaints%add_new(other%complaints, known%complaints, line, place//': ')
     call self%warnings%add_new(other%warnings, known%warnings, line, place//': ')
   end subroutine add_new
+
+  !> Whether a value, or all values of a key, were wrong when they were read.
+  function is_known_wrong(self, group, key, element) result(wrong)
+    class(case_reader_type), intent(in) :: self
+    character(len=*), intent(in) :: group, key
+    integer, intent(in), optional :: element !! of a list
+    logical :: wrong
+    integer, allocatable :: elements(:)
+
+    wrong = self%book%is_unread(group, key)
+    if (wrong) return
+    call find_elements(self%file, group, key, longest_list, elements)
+    if (present(element)) then
+      if (element <= size(elements)) wrong = self%file%values(elements(element))%wrong
+    else if (size(elements) > 0) then
+      wrong = all(self%file%values(elements)%wrong)
+    end if
+  end function is_known_wrong
 
   !> Where a key stands in the file, with its values; without it, where its group begins.
   subroutine find_place(self, group, key, line, place, element)
@@ -227,8 +259,15 @@ contains
   pure function last_key_is_right(self) result(right)
     class(case_reader_type), intent(in) :: self !! the case file being read
     logical :: right
-    right = self%key%given .and. self%complaints%count == self%complaints_before
+    right = self%key%given .and. self%mistakes() == self%mistakes_before
   end function last_key_is_right
+
+  !> A count that grows with every mistake that is met, be it one that was told before.
+  pure function mistakes(self)
+    class(case_reader_type), intent(in) :: self !! the case file being read
+    integer :: mistakes
+    mistakes = self%complaints%count + self%keys_scanned_wrong
+  end function mistakes
 
   !> Notes what a key is.
   subroutine describe(self, name, type_words, unit, meaning)
@@ -252,17 +291,20 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+    logical :: wrong
 
-    self%complaints_before = self%complaints%count
+    self%mistakes_before = self%mistakes()
     self%key%required = .false.
     if (present(required)) self%key%required = required
     self%key%default = ''
     if (present(default)) self%key%default = default
     call find_elements(self%file, self%notes%group, self%key%name, most, elements, self%key%given, &
-                       self%complaints)
+                       self%complaints, wrong)
+    if (wrong) self%keys_scanned_wrong = self%keys_scanned_wrong + 1
     call self%notes%add_row(self%key, value_words)
     call self%book%add_key(self%notes%group, self%key, self%key%given, &
-                           self%key%required .and. self%group_line > 0)
+                           self%key%required .and. self%group_line > 0, &
+                           self%key%given .and. size(elements) == 0)
     if (present(given)) given = self%key%given
   end subroutine begin_key
 
@@ -321,7 +363,7 @@ contains
     call self%complain_value(item, element, problem)
   end subroutine take_choice
 
-  !> Complains about one value of the key; nothing where there is no problem.
+  !> Complains about one value of the key; nothing where there is no problem, or one was told.
   subroutine complain_value(self, item, element, problem)
     class(case_reader_type), intent(inout) :: self !! the case file being read
     integer, intent(in) :: item               !! the value's number in the file
@@ -329,7 +371,8 @@ contains
     character(len=*), intent(in) :: problem   !! the rule that is broken
     character(len=:), allocatable :: words
 
-    if (problem == '') return
+    if (problem == '' .or. self%file%values(item)%wrong) return
+    self%file%values(item)%wrong = .true.
     words = '&'//self%notes%group//': '//self%key%name
     if (element > 0) words = words//'('//text(element)//')'
     words = words//' = '//self%file%value_shown(item)//': '//problem

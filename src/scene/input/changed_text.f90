@@ -32,15 +32,15 @@ contains
         if (entry%last_value < entry%first_value) cycle
         first = file%values(entry%first_value)%first
         last = file%values(entry%last_value)%last
-        changed = words(:first - 1)//exact_text(value)
+        changed = file%words(:first - 1)//exact_text(value)
         do k = first, last
-          if (words(k:k) == new_line('a')) changed = changed//new_line('a')
+          if (file%words(k:k) == new_line('a')) changed = changed//new_line('a')
         end do
-        changed = changed//words(last + 1:)
+        changed = changed//file%words(last + 1:)
         return
       end associate
     end do
-    changed = text_with(words, file, group, key//' = '//exact_text(value))
+    changed = text_with(file, group, key//' = '//exact_text(value))
   end function changed_text
 
   !> A case file's text as if one value of a list had another value. The list keeps its other
@@ -62,7 +62,7 @@ contains
     call scan_namelist(words, file, complaints)
     call find_elements(file, group, key, longest_list, owner)
     if (size(owner) == 0) then
-      changed = text_with(words, file, group, key//' = '//repeated(element - 1, '0.0')// &
+      changed = text_with(file, group, key//' = '//repeated(element - 1, '0.0')// &
                           exact_text(value)//following(length - element, '0.0'))
       return
     end if
@@ -70,12 +70,12 @@ contains
     i = owner(element)
     typed = file%value_text(i)
     associate (item => file%values(i))
-      changed = words(:item%first - 1)
+      changed = file%words(:item%first - 1)
       if (item%repeats > 1) then
         changed = changed(:verify(changed(:item%first - 2), '0123456789', back=.true.))
       end if
       changed = changed//repeated(count(owner(:element - 1) == i), typed)//exact_text(value)// &
-                following(count(owner(element + 1:) == i), typed)//words(item%last + 1:)
+                following(count(owner(element + 1:) == i), typed)//file%words(item%last + 1:)
     end associate
   end function changed_list_text
 
@@ -101,8 +101,7 @@ contains
 
   !> A case file's text with a key more: behind its group's name, else in a group behind the last
   !> line.
-  pure function text_with(words, file, group, key) result(changed)
-    character(len=*), intent(in) :: words
+  pure function text_with(file, group, key) result(changed)
     type(namelist_file_type), intent(in) :: file !! the text, scanned
     character(len=*), intent(in) :: group
     character(len=*), intent(in) :: key !! with its values
@@ -112,9 +111,9 @@ contains
     do i = 1, size(file%groups)
       if (file%group_name(i) /= group) cycle
       last = file%groups(i)%last
-      changed = words(:last)//' '//key//words(last + 1:)
+      changed = file%words(:last)//' '//key//file%words(last + 1:)
       return
     end do
-    changed = words//new_line('a')//'&'//group//' '//key//' /'
+    changed = file%words//new_line('a')//'&'//group//' '//key//' /'
   end function text_with
 end module gfb_changed_text

@@ -133,6 +133,7 @@ contains
         gap = .true.
         cycle
       end if
+      if (code > 127 .and. code < 192) cycle ! UTF-8: the character has begun before
       if (gap .and. len(clean) > 0) clean = clean//' '
       gap = .false.
       clean = clean//merge(words(i:i), '?', code > 32 .and. code < 127)

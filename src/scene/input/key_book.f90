@@ -1,6 +1,7 @@
 !> The groups and keys there are, against the names that stand in a file.
 module gfb_key_book
   use gfb_complaints, only: complaints_type, shown
+  use gfb_foreign_characters, only: is_spoilt
   use gfb_key_notes, only: key_type, real_words, list_words
   use gfb_namelist_file, only: namelist_file_type, namelist_group_type
   use gfb_text, only: join, lower_case, nearest_word, text
@@ -16,6 +17,7 @@ module gfb_key_book
     logical :: missing = .false.     !! required and absent
     logical :: given = .false.       !! it stands in the file
     logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
+    logical :: unread = .false.      !! of a key: its values could not be told apart
     logical :: is_real = .false.     !! of a key: its value is one real number
     logical :: is_list = .false.     !! of a key: its values are a list of real numbers
     character(len=:), allocatable :: unit    !! of a key
@@ -32,6 +34,7 @@ module gfb_key_book
   contains
     procedure :: add_group
     procedure :: add_key
+    procedure :: is_unread
     procedure :: check_names
     procedure :: is_meant
     procedure :: group_line
@@ -59,14 +62,16 @@ contains
   end subroutine add_group
 
   !> Adds a key.
-  pure subroutine add_key(self, group, key, given, required)
+  pure subroutine add_key(self, group, key, given, required, unread)
     class(key_book_type), intent(inout) :: self !! the known groups and keys
     character(len=*), intent(in) :: group !! of the file
     type(key_type), intent(in) :: key !! what is known of it
     logical, intent(in) :: given     !! it stands in the file
     logical, intent(in) :: required !! a case without it is wrong
+    logical, intent(in) :: unread !! its values could not be told apart
     type(name_type) :: name
 
+    name%unread = unread
     name%given = given
     name%missing = required .and. .not. given
     name%is_real = key%type_words == real_words
@@ -77,6 +82,14 @@ contains
     self%key_names = [character(len=name_length) :: self%key_names, key%name]
     self%keys = [self%keys, name]
   end subroutine add_key
+
+  !> Whether a key stands in the file so that its values could not be told apart.
+  pure function is_unread(self, group, key) result(unread)
+    class(key_book_type), intent(in) :: self !! the known groups and keys
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical :: unread
+    unread = any(self%key_groups == group .and. self%key_names == key .and. self%keys%unread)
+  end function is_unread
 
   !> Line of a group in the file, 0 where it is absent.
   pure function group_line(self, group) result(line)
@@ -189,7 +202,9 @@ contains
       return
     end if
     near = nearest_word(name, self%group_names)
-    if (near /= '') then
+    if (is_spoilt(name)) then
+      call excuse_group(self, near) ! its characters outside ASCII have been complained about
+    else if (near /= '') then
       call complaints%add(line, "unknown group '&"//shown(name)//"', did you mean '&"//near//"'?")
       call excuse_group(self, near)
     else
@@ -235,10 +250,16 @@ contains
     key = file%key_name(i)
     in_group = self%key_groups == group
     if (any(in_group .and. self%key_names == key)) return
+    if (is_spoilt(key)) then ! its characters outside ASCII have been complained about
+      near = nearest_word(key, pack(self%key_names, in_group))
+      where (in_group .and. self%key_names == near) self%keys%misspelt = .true.
+      return
+    end if
     words = '&'//group//": unknown key '"//shown(key)//"'"
     near = nearest_word(key, pack(self%key_names, in_group))
     if (any(self%key_names == key)) then
-      j = findloc(self%key_names == key, .true., dim=1)
+      j = findloc(self%key_names == key .and. self%keys%missing, .true., dim=1)
+      if (j == 0) j = findloc(self%key_names == key, .true., dim=1)
       words = words//'; it belongs into &'//trim(self%key_groups(j))
       self%keys(j)%misspelt = .true.
     else if (near /= '') then

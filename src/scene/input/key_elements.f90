@@ -2,7 +2,7 @@
 module gfb_key_elements
   use gfb_kinds, only: long
   use gfb_complaints, only: complaints_type
-  use gfb_namelist_file, only: namelist_file_type, bad_index
+  use gfb_namelist_file, only: namelist_file_type
   use gfb_namelist_values, only: value_number, value_word
   use gfb_text, only: text
   implicit none (type, external)
@@ -14,27 +14,33 @@ contains
   !> Finds the values of a key, in entries with and without index.
   !>
   !> There are no elements where the key is absent, and where a mistake was complained about.
-  subroutine find_elements(file, group, key, most, elements, given, complaints)
+  subroutine find_elements(file, group, key, most, elements, given, complaints, wrong)
     type(namelist_file_type), intent(in) :: file !! the case file, scanned
     character(len=*), intent(in) :: group, key !! names in the case file
     integer, intent(in) :: most                      !! values at most; 0: one, without index
     integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
     logical, intent(out), optional :: given          !! the key stands in the file
     type(complaints_type), intent(inout), optional :: complaints !! the mistakes found so far
+    logical, intent(out), optional :: wrong !! the scanner has complained about it
     type(complaints_type) :: found
     integer, allocatable :: filled(:), owner(:)
     integer :: entry, mistakes, last
-    logical :: is_given
+    logical :: is_given, is_wrong
 
     allocate (filled(max(1, most)), owner(max(1, most)), source=0)
     if (present(complaints)) found = complaints
     mistakes = found%count
     is_given = .false.
+    is_wrong = .false.
     do entry = 1, size(file%entries)
       if (.not. is_entry_of(file, entry, group, key)) cycle
       is_given = .true.
+      associate (item => file%entries(entry))
+        is_wrong = is_wrong .or. item%wrong .or. &
+                   any(file%values(item%first_value:item%last_value)%wrong)
+      end associate
       call fill(file, entry, most, filled, owner, found)
-      if (file%entries(entry)%element == bad_index) mistakes = -1
+      if (file%entries(entry)%wrong) mistakes = -1
     end do
     last = findloc(filled > 0, .true., dim=1, back=.true.)
     if (any(filled(:last) == 0) .and. found%count == mistakes) then
@@ -45,6 +51,7 @@ contains
     if (found%count /= mistakes) last = 0
     elements = filled(:last)
     if (present(given)) given = is_given
+    if (present(wrong)) wrong = is_wrong
     if (present(complaints)) complaints = found
   end subroutine find_elements
 
@@ -80,7 +87,7 @@ contains
       do value = item%first_value, item%last_value
         n = n + file%values(value)%repeats
       end do
-      if (item%element == bad_index .or. n == 0) return
+      if (item%wrong .or. n == 0) return
       if (most == 0 .and. item%element > 0) then
         call complain('is a single value and takes no index')
       else if (first > size(filled)) then
@@ -94,7 +101,8 @@ contains
         do value = item%first_value, item%last_value
           do repeat_number = 1, file%values(value)%repeats
             if (filled(element) > 0) then
-              call complain_twice(element)
+              ! A group that stands there twice has been complained about.
+              if (file%entries(owner(element))%group == item%group) call complain_twice(element)
               return
             end if
             filled(element) = value

@@ -1,11 +1,13 @@
 !> A namelist file as scanned: groups, keys and raw values with their lines.
 module gfb_namelist_file
-  use gfb_complaints, only: shown
+  use gfb_complaints, only: complaints_type, shown
+  use gfb_foreign_characters, only: foreign_type, foreign_words
   use gfb_namelist_values, only: value_string
-  use gfb_text, only: lower_case
+  use gfb_text, only: lower_case, text
   implicit none (type, external)
   private
   public :: namelist_file_type, namelist_group_type, namelist_entry_type, namelist_value_type
+  public :: complain_about_foreign
 
   integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
 
@@ -21,20 +23,23 @@ module gfb_namelist_file
     integer :: first = 1, last = 0 !! in the text; of a string what stands between the quotes
     integer :: repeats = 1
     integer :: line = 0            !! of the file
+    logical :: wrong = .false.     !! it was complained about
   end type namelist_value_type
 
   !> A key with its values.
   type :: namelist_entry_type
     integer :: group = 0           !! number of its group in the file
     integer :: first = 1, last = 0 !! the key in the text
+    integer :: equals = 0          !! its equals sign in the text
     integer :: element = 0         !! index given with the key, 0 if none, or `bad_index`
     integer :: line = 0            !! of the file
     integer :: first_value = 1, last_value = 0
+    logical :: wrong = .false.     !! it was complained about, and so all its values
   end type namelist_entry_type
 
   !> A scanned file.
   type :: namelist_file_type
-    character(len=:), allocatable :: words               !! the whole text
+    character(len=:), allocatable :: words               !! the whole text, folded to ASCII
     type(namelist_group_type), allocatable :: groups(:)
     type(namelist_entry_type), allocatable :: entries(:)
     type(namelist_value_type), allocatable :: values(:)
@@ -116,4 +121,63 @@ contains
     end if
     words = shown(self%words(first:last))
   end function values_shown
+
+  !> Complains about characters outside ASCII: once a key with its values, elsewhere once a line.
+  pure subroutine complain_about_foreign(file, foreign, complaints)
+    type(namelist_file_type), intent(in) :: file !! the case file, scanned
+    type(foreign_type), intent(in) :: foreign(:) !! all of them
+    type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
+    character(len=:), allocatable :: words
+    integer :: i, n, entry
+
+    i = 1
+    do while (i <= size(foreign))
+      entry = entry_at(file, foreign(i)%place)
+      n = 1
+      do while (i + n <= size(foreign))
+        if (entry_at(file, foreign(i + n)%place) /= entry) exit
+        if (entry == 0 .and. foreign(i + n)%line /= foreign(i)%line) exit
+        n = n + 1
+      end do
+      words = 'a character outside ASCII, '//foreign_words(foreign(i)%code)
+      if (n > 1) words = words//', and '//text(n - 1)//' more'
+      words = words//': such belong into strings and comments only'
+      if (entry > 0) then
+        associate (item => file%entries(entry))
+          words = '&'//shown(file%group_name(item%group))//': '//shown(file%key_name(entry))// &
+                  ' = '//file%values_shown(item%first_value, item%last_value)//': '//words
+        end associate
+      end if
+      call complaints%add(foreign(i)%line, words)
+      i = i + n
+    end do
+  end subroutine complain_about_foreign
+
+  !> The entry that a place of the text belongs to, from its key to behind its values; 0 where none.
+  pure function entry_at(file, place) result(entry)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: place
+    integer :: entry
+    integer :: last, low, middle
+
+    low = 0
+    entry = size(file%entries)
+    do while (low < entry) ! the last one that does not begin behind the place
+      middle = (low + entry + 1)/2
+      if (file%entries(middle)%first <= place) then
+        low = middle
+      else
+        entry = middle - 1
+      end if
+    end do
+    if (entry == 0) return
+    associate (item => file%entries(entry))
+      last = item%equals
+      if (item%last_value >= item%first_value) then
+        last = file%values(item%last_value)%last
+        if (file%values(item%last_value)%kind == value_string) last = last + 1
+      end if
+      if (place > last + 1) entry = 0
+    end associate
+  end function entry_at
 end module gfb_namelist_file

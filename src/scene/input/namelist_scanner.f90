@@ -4,8 +4,9 @@
 !> numbers, and lets unknown groups, keys given twice and NaN pass.
 module gfb_namelist_scanner
   use gfb_complaints, only: complaints_type, shown
+  use gfb_foreign_characters, only: foreign_type, fold_foreign, is_spoilt
   use gfb_namelist_file, only: namelist_file_type, namelist_group_type, namelist_entry_type, &
-                               namelist_value_type, bad_index
+                               namelist_value_type, bad_index, complain_about_foreign
   use gfb_namelist_tokens, only: token_type, find_tokens, token_group, token_slash, token_equals, &
                                  token_comma, token_open, token_close, token_string, token_word
   use gfb_namelist_values, only: word_kind, repeat_count, value_string, value_word
@@ -34,10 +35,11 @@ contains
     type(namelist_file_type), intent(out) :: file !! the case file, scanned
     type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     type(scanner_type) :: scanner
+    type(foreign_type), allocatable :: foreign(:)
     integer :: i, n
 
-    scanner%file%words = words
-    call find_tokens(words, scanner%tokens, complaints)
+    call fold_foreign(words, scanner%file%words, foreign)
+    call find_tokens(scanner%file%words, scanner%tokens, complaints)
     n = size(scanner%tokens)
     allocate (scanner%file%groups(n), scanner%file%entries(n), scanner%file%values(n), &
               scanner%file%strays(n))
@@ -50,11 +52,12 @@ contains
       call complain_open_group(scanner, 'before the end of the file', complaints)
     end if
     call end_entry(scanner, complaints)
-    file%words = words
+    file%words = scanner%file%words
     file%groups = scanner%file%groups(:scanner%n_groups)
     file%entries = scanner%file%entries(:scanner%n_entries)
     file%values = scanner%file%values(:scanner%n_values)
     file%strays = scanner%file%strays(:scanner%n_strays)
+    call complain_about_foreign(file, foreign, complaints)
   end subroutine scan_namelist
 
   !> Takes one token, or the several that make a key.
@@ -155,7 +158,9 @@ contains
     associate (token => self%tokens(i))
       self%n_strays = self%n_strays + 1
       self%file%strays(self%n_strays) = namelist_group_type(token%first, token%last, token%line)
-      if (token%kind == token_word) then
+      if (is_spoilt(token_words(self, i))) then
+        return ! see the characters outside ASCII
+      else if (token%kind == token_word) then
         call complaints%add(token%line, "text outside a group: '"//shown(token_words(self, i))// &
                             "'; a group begins with '&' and its name, a comment with '!'")
       else
@@ -214,7 +219,8 @@ contains
       end if
       self%n_entries = self%n_entries + 1
       self%file%entries(self%n_entries) = namelist_entry_type( &
-                                          self%n_groups, token%first, token%last, element, &
+                                          self%n_groups, token%first, token%last, &
+                                          self%tokens(i + length - 1)%first, element, &
                                           token%line, self%n_values + 1, self%n_values)
     end associate
     self%in_entry = .true.
@@ -227,9 +233,12 @@ contains
     type(scanner_type), intent(inout) :: self
     type(complaints_type), intent(inout) :: complaints
 
-    if (self%in_entry .and. .not. self%told) then
+    if (self%in_entry) then
       associate (entry => self%file%entries(self%n_entries))
-        if (entry%last_value < entry%first_value) then
+        if (self%told) then
+          entry%wrong = .true.
+          self%file%values(entry%first_value:entry%last_value)%wrong = .true.
+        else if (entry%last_value < entry%first_value) then
           call complaints%add(entry%line, place(self)//'key '''// &
                               shown(self%file%key_name(self%n_entries))//''' has no value')
         end if
@@ -276,7 +285,7 @@ contains
     integer :: star
 
     value = namelist_value_type(value_string, self%tokens(i)%first, self%tokens(i)%last, 1, &
-                                self%tokens(i)%line)
+                                self%tokens(i)%line, self%tokens(i)%is_open)
     if (self%tokens(i)%kind == token_word) then
       star = index(token_words(self, i), '*')
       if (star > 1) then
@@ -290,6 +299,7 @@ contains
         value%kind = value_string
         value%first = self%tokens(i)%first
         value%last = self%tokens(i)%last
+        value%wrong = self%tokens(i)%is_open
       else if (value%first > value%last) then
         call complain_about_value(self, i, 'a repeat count without a value', complaints)
         return
@@ -300,8 +310,13 @@ contains
       end if
       value%repeats = max(value%repeats, 1)
     end if
+    if (is_spoilt(self%file%words(value%first:value%last)) .and. value%kind /= value_string) then
+      value%wrong = .true.
+    end if
     if (.not. self%in_entry) then
-      if (.not. self%told) call complain_about_value(self, i, 'a value without a key', complaints)
+      if (.not. (self%told .or. value%wrong)) then
+        call complain_about_value(self, i, 'a value without a key', complaints)
+      end if
       return
     end if
     self%n_values = self%n_values + 1

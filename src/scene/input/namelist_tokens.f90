@@ -20,6 +20,7 @@ module gfb_namelist_tokens
     integer :: first = 1 !! first character
     integer :: last = 0  !! last character
     integer :: line = 0  !! of the file, from 1
+    logical :: is_open = .false. !! a string without its closing quote
   end type token_type
 
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13)
@@ -33,7 +34,7 @@ contains
 
   !> All tokens of a text; comments and blanks are dropped.
   pure subroutine find_tokens(words, tokens, complaints)
-    character(len=*), intent(in) :: words                     !! the whole file
+    character(len=*), intent(in) :: words                     !! the whole file, folded to ASCII
     type(token_type), allocatable, intent(out) :: tokens(:) !! names, signs and values of the line
     type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
     integer :: at, line, n
@@ -58,8 +59,6 @@ contains
         else if (words(at:min(at + 1, len(words))) == '//') then
           call complaints%add(line, "a comment begins with '!', not with '//'")
           at = end_of_line(words, at)
-        else if (iachar(letter) > 127) then
-          call skip_foreign(words, at, line, complaints)
         else
           n = n + 1
           call take_token(words, at, line, tokens(n), complaints)
@@ -125,6 +124,7 @@ contains
       at = at + 1
     end do
     token%last = at - 1
+    token%is_open = .not. closed
     if (closed) then
       at = at + 1
     else
@@ -132,21 +132,6 @@ contains
                           shown(words(token%first:token%last)))
     end if
   end subroutine take_string
-
-  !> Skips characters outside ASCII, which belong into strings and comments only.
-  pure subroutine skip_foreign(words, at, line, complaints)
-    character(len=*), intent(in) :: words
-    integer, intent(inout) :: at
-    integer, intent(in) :: line
-    type(complaints_type), intent(inout) :: complaints
-
-    do while (at <= len(words))
-      if (iachar(words(at:at)) < 128) exit
-      at = at + 1
-    end do
-    call complaints%add(line, 'a character outside ASCII (a special blank, minus or quote?) '// &
-                        'belongs into strings and comments only')
-  end subroutine skip_foreign
 
   !> Last character of the word that begins here.
   pure function end_of_word(words, first) result(last)
@@ -156,7 +141,6 @@ contains
 
     last = first - 1
     do while (last < len(words))
-      if (iachar(words(last + 1:last + 1)) > 127) exit
       if (scan(words(last + 1:last + 1), word_ends) > 0) exit
       last = last + 1
     end do
