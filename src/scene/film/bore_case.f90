@@ -29,19 +29,24 @@ contains
     type(bore_case_type), intent(out) :: bore !! what `&bore` asks for
     type(bearing_case_type), intent(in) :: bearing !! the pads on it
     integer, intent(in) :: analysis !! 0 where it is not known
-    real(wp) :: peak
+    real(wp) :: peak, shims !! highest of the bore; of its shims, be the others wrong [m]
     integer :: mistakes !! before the group
 
-    mistakes = keys%complaints%count
+    mistakes = keys%mistakes()
     call keys%start_group(group, optional=.true., present_in_file=bore%present, &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
     call read_waves(keys, bore%profile)
-    call read_shims(keys, bore%profile)
+    call read_shims(keys, bore%profile, shims)
     call read_table(keys, bore%profile)
     call keys%finish_group()
     if (.not. bore%present) return
+    if (.not. allocated(bore%profile%shim_height) .and. bearing%clearance > 0.0_wp .and. &
+        shims >= bearing%clearance) then
+      call keys%complain(group, 'shim_height', 'must be less than the clearance of '// &
+                         text(bearing%clearance)//' m: no gap is left at rest')
+    end if
     if (.not. bore%profile%present()) then
-      if (keys%complaints%count == mistakes) then
+      if (keys%mistakes() == mistakes) then
         call keys%complain(group, 'waves', 'or shim_angle or profile_angle is needed: the '// &
                            'group says nothing of the bore')
       end if
@@ -98,9 +103,10 @@ contains
   end subroutine read_waves
 
   !> Shims: each list has one value a shim; of arcs, ramps and heights one may stand for all.
-  subroutine read_shims(keys, profile)
+  subroutine read_shims(keys, profile, highest)
     type(case_keys_type), intent(inout) :: keys
     type(bore_profile_type), intent(inout) :: profile
+    real(wp), intent(out) :: highest !! shim; 0 where their heights are wrong [m]
     real(wp), allocatable :: angle(:), height(:), arc(:), ramp(:)
     logical :: right, here
 
@@ -110,6 +116,8 @@ contains
     right = here .and. keys%last_key_is_right()
     call one_list('shim_height', height, 'm', 'height of the plateau of each shim, or '// &
                   'of all', any_value)
+    highest = 0.0_wp
+    if (keys%last_key_is_right()) highest = maxval(height)
     call one_list('shim_arc', arc, 'rad', 'whole arc of the plateau of each shim, or of all', &
                   not_negative)
     call one_list('shim_ramp', ramp, 'rad', 'arc of the ramp on each side of the plateau of '// &
@@ -123,6 +131,7 @@ contains
     profile%shim_height = height
     profile%shim_arc = arc
     profile%shim_ramp = ramp
+    call warn_of_overlaps(keys, angle, 0.5_wp*arc + ramp)
 
   contains
 
@@ -147,6 +156,27 @@ contains
       end if
     end subroutine one_list
   end subroutine read_shims
+
+  !> Warns of shims that overlap, as their heights add.
+  subroutine warn_of_overlaps(keys, angle, reach)
+    type(case_keys_type), intent(inout) :: keys
+    real(wp), intent(in) :: angle(:) !! of their middles [rad]
+    real(wp), intent(in) :: reach(:) !! from there to their ends [rad]
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of ends that are meant to meet [rad]
+    real(wp) :: apart
+    integer :: i, k
+
+    do i = 2, size(angle)
+      do k = 1, i - 1
+        apart = modulo(angle(i) - angle(k), turn)
+        apart = min(apart, turn - apart)
+        if (apart > reach(i) + reach(k) - rounding) cycle
+        call keys%warn(group, 'shim_angle', 'shims '//text(k)//' and '//text(i)//' overlap, '// &
+                       'ramps included: their heights add', i)
+        exit
+      end do
+    end do
+  end subroutine warn_of_overlaps
 
   !> A measured bore, or wear.
   subroutine read_table(keys, profile)
