@@ -11,10 +11,12 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, remember_answer
+  public :: bearing_answer, remember_answer, touching_words
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
+  !> height over the clearance from which a top foil is lifted [1]
+  real(wp), parameter :: lifted_from = 0.1_wp
 
   !> Numbers of one state.
   type, public :: bearing_answer_type
@@ -39,6 +41,7 @@ module gfb_bearing_answer
     real(wp) :: solid_torque = 0.0_wp              !! with which they brake the shaft [N m]
     real(wp) :: maximum_solid_pressure = 0.0_wp    !! [Pa]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
+    real(wp) :: maximum_deflection = 0.0_wp        !! of the foil away from the shaft [m]
     real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
     real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
@@ -56,7 +59,7 @@ contains
 
     real(wp) :: unknown(bearing%local_size())
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
-    real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(7, size(bearing%pad))
+    real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(8, size(bearing%pad))
     real(wp) :: total(size(sums, 1)), largest(size(most, 1))
     logical :: whole
     integer :: i
@@ -71,6 +74,7 @@ contains
         call read_film(bearing, pad, pressure(pad%first_node + 1:pad%last_node), &
                        gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), whole, &
                        sums(:, i), most(:, i))
+        if (whole) most(8, i) = maxval(pad%foil%deflection(unknown(pad%first + 1:pad%last)))
       end associate
     end do
     sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
@@ -98,6 +102,7 @@ contains
     answer%minimum_pressure = -largest(5)
     answer%maximum_peclet = largest(6)
     answer%rough_peclet = largest(7)
+    answer%maximum_deflection = largest(8)
   end function bearing_answer
 
   !> Sums and largest values of this rank's part of a pad's film.
@@ -127,6 +132,32 @@ contains
       largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
     end associate
   end subroutine read_film
+
+  !> What closes the film where it is thinnest: the shaft comes to the foil, or a lifted foil to the
+  !> shaft.
+  function touching_words(bearing) result(words)
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    character(len=:), allocatable :: words
+    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes())
+    real(wp) :: least, lift(1)
+    integer :: i
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    least = bearing%smallest_gap()
+    lift = -huge(lift)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        lift(1) = max(lift(1), maxval(-pad%foil%deflection(unknown(pad%first + 1:pad%last)), &
+                                      gap(pad%first_node + 1:pad%last_node) <= least))
+      end associate
+    end do
+    lift = largest_over_ranks(lift)
+    words = 'the shaft touches down'
+    if (lift(1) > lifted_from*bearing%pad(1)%film%clearance) then
+      words = 'the lifted top foil touches the shaft'
+    end if
+  end function touching_words
 
   !> What the shaft's asperities carry, and how they rub: the shaft turns, or begins to.
   subroutine read_solid_contact(bearing, unknown, answer)

@@ -9,6 +9,7 @@ module gfb_bearing_writing
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
+  use gfb_shape_rules, only: thin
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block
@@ -28,6 +29,7 @@ module gfb_bearing_writing
   public :: write_bearing
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
+  real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height [1]
   real(wp), parameter :: micrometre = 1.0e-6_wp   !! [m]
   real(wp), parameter :: neutral = 5.0e-4_wp      !! force over a lift by C that hardly holds an edge, over load and p_a D L [1]
 
@@ -81,6 +83,7 @@ contains
         call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
                          'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
       end if
+      call show_large_deflection(log, scene, answer%maximum_deflection)
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)
@@ -88,6 +91,22 @@ contains
                             grids, context%csv, log, error, columns, record%series)
     end associate
   end subroutine write_bearing
+
+  !> Warns of a foil that gives way more than displacements that are taken to be small.
+  subroutine show_large_deflection(log, scene, deflection)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: deflection !! largest of the foil [m]
+    character(len=*), parameter :: small = ': displacements were taken to be small'
+
+    associate (height => scene%bump_foil%height, radius => scene%bearing%radius)
+      if (height > 0.0_wp .and. deflection > large_deflection*height) then
+        call log%warning('the foil gives way by '//text(100.0_wp*deflection/height, 3)//' % of the bump height'//small)
+      else if (deflection > thin*radius) then
+        call log%warning('the foil gives way by '//text(100.0_wp*deflection/radius, 3)//' % of the radius'//small)
+      end if
+    end associate
+  end subroutine show_large_deflection
 
   !> The columns that the history of a sweep has, also where no point has an answer.
   function columns_of(scene, sweep) result(columns)
