@@ -10,7 +10,7 @@ import tempfile
 
 import numpy
 
-from gfb_run import Bearing, Checks, largest_difference, natural_sizes, observed_order, run, summary_difference
+from gfb_run import Bearing, Checks, largest_difference, natural_sizes, observed_order, run, solve, summary_difference
 
 MESHES = ((104, 32), (208, 64), (416, 128))
 TABLE = ((0.3, 0.38587, 55.695), (0.6, 0.77126, 43.548))  # eps, W/(p_a R^2), attitude angle [deg]
@@ -88,6 +88,20 @@ def check_mean(checks, folder):
     checks.below("four times as long: half the difference at most", differences[1]/differences[0], 0.5)
 
 
+def check_large_deflection(checks, folder):
+    """Springs that give way by much of the bumps' height: the log says so, and not of stiffer ones."""
+    for stiffness, warned in ((2.0e9, True), (2.0e10, False)):
+        answer = solve(folder, "soft", {
+            "bearing": {"radius": 0.02, "length": 0.04, "clearance": 3.0e-5},
+            "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101325.0},
+            "operation": {"speed_rpm": 30000.0, "load": (-100.0, 0.0)},
+            "bump_foil": {"height": 1.0e-4},
+            "model": {"foil": "elastic_foundation", "foundation_stiffness": stiffness, "foundation_pressure": "axial_mean"},
+            "mesh": {"circumferential_elements": 32, "axial_elements": 4}})
+        checks.that(f"springs of {stiffness:g} N/m^3: a warning is{'' if warned else ' not'} given",
+                    ("% of the bump height: displacements were taken to be small" in answer.log) == warned)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -95,6 +109,7 @@ def main():
         check_film_file(checks, folder)
         check_stiff(checks, folder)
         check_mean(checks, folder)
+        check_large_deflection(checks, folder)
     checks.close()
 
 
