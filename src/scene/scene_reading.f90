@@ -51,20 +51,21 @@ contains
     logical :: sweeps_keys
 
     call as_utf8(words, utf8, line, byte)
-    call read_and_check(utf8, file, keys, scene, strict)
+    call read_and_check(utf8, file, .true., keys, scene, strict)
     if (line > 0) call keys%warn_of_line(line, 'the byte '//text(byte)//' is no UTF-8: it is '// &
                                          'read as a character of Latin-1; save the file as UTF-8')
     call check_sensitivity(keys, scene)
     call check_swept_keys(keys, scene, sweeps_keys)
     if (sweeps_keys) call check_swept_values(keys, scene, strict)
-    scene%echo = keys%notes%echo
+    scene%echo = keys%notes%echo()
     scene%warnings = keys%warning_lines()
     call keys%report(error)
   end subroutine read_scene_text
 
   !> Reads the text of a case file, and checks all but what a sweep of keys makes of it.
-  subroutine read_and_check(words, file, keys, scene, strict)
+  subroutine read_and_check(words, file, noted, keys, scene, strict)
     character(len=*), intent(in) :: words, file
+    logical, intent(in) :: noted !! for an echo of the keys
     type(case_keys_type), intent(out) :: keys
     type(scene_type), intent(out) :: scene
     logical, intent(in), optional :: strict
@@ -72,7 +73,7 @@ contains
     scene%file = trim(file)
     scene%name = base_name(scene%file)
     scene%verbatim = words
-    call keys%open_text(words, file, strict)
+    call keys%open_text(words, file, strict, noted)
     call read_groups(keys, scene)
     call keys%finish()
     call check_groups(keys, scene)
@@ -90,8 +91,8 @@ contains
 
     known = keys
     do point = 1, size(scene%sweep%values)
-      call read_and_check(text_at_value(scene, scene%sweep%values(point)), scene%file, changed, &
-                          there, strict)
+      call read_and_check(text_at_value(scene, scene%sweep%values(point)), scene%file, .false., &
+                          changed, there, strict)
       call keys%add_new(changed, known, 'sweep', 'values', point)
     end do
   end subroutine check_swept_values
@@ -134,7 +135,7 @@ contains
     type(case_keys_type) :: keys
     type(scene_type) :: changed
 
-    call read_and_check(words, scene%file, keys, changed)
+    call read_and_check(words, scene%file, .false., keys, changed)
     call keys%report(error)
     there = scene
     there%bearing = changed%bearing
@@ -190,7 +191,7 @@ contains
     type(case_keys_type) :: keys
 
     call read_nothing(keys)
-    table = keys%notes%table
+    table = keys%notes%table()
   end function key_table
 
   !> All keys there are.

@@ -6,10 +6,10 @@
 module gfb_case_keys
   use gfb_kinds, only: wp
   use gfb_case_reader, only: case_reader_type, longest_list
-  use gfb_key_notes, only: no_default, real_words, list_words, quoted, value_list, choices, &
+  use gfb_key_notes, only: no_default, real_words, list_words, quoted, choices, &
                            chosen_word, chosen_words
   use gfb_namelist_values, only: read_integer, read_logical, value_string
-  use gfb_text, only: exact_text, lower_case, text
+  use gfb_text, only: lower_case, text
   use gfb_value_rules, only: rule_type, broken_rule
   implicit none (type, external)
   private
@@ -47,12 +47,17 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+    character(len=:), allocatable :: words
     integer, allocatable :: elements(:)
 
     call self%describe(name, real_words, unit, meaning)
-    call self%begin_key(exact_text(value), single, elements, required, default, given)
-    if (size(elements) == 1) call self%take_real(elements(1), 0, value, rule)
-    call self%end_key(exact_text(value), abs(value) > 0.0_wp)
+    words = self%notes%numbers_shown([value])
+    call self%begin_key(words, single, elements, required, default, given)
+    if (size(elements) == 1) then
+      call self%take_real(elements(1), 0, value, rule)
+      words = self%notes%numbers_shown([value])
+    end if
+    call self%end_key(words, abs(value) > 0.0_wp)
   end subroutine real_key
 
   !> A fixed number of real numbers; all of them must be given.
@@ -69,7 +74,8 @@ contains
     integer :: i
 
     call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
-    call self%begin_key(value_list(values), size(values), elements, required, default, given)
+    call self%begin_key(self%notes%numbers_shown(values), size(values), elements, required, &
+                        default, given)
     if (size(elements) > 0 .and. size(elements) < size(values)) then
       call self%complain(self%notes%group, name, 'needs '//text(size(values))//' values, not '// &
                          text(size(elements)))
@@ -78,7 +84,7 @@ contains
         call self%take_real(elements(i), i, values(i), rule)
       end do
     end if
-    call self%end_key(value_list(values), any(abs(values) > 0.0_wp))
+    call self%end_key(self%notes%numbers_shown(values), any(abs(values) > 0.0_wp))
   end subroutine real_vector_key
 
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
@@ -103,7 +109,7 @@ contains
     do i = 1, size(values)
       call self%take_real(elements(i), i, values(i), rule)
     end do
-    call self%end_key(value_list(values), size(values) > 0)
+    call self%end_key(self%notes%numbers_shown(values), size(values) > 0)
   end subroutine real_list_key
 
   !> One whole number.

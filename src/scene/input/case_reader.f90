@@ -55,15 +55,17 @@ module gfb_case_reader
 contains
 
   !> Scans the text of a case file.
-  subroutine open_text(self, words, file, strict)
+  subroutine open_text(self, words, file, strict, noted)
     class(case_reader_type), intent(out) :: self !! the case file being read
     character(len=*), intent(in) :: words !! the whole file
     character(len=*), intent(in) :: file  !! its name, for complaints
     logical, intent(in), optional :: strict !! warnings are mistakes
+    logical, intent(in), optional :: noted !! echo and table of keys are kept; default: yes
 
     self%complaints%file = trim(file)
     self%warnings%file = trim(file)
     if (present(strict)) self%strict = strict
+    if (present(noted)) self%notes%kept = noted
     call scan_namelist(words, self%file, self%complaints)
   end subroutine open_text
 

@@ -10,6 +10,7 @@ module gfb_key_book
   public :: key_book_type
 
   integer, parameter :: name_length = 40 !! no group and no key is longer
+  integer, parameter :: first_room = 64  !! for keys
 
   !> What is known of a group or a key.
   type :: name_type
@@ -30,7 +31,8 @@ module gfb_key_book
     character(len=name_length), allocatable :: group_names(:)
     type(name_type), allocatable :: groups(:)
     character(len=name_length), allocatable :: key_groups(:), key_names(:)
-    type(name_type), allocatable :: keys(:)
+    type(name_type), allocatable :: keys(:) !! `count` of them, and room for more
+    integer :: count = 0
   contains
     procedure :: add_group
     procedure :: add_key
@@ -53,7 +55,7 @@ contains
 
     if (.not. allocated(self%groups)) then
       allocate (self%group_names(0), self%groups(0))
-      allocate (self%key_groups(0), self%key_names(0), self%keys(0))
+      allocate (self%key_groups(first_room), self%key_names(first_room), self%keys(first_room))
     end if
     name%line = line
     name%missing = required .and. line == 0
@@ -78,9 +80,11 @@ contains
     name%is_list = key%type_words == list_words
     name%unit = key%unit
     name%meaning = key%meaning
-    self%key_groups = [character(len=name_length) :: self%key_groups, group]
-    self%key_names = [character(len=name_length) :: self%key_names, key%name]
-    self%keys = [self%keys, name]
+    if (self%count == size(self%keys)) call set_room(self, 2*self%count)
+    self%count = self%count + 1
+    self%key_groups(self%count) = group
+    self%key_names(self%count) = key%name
+    self%keys(self%count) = name
   end subroutine add_key
 
   !> Whether a key stands in the file so that its values could not be told apart.
@@ -88,8 +92,28 @@ contains
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: unread
-    unread = any(self%key_groups == group .and. self%key_names == key .and. self%keys%unread)
+    associate (n => self%count)
+      unread = any(self%key_groups(:n) == group .and. self%key_names(:n) == key .and. self%keys(:n)%unread)
+    end associate
   end function is_unread
+
+  !> Gives the keys another number of places: many at once, for copies take time.
+  pure subroutine set_room(self, places)
+    type(key_book_type), intent(inout) :: self
+    integer, intent(in) :: places !! `count` at least
+    character(len=name_length), allocatable :: groups(:), names(:)
+    type(name_type), allocatable :: keys(:)
+
+    allocate (groups(places), names(places), keys(places))
+    groups = ''
+    names = ''
+    groups(:self%count) = self%key_groups(:self%count)
+    names(:self%count) = self%key_names(:self%count)
+    keys(:self%count) = self%keys(:self%count)
+    call move_alloc(groups, self%key_groups)
+    call move_alloc(names, self%key_names)
+    call move_alloc(keys, self%keys)
+  end subroutine set_room
 
   !> Line of a group in the file, 0 where it is absent.
   pure function group_line(self, group) result(line)
@@ -156,6 +180,7 @@ contains
     character(len=:), allocatable :: group_name
     integer :: i
 
+    call set_room(self, self%count)
     do i = 1, size(file%groups)
       call check_group(self, file, i, complaints)
     end do

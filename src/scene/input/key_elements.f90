@@ -25,16 +25,20 @@ contains
     type(complaints_type) :: found
     integer, allocatable :: filled(:), owner(:)
     integer :: entry, mistakes, last
-    logical :: is_given, is_wrong
+    logical :: is_wrong
 
+    if (.not. stands_in(file, group, key)) then
+      allocate (elements(0))
+      if (present(given)) given = .false.
+      if (present(wrong)) wrong = .false.
+      return
+    end if
     allocate (filled(max(1, most)), owner(max(1, most)), source=0)
     if (present(complaints)) found = complaints
     mistakes = found%count
-    is_given = .false.
     is_wrong = .false.
     do entry = 1, size(file%entries)
       if (.not. is_entry_of(file, entry, group, key)) cycle
-      is_given = .true.
       associate (item => file%entries(entry))
         is_wrong = is_wrong .or. item%wrong .or. &
                    any(file%values(item%first_value:item%last_value)%wrong)
@@ -50,7 +54,7 @@ contains
     end if
     if (found%count /= mistakes) last = 0
     elements = filled(:last)
-    if (present(given)) given = is_given
+    if (present(given)) given = .true.
     if (present(wrong)) wrong = is_wrong
     if (present(complaints)) complaints = found
   end subroutine find_elements
@@ -69,6 +73,20 @@ contains
       belongs = file%group_name(item%group) == group
     end associate
   end function is_entry_of
+
+  !> Whether a key stands in the file.
+  pure function stands_in(file, group, key) result(stands)
+    type(namelist_file_type), intent(in) :: file
+    character(len=*), intent(in) :: group, key
+    logical :: stands
+    integer :: entry
+
+    stands = .true.
+    do entry = 1, size(file%entries)
+      if (is_entry_of(file, entry, group, key)) return
+    end do
+    stands = .false.
+  end function stands_in
 
   !> Fills the elements that one entry gives.
   subroutine fill(file, entry, most, filled, owner, complaints)

@@ -4,7 +4,7 @@ module gfb_key_notes
   use gfb_text, only: exact_text, join
   implicit none (type, external)
   private
-  public :: key_type, key_notes_type, noted_key_type, quoted, value_list, choices, &
+  public :: key_type, key_notes_type, noted_key_type, quoted, choices, &
             chosen_word, chosen_words
 
   character(len=*), parameter, public :: real_words = 'real' !! a key that is one real number
@@ -12,6 +12,7 @@ module gfb_key_notes
   character(len=*), parameter, public :: no_default = 'none' !! nothing holds without the key
 
   integer, parameter :: values_a_line = 8 !! of a long list in the echo
+  integer, parameter :: first_room = 65536 !! characters of a growing text
 
   !> What is known of a key.
   type :: key_type
@@ -33,19 +34,31 @@ module gfb_key_notes
     logical :: is_echoed = .false. !! its group is there
   end type noted_key_type
 
+  !> A text that grows: it has more room than it fills, for copies of long texts take time.
+  type :: growing_text_type
+    character(len=:), allocatable :: room
+    integer :: length = 0 !! filled
+  contains
+    procedure :: append
+  end type growing_text_type
+
   !> The echo and the table of keys.
   type :: key_notes_type
     type(noted_key_type), allocatable :: met(:) !! all keys, in their order; `count` of them
     integer :: count = 0
-    character(len=:), allocatable :: echo   !! a case file with every value used
-    character(len=:), allocatable :: table  !! rows of a Markdown table
     character(len=:), allocatable :: group  !! the one that is open
+    type(growing_text_type), private :: echoed  !! a case file with every value used
+    type(growing_text_type), private :: tabled  !! rows of a Markdown table
     logical, private :: is_echoed = .true.  !! an optional group that is absent is not
+    logical :: kept = .true. !! else the file is read for its values alone
   contains
     procedure :: start_group
     procedure :: finish_group
     procedure :: add_row
     procedure :: add_line
+    procedure :: numbers_shown
+    procedure :: echo
+    procedure :: table
   end type key_notes_type
 
 contains
@@ -56,27 +69,69 @@ contains
     character(len=*), intent(in) :: name !! of the key
     logical, intent(in) :: is_echoed !! false for an optional group that is absent
 
-    if (.not. allocated(self%echo)) then
-      self%echo = "! Every key with the value used; those not given are marked '(default)'."// &
-                  new_line('a')
+    if (.not. allocated(self%met)) then
+      call self%echoed%append('! Every key with the value used; those not given are marked '// &
+                              '''(default)''.')
       allocate (self%met(64))
-      self%table = '| group | key | type | unit | default | meaning |'//new_line('a')// &
-                   '| --- | --- | --- | --- | --- | --- |'//new_line('a')
+      call self%tabled%append('| group | key | type | unit | default | meaning |')
+      call self%tabled%append('| --- | --- | --- | --- | --- | --- |')
     end if
     self%group = name
     self%is_echoed = is_echoed
+    call self%echoed%append('')
     if (is_echoed) then
-      self%echo = self%echo//new_line('a')//'&'//name//new_line('a')
+      call self%echoed%append('&'//name)
     else
-      self%echo = self%echo//new_line('a')//'! &'//name//' is not given'//new_line('a')
+      call self%echoed%append('! &'//name//' is not given')
     end if
   end subroutine start_group
 
   !> Ends a group.
   pure subroutine finish_group(self)
     class(key_notes_type), intent(inout) :: self !! the echo and the table of keys
-    if (self%is_echoed) self%echo = self%echo//'/'//new_line('a')
+    if (self%is_echoed) call self%echoed%append('/')
   end subroutine finish_group
+
+  !> Numbers as a note shows them: they read back exactly. Nothing where notes are not kept.
+  pure function numbers_shown(self, values) result(words)
+    class(key_notes_type), intent(in) :: self !! the echo and the table of keys
+    real(wp), intent(in) :: values(:) !! [their unit] of a key
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (self%kept) words = value_list(values)
+  end function numbers_shown
+
+  !> A case file with every value used.
+  pure function echo(self) result(words)
+    class(key_notes_type), intent(in) :: self !! the echo and the table of keys
+    character(len=:), allocatable :: words
+    words = self%echoed%room(:self%echoed%length)
+  end function echo
+
+  !> All keys as a Markdown table.
+  pure function table(self) result(words)
+    class(key_notes_type), intent(in) :: self !! the echo and the table of keys
+    character(len=:), allocatable :: words
+    words = self%tabled%room(:self%tabled%length)
+  end function table
+
+  !> Adds a line.
+  pure subroutine append(self, line)
+    class(growing_text_type), intent(inout) :: self !! the text
+    character(len=*), intent(in) :: line !! without its end
+    character(len=:), allocatable :: longer
+
+    if (.not. allocated(self%room)) self%room = repeat(' ', first_room)
+    associate (needed => self%length + len(line) + 1)
+      if (needed > len(self%room)) then
+        longer = self%room(:self%length)//repeat(' ', 2*needed - self%length)
+        call move_alloc(longer, self%room)
+      end if
+      self%room(self%length + 1:needed) = line//new_line('a')
+      self%length = needed
+    end associate
+  end subroutine append
 
   !> Adds the row of a key.
   pure subroutine add_row(self, key, value_words)
@@ -85,11 +140,12 @@ contains
     character(len=*), intent(in) :: value_words !! default in figures
     character(len=:), allocatable :: default
 
+    if (.not. self%kept) return
     default = '`'//value_words//'`'
     if (key%required) default = 'required'
     if (key%default /= '') default = key%default
-    self%table = self%table//'| `&'//self%group//'` | `'//key%name//'` | '//key%type_words// &
-                 ' | '//key%unit//' | '//default//' | '//key%meaning//' |'//new_line('a')
+    call self%tabled%append('| `&'//self%group//'` | `'//key%name//'` | '//key%type_words//' | '// &
+                            key%unit//' | '//default//' | '//key%meaning//' |')
     call grow(self)
     associate (one => self%met(self%count))
       one%group = self%group
@@ -120,6 +176,7 @@ contains
     logical, intent(in) :: is_set !! a value with a default in words is more than a placeholder
     character(len=:), allocatable :: line
 
+    if (.not. self%kept) return
     self%met(self%count)%value = value_words
     self%met(self%count)%is_set = is_set
     if (.not. self%is_echoed) return
@@ -132,7 +189,7 @@ contains
       line = '  ! '//key%name//' is not given: '//key%meaning
       if (key%default /= '' .and. key%default /= no_default) line = line//' ('//key%default//')'
     end if
-    self%echo = self%echo//line//new_line('a')
+    call self%echoed%append(line)
   end subroutine add_line
 
   !> Words as a namelist string.
