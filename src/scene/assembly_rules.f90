@@ -126,8 +126,11 @@ contains
       if (scene%model%foil /= foil_shell .or. foil%bumps < 1 .or. foil%strips > 1) return
       associate (high => bump_heights(foil), half => bump_half_lengths(foil))
         if (any(high > half) .or. .not. any(high > steepest*half)) return
-        if (allocated(foil%bump_height) .or. allocated(foil%bump_half_length)) then
+        if (allocated(foil%bump_height)) then
           call complain_of_bumps(keys, 'bump_height', high > steepest*half, high, rule, &
+                                 'half_length', half)
+        else if (allocated(foil%bump_half_length)) then
+          call complain_of_bumps(keys, 'height', high > steepest*half, high, rule, &
                                  'half_length', half)
         else
           call keys%complain('bump_foil', 'height', rule//', and half_length is '// &
