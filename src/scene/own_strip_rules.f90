@@ -14,7 +14,7 @@ module gfb_own_strip_rules
   use gfb_strip_sizes, only: sizes_mirror
   implicit none (type, external)
   private
-  public :: check_own_strips
+  public :: check_own_strips, strips_mirror
 
   character(len=*), parameter :: group = 'bump_foil'
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
@@ -27,6 +27,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     associate (foil => scene%bump_foil)
+      if (scene%model%half_width == half_width_yes) call check_mirrors(keys, scene)
       if (.not. strips_differ(foil)) return
       call check_bumps(keys, foil)
       if (scene%bearing%radius > 0.0_wp) then
@@ -36,6 +37,37 @@ contains
       call check_models(keys, scene)
     end associate
   end subroutine check_own_strips
+
+  !> Whether the strips mirror each other about the midplane; one does.
+  pure function strips_mirror(scene) result(mirror)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    logical :: mirror
+    mirror = sizes_mirror(scene%bump_foil%strip) .and. .not. heights_differ(scene)
+  end function strips_mirror
+
+  !> Whether strips have random heights of their own; planar beams have one cross-section.
+  pure function heights_differ(scene) result(differ)
+    type(scene_type), intent(in) :: scene
+    logical :: differ
+
+    differ = scene%bump_foil%strips > 1 .and. scene%bump_foil%random%deviation > 0.0_wp
+    if (is_bearing(scene%general%analysis)) differ = differ .and. scene%model%foil /= foil_beam
+  end function heights_differ
+
+  !> Complains about strips that half the width cannot have.
+  subroutine check_mirrors(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: rule = 'needs strips that mirror each other about the midplane: '
+
+    if (.not. sizes_mirror(scene%bump_foil%strip)) then
+      call keys%complain('model', 'half_width', rule// &
+                         'lists in &bump_foil that read the same from both ends')
+    else if (heights_differ(scene)) then
+      call keys%complain('model', 'half_width', rule//'with height_deviation each has heights '// &
+                         'of its own')
+    end if
+  end subroutine check_mirrors
 
   !> What of the scene knows strips of one kind only.
   subroutine check_models(keys, scene)
@@ -54,10 +86,6 @@ contains
           scene%strip_load%kind /= load_plates .and. allocated(foil%strip%pitch)) then
         call keys%complain(group, 'strip_pitch', 'must be alike for all strips, or needs '// &
                            "kind = 'plates' in &strip_load: the force of a crest is shared evenly")
-      end if
-      if (scene%model%half_width == half_width_yes .and. .not. sizes_mirror(foil%strip)) then
-        call keys%complain('model', 'half_width', 'needs strips that mirror each other about '// &
-                           'the midplane: lists in &bump_foil that read the same from both ends')
       end if
     end associate
 

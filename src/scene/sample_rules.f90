@@ -1,7 +1,7 @@
 !> What `&sample` asks of the other groups, and its members.
 module gfb_sample_rules
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: drawn_gaps, bump_heights
+  use gfb_bump_foil_case, only: draw_gaps, largest_gap, bump_heights
   use gfb_case_keys, only: case_keys_type
   use gfb_scene, only: scene_type
   use gfb_text, only: text
@@ -40,6 +40,7 @@ contains
   subroutine check_heights(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    type(scene_type) :: member
     real(wp) :: lowest
     integer :: number
 
@@ -53,12 +54,14 @@ contains
         return
       end if
       do number = 2, scene%sample%count
-        associate (seed => foil%random%seed + number - 1)
-          if (maxval(drawn_gaps(foil%random, seed, foil%bumps)) < lowest) cycle
-          call keys%complain('sample', 'count', 'seed '//text(seed)//' leaves a gap that is '// &
-                             'not less than the height of the bumps, '//text(lowest)//' m')
-          return
+        member = sample_member(scene, number)
+        associate (drawn => member%bump_foil)
+          if (largest_gap(drawn%random, drawn%crest_gap) < lowest) cycle
+          call keys%complain('sample', 'count', 'seed '//text(drawn%random%seed)//' leaves a '// &
+                             'gap that is not less than the height of the bumps, '// &
+                             text(lowest)//' m')
         end associate
+        return
       end do
     end associate
   end subroutine check_heights
@@ -73,7 +76,7 @@ contains
     member%sample%present = .false.
     associate (foil => member%bump_foil)
       foil%random%seed = scene%bump_foil%random%seed + number - 1
-      foil%crest_gap = drawn_gaps(foil%random, foil%random%seed, foil%bumps)
+      call draw_gaps(foil%random, foil%bumps, foil%strips*scene%bearing%pads, foil%crest_gap)
       member%name = scene%name//'.seed'//text(foil%random%seed)
     end associate
   end function sample_member

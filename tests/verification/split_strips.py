@@ -9,6 +9,7 @@ import numpy
 
 from bump_sizes import BEARING, bearing, run_strip
 from gfb_run import Checks, largest_difference, natural_sizes, summary_difference
+from sample import normal
 from strips import FOIL, HELD, MICROMETRE, crests
 
 CUT = 0.8e-3
@@ -62,6 +63,22 @@ def check_sums(checks, folder):
                 checks.that("all cells beside it", (numpy.abs(middle) > 0.5*CUT).all())
 
 
+def check_heights(checks, folder):
+    """With random heights each strip has a draw of its own: the numbers of a seed one after the other, as of pads."""
+    strips, bumps = 3, 3
+    groups = {"strip_load": PLATES, "model": {"half_width": "no"}}
+    foil, mesh = {**FOIL, "bumps": bumps}, {"arc_elements": 8, "flat_elements": 2}
+    split = run_strip(folder, "split", {**foil, "strips": strips, "cut_width": CUT, "height_deviation": MICROMETRE, "seed": 5},
+                      mesh={**mesh, "axial_elements": 2*strips}, **groups)
+    total = 0.0
+    for heights in normal(5, strips*bumps).reshape(strips, bumps)*MICROMETRE:
+        one = run_strip(folder, "one", {**foil, "width": (FOIL["width"] - (strips - 1)*CUT)/strips,
+                                        "crest_gap": list(heights.max() - heights)}, mesh={**mesh, "axial_elements": 2}, **groups)
+        total = total + one.history()["force"]
+    checks.below("random heights: force of three strips with draws of their own", largest_difference(split.history()["force"], total),
+                 1.0e-8)
+
+
 def check_bearings(checks, folder):
     """Strips under a film."""
     foil = {**FOIL, "bumps": 26, "fixed_edge": "trailing", "fixed_line": "half_flat"}
@@ -92,6 +109,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_sums(checks, folder)
+        check_heights(checks, folder)
         check_bearings(checks, folder)
     checks.close()
 

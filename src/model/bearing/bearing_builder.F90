@@ -8,7 +8,7 @@ module gfb_bearing_builder
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
-  use gfb_foil_builder, only: plate_stations, shape_on_pad, further_gaps
+  use gfb_foil_builder, only: plate_stations, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
@@ -181,7 +181,7 @@ contains
         associate (angle => preload_angle(bearing, i))
           if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
         end associate
-        if (scene%bump_foil%random%deviation > 0.0_wp) place(i)%further_gap = further_gaps(scene%bump_foil, i)
+        if (i > 1 .and. scene%bump_foil%random%deviation > 0.0_wp) place(i)%further_gap = gaps_beside(scene%bump_foil, i)
       end do
       if (size(place) == bearing%pads) return
       do i = 1, bearing%pads

@@ -30,7 +30,7 @@ module gfb_pad
     real(wp) :: turn = 0.0_wp     !! from the first pad [rad]
     real(wp) :: shift(2) = 0.0_wp !! of its centre of curvature relative to the bearing's, seen as an eccentricity [m]
     real(wp) :: offset = 0.0_wp   !! of its midplane along the axis from the rotor's centre of mass [m]
-    real(wp), allocatable :: further_gap(:) !! of its crests, over those of the first pad; none: the same [m]
+    real(wp), allocatable :: further_gap(:, :) !! (bumps, strips) of its crests, over those of the first pad; none: the same [m]
   end type pad_place_type
 
   !> A pad on this rank.
@@ -157,7 +157,7 @@ contains
     if (.not. allocated(place%further_gap)) return
     do i = 1, size(pad%foil%contacts%point)
       associate (point => pad%foil%contacts%point(i))
-        if (point%law == contact_top) point%gap = point%gap + place%further_gap(point%line)
+        if (point%law == contact_top) point%gap = point%gap + place%further_gap(point%line, point%strip)
       end associate
     end do
     call pad%foil%contacts%linearise_again()

@@ -12,6 +12,7 @@ module gfb_contact_point
     integer :: law = 1                         !! which of the set's laws applies
     integer :: node = 0                        !! slave, number in its mesh
     integer :: line = 0                        !! number of the contact line it lies on
+    integer :: strip = 1                       !! of strips side by side, which it lies on
     integer :: slave(spatial) = 0         !! the set's unknowns at the slave (u, v, w); 0: fixed
     integer, allocatable :: master(:, :)       !! (3, nodes) the same at the master's nodes
     real(wp), allocatable :: share(:)          !! (nodes) master's shape functions

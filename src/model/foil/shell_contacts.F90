@@ -45,8 +45,9 @@ contains
         call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
       end do
       do i = 1, found
+        point(i)%strip = strip_at(mesh, point(i)%node)
         if (point(i)%law == contact_top) then
-          point(i)%gap = gap_of_crest(scene%bump_foil, point(i)%line, strip_at(mesh, point(i)%node))
+          point(i)%gap = gap_of_crest(scene%bump_foil, point(i)%line, point(i)%strip)
         else
           point(i)%gap = gap_of_corner(scene%bump_foil, point(i)%line)
         end if

@@ -9,7 +9,7 @@ module gfb_foil_builder
   use gfb_bearing_case, only: pad_length
   use gfb_top_foil_case, only: top_foil_leading
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, bump_pitches, bump_half_lengths, bump_heights, &
-                                bump_thicknesses, one_strip, strips_differ, drawn_gaps
+                                bump_thicknesses, one_strip, strips_differ
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
   use gfb_top_mesh, only: top_mesh
@@ -26,7 +26,7 @@ module gfb_foil_builder
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, keep_elements, further_gaps, &
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
             find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter, public :: axial = 3         !! component of a displacement
@@ -75,17 +75,16 @@ contains
     elements = max(1, nint(scene%mesh%circumferential_elements*scene%bump_foil%pitch/pad_length(scene%bearing)))
   end function elements_a_pitch
 
-  !> What the crest gaps of a pad whose heights are random are more than those of the first one, a bump each [m].
-  pure function further_gaps(foil, pad) result(change)
+  !> What the crest gaps of a pad whose heights are random are more than those of the first one [m].
+  pure function gaps_beside(foil, pad) result(change)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: pad !! its number
-    real(wp) :: change(foil%bumps)
+    real(wp) :: change(foil%bumps, foil%strips)
 
-    change = 0.0_wp
-    if (foil%random%deviation > 0.0_wp .and. pad > 1) then
-      change = drawn_gaps(foil%random, foil%random%seed, foil%bumps, pad) - drawn_gaps(foil%random, foil%random%seed, foil%bumps)
-    end if
-  end function further_gaps
+    associate (gap => foil%random%further_gap)
+      change = gap(:, (pad - 1)*foil%strips + 1:pad*foil%strips) - gap(:, :foil%strips)
+    end associate
+  end function gaps_beside
 
   !> A scene that differs in a number gets meshes with as many elements as another scene's.
   subroutine keep_elements(scene, there)
@@ -204,8 +203,9 @@ contains
                cut => scene%bump_foil%cut_width)
       mesh = bump_strip_mesh(shape, strip_rows(width, axial, half, strips, cut), half, window)
       mesh%cut = cut_rows(mesh%row_axial, width, strips, cut)
-      if (.not. strips_differ(foil)) return
+      if (.not. (strips_differ(foil) .or. allocated(foil%random%further_gap))) return
       mesh%row_strip = strips_of_rows(mesh%row_axial, width, strips, cut)
+      if (.not. strips_differ(foil)) return
       do strip = minval(mesh%row_strip), strips
         call put_strip(mesh, bump_strip_mesh(shape_beside(scene, shape, strip), mesh%row_axial, &
                                              half, window), strip)

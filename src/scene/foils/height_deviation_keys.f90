@@ -7,7 +7,7 @@ module gfb_height_deviation_keys
   use gfb_value_rules, only: at_least, positive
   implicit none (type, external)
   private
-  public :: read_height_deviation, height_deviation_type, drawn_gaps
+  public :: read_height_deviation, height_deviation_type, draw_gaps, largest_gap
 
   character(len=*), parameter :: group = 'bump_foil'
   character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
@@ -16,32 +16,51 @@ module gfb_height_deviation_keys
   type :: height_deviation_type
     real(wp) :: deviation = 0.0_wp !! standard deviation; 0: none was asked for [m]
     integer :: seed = 1            !! chooses the heights
+    !> (bumps, strips of all pads) what the gaps of each strip are more than those of the first,
+    !> pad by pad; not allocated: there is one strip [m]
+    real(wp), allocatable :: further_gap(:, :)
   end type height_deviation_type
 
 contains
 
-  !> The gaps that random heights leave; pads have the numbers of the seed one after the other [m].
-  pure function drawn_gaps(random, seed, bumps, pad) result(gap)
-    type(height_deviation_type), intent(in) :: random !! their law
-    integer, intent(in) :: seed  !! in the place of the law's own
-    integer, intent(in) :: bumps !! of the strip
-    integer, intent(in), optional :: pad !! number of the pad; default: 1
-    real(wp) :: gap(bumps)       !! [m]
-    integer :: before
+  !> The gaps that random heights leave. Each strip of each pad has heights of its own, the numbers
+  !> of the seed one after the other; at rest its highest crest touches.
+  pure subroutine draw_gaps(law, bumps, strips, gap)
+    type(height_deviation_type), intent(inout) :: law !! gets gaps of further strips
+    integer, intent(in) :: bumps  !! of a strip
+    integer, intent(in) :: strips !! of all pads
+    real(wp), allocatable, intent(out) :: gap(:) !! of the first strip, one a bump [m]
+    real(wp) :: height(bumps, strips)
+    integer :: strip
 
-    before = 0
-    if (present(pad)) before = (pad - 1)*bumps
-    associate (drawn => normal_deviations(seed, before + bumps))
-      gap = crest_gaps(random%deviation*drawn(before + 1:))
-    end associate
-  end function drawn_gaps
+    height = law%deviation*reshape(normal_deviations(law%seed, size(height)), shape(height))
+    gap = crest_gaps(height(:, 1))
+    if (allocated(law%further_gap)) deallocate (law%further_gap)
+    if (strips == 1) return
+    allocate (law%further_gap(bumps, strips))
+    do strip = 1, strips
+      law%further_gap(:, strip) = crest_gaps(height(:, strip)) - gap
+    end do
+  end subroutine draw_gaps
+
+  !> The largest gap of all strips [m].
+  pure function largest_gap(law, gap) result(largest)
+    type(height_deviation_type), intent(in) :: law !! with the gaps of further strips
+    real(wp), intent(in) :: gap(:) !! of the first strip, one a bump [m]
+    real(wp) :: largest
+
+    largest = maxval(gap)
+    if (.not. allocated(law%further_gap)) return
+    largest = maxval(law%further_gap + spread(gap, 2, size(law%further_gap, 2)))
+  end function largest_gap
 
   !> Reads the law of the heights, and the gaps that they leave where none are given.
-  subroutine read_height_deviation(keys, in_file, gaps, bumps, height, law, gap)
+  subroutine read_height_deviation(keys, in_file, gaps, bumps, strips, height, law, gap)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     logical, intent(in) :: in_file !! the file has the group
     logical, intent(in) :: gaps    !! and gives the gaps themselves
-    integer, intent(in) :: bumps   !! of the strip, 0 where not known
+    integer, intent(in) :: bumps   !! of a strip, 0 where not known
+    integer, intent(in) :: strips  !! of all pads
     real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
     type(height_deviation_type), intent(out) :: law !! of the heights, where they are random
     real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
@@ -59,12 +78,12 @@ contains
                          'from the heights; give one of them')
     else if (right .and. bumps > 0) then
       key = 'height_deviation'
-      gap = drawn_gaps(law, law%seed, bumps)
+      call draw_gaps(law, bumps, strips, gap)
     end if
     if (.not. allocated(gap) .or. .not. height > 0.0_wp) return
-    if (all(gap < height)) return
-    call keys%complain(group, key, 'leaves a gap of '//text(maxval(gap), 4)//' m, which must '// &
-                       'be less than the height of the bumps, '//text(height)//' m')
+    if (largest_gap(law, gap) < height) return
+    call keys%complain(group, key, 'leaves a gap of '//text(largest_gap(law, gap), 4)//' m, '// &
+                       'which must be less than the height of the bumps, '//text(height)//' m')
   end subroutine read_height_deviation
 
   !> The law of random heights, and what chooses them.

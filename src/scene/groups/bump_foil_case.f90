@@ -6,7 +6,7 @@ module gfb_bump_foil_case
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_height_deviation_keys, only: read_height_deviation, height_deviation_type, &
-                                       drawn_gaps
+                                       draw_gaps, largest_gap
   use gfb_strip_sizes, only: strip_sizes_type, read_strip_sizes, refuse_strip_sizes, &
                              gives_strips, sizes_differ
   use gfb_text, only: text
@@ -17,7 +17,7 @@ module gfb_bump_foil_case
             gap_of_corner
   public :: solid_width, has_sizes, one_bump, one_strip, strips_differ
   public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
-  public :: drawn_gaps
+  public :: draw_gaps, largest_gap
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -113,8 +113,8 @@ contains
     lowest = foil%height
     if (allocated(foil%bump_height)) lowest = minval(foil%bump_height)
     if (allocated(foil%strip%height)) lowest = minval(foil%strip%height)
-    call read_height_deviation(keys, foil%present, gaps, foil%bumps, lowest, foil%random, &
-                               foil%crest_gap)
+    call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%strips*bearing%pads, &
+                               lowest, foil%random, foil%crest_gap)
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
 
@@ -295,14 +295,14 @@ contains
   elemental function gap_of_crest(foil, bump, strip) result(gap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: bump !! number of the bump, from the smallest x on
-    !> of the bump, from the smallest z on; needed where strips differ
-    integer, intent(in), optional :: strip
+    integer, intent(in), optional :: strip !! from the smallest z on; needed where they differ
     real(wp) :: gap
 
     gap = 0.0_wp
     if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
     if (allocated(foil%bump_height)) gap = gap + (foil%height - foil%bump_height(bump))
     if (.not. present(strip)) return
+    if (allocated(foil%random%further_gap)) gap = gap + foil%random%further_gap(bump, strip)
     if (allocated(foil%strip%height)) gap = gap + (foil%height - foil%strip%height(strip))
   end function gap_of_crest
 

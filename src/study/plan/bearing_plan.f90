@@ -162,8 +162,8 @@ contains
       symmetric = is_symmetric(scene%operation, scene%sweep) .and. &
                   .not. scene%rotor%distance_in_time > 0.0_wp
       plan%half = symmetric .and. modulo(plan%axial, 2) == 0
-      plan%half = plan%half .and. strips_mirror(scene%bump_foil)
-      if (.not. strips_mirror(scene%bump_foil)) then
+      plan%half = plan%half .and. strips_mirror(scene)
+      if (.not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')

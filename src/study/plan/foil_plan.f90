@@ -10,7 +10,7 @@ module gfb_foil_plan
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, &
                                 strips_differ
   use gfb_strip_load_case, only: support_held, load_plates
-  use gfb_strip_sizes, only: sizes_mirror
+  use gfb_own_strip_rules, only: strips_mirror
   use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_estimate, only: strip_memory, modes_memory
   use gfb_memory_check, only: show_memory
@@ -39,8 +39,8 @@ contains
     plan%half = scene%model%half_width == half_width_yes
     if (scene%model%half_width == half_width_auto) then
       plan%half = strip .and. modulo(scene%mesh%axial_elements, 2) == 0
-      plan%half = plan%half .and. strips_mirror(scene%bump_foil)
-      if (strip .and. .not. strips_mirror(scene%bump_foil)) then
+      plan%half = plan%half .and. strips_mirror(scene)
+      if (strip .and. .not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because the loads are')
@@ -75,13 +75,6 @@ contains
     end if
     if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
   end subroutine plan_foil
-
-  !> Whether the strips mirror each other about the midplane; one does.
-  elemental function strips_mirror(foil) result(mirror)
-    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: mirror
-    mirror = sizes_mirror(foil%strip)
-  end function strips_mirror
 
   !> Tells of strips with sizes of their own.
   subroutine show_strips(foil, log)
