@@ -132,6 +132,9 @@ def check_foils(checks, folder):
     check_differences(checks, folder, "beams with friction at their faces",
                       with_keys(foils("beam", 0.1), contact={"contact_surface": "face"}),
                       {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
+    check_differences(checks, folder, "shells with friction at their faces",
+                      with_keys(shells, contact={"contact_surface": "face"}),
+                      {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4})
     # By default half a pitch is 4.5 elements: neither key may change how many there are.
     near = with_keys(foils("beam", 0.1), bearing={"radius": 0.0095045}, mesh={"circumferential_elements": None})
     check_differences(checks, folder, "beams, as many elements as fit", near, {"bump_foil%pitch": 8.0e-6, "bearing%radius": 8.0e-6})

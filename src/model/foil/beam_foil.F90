@@ -19,7 +19,8 @@ module gfb_beam_foil
   use gfb_contact_point, only: contact_point_type
   use gfb_contact_set, only: contact_set_type
   use gfb_quad_mesh, only: quad_mesh_type
-  use gfb_planar_beam, only: beam_unknowns, beam_mass
+  use gfb_planar_beam, only: beam_unknowns, beam_mass, beam_section_type, plane_strain_section, linear_beam_stiffness, &
+                             bent_beam_stiffness
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_stress, only: beam_stresses
@@ -28,6 +29,7 @@ module gfb_beam_foil
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   implicit none (type)
   private
+  public :: stiffness_behind, width_of
 
   integer, parameter, public :: of_beam(beam_unknowns) = [1, 2, 4] !! of a node's: along x, along v, about the axis
 
@@ -80,12 +82,42 @@ contains
         here = (station - 1)*mesh%rows + 1
         next = here + mesh%rows
         section = element_section(mesh, surface%section, (station - 1)*(mesh%rows - 1) + 1)
-        block = line_length(mesh, [1, mesh%rows])*beam_mass(section%density, section%thickness, mesh%position(:2, [here, next]))
+        block = width_of(mesh)*beam_mass(section%density, section%thickness, mesh%position(:2, [here, next]))
         row = int([number(of_beam, station), number(of_beam, station + 1)] - 1, pint)
         PetscCallA(MatSetValues(mass, int(size(row), pint), row, int(size(row), pint), row, [block], ADD_VALUES, ierr))
       end do
     end associate
   end subroutine add_mass_along
+
+  !> Stiffness of the element between a station and the next one, per metre of width.
+  !>
+  !> Film and crests see the top foil as a straight line between stations, the bumps show nodes only.
+  pure function stiffness_behind(mesh, section, station, bent) result(stiffness)
+    type(quad_mesh_type), intent(in) :: mesh !! of one of the foils
+    type(shell_section_type), intent(in) :: section !! thickness and material where the mesh has none of its own
+    integer, intent(in) :: station !! but the last one
+    logical, intent(in) :: bent !! the element bends between its ends
+    real(wp) :: stiffness(2*beam_unknowns, 2*beam_unknowns)
+    type(shell_section_type) :: sheet
+    type(beam_section_type) :: beam
+
+    associate (here => (station - 1)*mesh%rows + 1)
+      sheet = element_section(mesh, section, (station - 1)*(mesh%rows - 1) + 1)
+      beam = plane_strain_section(sheet%thickness, sheet%youngs_modulus, sheet%poissons_ratio)
+      if (bent) then
+        stiffness = bent_beam_stiffness(beam, mesh%position(:2, [here, here + mesh%rows]))
+      else
+        stiffness = linear_beam_stiffness(beam, mesh%position(:2, [here, here + mesh%rows]))
+      end if
+    end associate
+  end function stiffness_behind
+
+  !> Width that is solved [m].
+  pure function width_of(mesh) result(width)
+    type(quad_mesh_type), intent(in) :: mesh !! of one of the foils
+    real(wp) :: width
+    width = line_length(mesh, [1, mesh%rows])
+  end function width_of
 
   !> The foil's own numbers: the first rank has all of them.
   function beam_natural_numbers(self) result(number)

@@ -15,19 +15,17 @@ module gfb_beam_foil_builder
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_quad_mesh, only: node_set, quad_mesh_type, solid_rows
   use gfb_foil_mesh, only: station_positions
-  use gfb_planar_beam, only: beam_section_type, plane_strain_section, linear_beam_stiffness, &
-                             bent_beam_stiffness, beam_unknowns
-  use gfb_shell_geometry, only: node_unknowns, shell_section_type
-  use gfb_foil_pieces, only: element_section
+  use gfb_planar_beam, only: beam_unknowns
+  use gfb_shell_geometry, only: node_unknowns
   use gfb_contact_point, only: contact_point_type
-  use gfb_bump_contacts, only: bump_contact, touch_with_face, touch_top_face, crest_name, line_length, &
+  use gfb_bump_contacts, only: bump_contact, touch_with_face, touch_top_face, crest_name, &
                                contact_sleeve, contact_top
   use gfb_foil_builder, only: shape_on_pad, plate_section, section_of, strip_on_pad
   use gfb_foil_surface, only: foil_surface_type
   use gfb_top_mesh, only: top_mesh
   use gfb_initial_moment, only: add_initial_moment
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
-  use gfb_beam_foil, only: beam_foil_type, component => of_beam
+  use gfb_beam_foil, only: beam_foil_type, component => of_beam, stiffness_behind, width_of
   implicit none (type)
   private
   public :: create_beam_foil
@@ -138,7 +136,6 @@ contains
     PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
     PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
     if (foil%owned > 0) then
-      ! Film and crests see the top foil as a straight line between stations, the bumps show nodes only.
       call add_beam(foil%top, .false., foil%top_number, foil%elastic)
       call add_beam(foil%bumps, .true., foil%bump_number, foil%elastic)
     end if
@@ -155,37 +152,17 @@ contains
     logical, intent(in) :: bent         !! elements bend between their ends
     integer, intent(in) :: number(:, :) !! (5, stations)
     Mat, intent(in) :: matrix
-
-    type(shell_section_type) :: sheet
-    type(beam_section_type) :: section
-    real(wp) :: stiffness(ends*beam_unknowns, ends*beam_unknowns)
     PetscInt :: row(ends*beam_unknowns)
     PetscErrorCode :: ierr
-    integer :: station, here, next
+    integer :: station
 
     associate (mesh => surface%mesh)
       do station = 1, mesh%stations - 1
-        here = (station - 1)*mesh%rows + 1
-        next = here + mesh%rows
-        sheet = element_section(mesh, surface%section, (station - 1)*(mesh%rows - 1) + 1)
-        section = plane_strain_section(sheet%thickness, sheet%youngs_modulus, sheet%poissons_ratio)
-        if (bent) then
-          stiffness = bent_beam_stiffness(section, mesh%position(:radial, [here, next]))
-        else
-          stiffness = linear_beam_stiffness(section, mesh%position(:radial, [here, next]))
-        end if
         row = int([number(component, station), number(component, station + 1)] - 1, pint)
-        PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness], ADD_VALUES, ierr))
+        PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness_behind(mesh, surface%section, station, bent)], ADD_VALUES, ierr))
       end do
     end associate
   end subroutine add_beam
-
-  !> Width that is solved [m].
-  pure function width_of(mesh) result(width)
-    type(quad_mesh_type), intent(in) :: mesh
-    real(wp) :: width
-    width = line_length(mesh, [1, mesh%rows])
-  end function width_of
 
   !> One contact a line; their unknowns stand as the foil's own numbers for now.
   subroutine add_contacts(scene, foil)

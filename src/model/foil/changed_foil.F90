@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Foils of shells with other numbers on the same mesh of the film, without being built anew.
+!> Elastic forces of foils of shells or beams with other numbers on the same mesh of the film.
 !>
 !> What is linear in the unknowns is not assembled: elastic forces with another thickness, material or shape of the bumps
 !> are those of the elements, or of the super-elements, one by one.
@@ -7,68 +7,32 @@ module gfb_changed_foil
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_petsc_session, only: this_rank, share_failure
+  use gfb_petsc_session, only: share_failure
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
   use gfb_film_mesh, only: film_mesh_type
-  use gfb_quad_mesh, only: quad_mesh_type, strip_at
-  use gfb_mesh_dm, only: columns_window
+  use gfb_quad_mesh, only: quad_mesh_type
   use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
-  use gfb_foil_builder, only: strip_on_pad, section_of, plate_section
+  use gfb_foil_mesh, only: bump_strip_mesh
+  use gfb_foil_builder, only: strip_on_pad, shape_on_pad, section_of, plate_section
   use gfb_foil_structure, only: foil_structure_type
   use gfb_foil_pieces, only: condense_piece, element_geometry, element_section
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
   use gfb_super_element, only: super_element_type, destroy_super_element
-  use gfb_bump_contacts, only: contact_top
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
-  use gfb_foil_places, only: set_laws
+  use gfb_meshed_foil, only: meshed_foil_type
+  use gfb_changed_contacts, only: window_of
   use gfb_shell_foil, only: shell_foil_type
+  use gfb_beam_foil, only: beam_foil_type, stiffness_behind, width_of, of_beam
   implicit none (type)
   private
-  public :: takes_numbers, take_foil_numbers, add_changed_force
+  public :: add_changed_force
 
   real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
 
 contains
-
-  !> Whether a foil can take other numbers.
-  pure function takes_numbers(foil) result(takes)
-    class(foil_model_type), intent(in) :: foil !! any
-    logical :: takes
-
-    takes = .false.
-    select type (foil)
-    type is (shell_foil_type)
-      takes = .true.
-    end select
-  end function takes_numbers
-
-  !> Gives a foil the laws and gaps of its contacts, and the pressure around, of a scene; the contacts stay linearised
-  !> where they are.
-  subroutine take_foil_numbers(scene, foil)
-    type(scene_type), intent(in) :: scene !! with a foil on the same meshes
-    class(foil_model_type), intent(inout) :: foil !! that can take them
-    integer :: i
-
-    select type (foil)
-    type is (shell_foil_type)
-      foil%ambient_pressure = scene%gas%ambient_pressure
-      call set_laws(scene, foil)
-      do i = 1, size(foil%contacts%point)
-        associate (point => foil%contacts%point(i))
-          if (point%law == contact_top) then
-            point%gap = gap_of_crest(scene%bump_foil, point%line, strip_at(foil%bumps%mesh, point%node))
-          else
-            point%gap = gap_of_corner(scene%bump_foil, point%line)
-          end if
-        end associate
-      end do
-      call foil%contacts%linearise_again()
-    end select
-  end subroutine take_foil_numbers
 
   !> Adds the elastic forces of one of the foils as a scene has it. All ranks ask.
   !>
@@ -82,31 +46,71 @@ contains
     real(wp), intent(inout) :: residual(:) !! of the pad, one a local unknown [SI]
     type(error_type), allocatable, intent(out) :: error !! why it failed
     PetscScalar, pointer :: values(:)
-    type(quad_mesh_type) :: mesh
     PetscErrorCode :: ierr
 
     select type (foil)
-    type is (shell_foil_type)
+    class is (meshed_foil_type)
       PetscCallA(GFB_VecGetArray(foil%state, values, ierr))
       values = unknown(foil%first + foil%own_place)
       PetscCallA(GFB_VecRestoreArray(foil%state, values, ierr))
       PetscCallA(VecSet(foil%force, 0.0_wp, ierr))
-      if (of_bumps) then
-        mesh = strip_on_pad(scene, film, columns_window(foil%bumps%column_part, this_rank() + 1))
-        if (foil%bumps%reduced) then
-          call add_pieces(foil, mesh, section_of(scene%bump_foil), error)
-        else
-          call add_elements(foil, foil%bumps, mesh, section_of(scene%bump_foil), of_bumps, error)
-        end if
-      else
+    end select
+    select type (foil)
+    type is (shell_foil_type)
+      if (.not. of_bumps) then
         call add_elements(foil, foil%top, foil%top%mesh, plate_section(scene), of_bumps, error)
+      else if (foil%bumps%reduced) then
+        call add_pieces(foil, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), error)
+      else
+        call add_elements(foil, foil%bumps, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), &
+                          of_bumps, error)
       end if
-      if (allocated(error)) return
+    type is (beam_foil_type)
+      if (.not. of_bumps) then
+        call add_beam(foil, foil%top%mesh, width_of(foil%top%mesh), plate_section(scene), foil%top_number, of_bumps)
+      else
+        ! all rows are alike
+        call add_beam(foil, bump_strip_mesh(shape_on_pad(scene), film%row_axial(:2), film%half, window_of(foil)), &
+                      width_of(foil%bumps%mesh), section_of(scene%bump_foil), foil%bump_number, of_bumps)
+      end if
+    end select
+    if (allocated(error)) return
+    select type (foil)
+    class is (meshed_foil_type)
       PetscCallA(GFB_VecGetArrayRead(foil%force, values, ierr))
       residual(foil%first + foil%own_place) = residual(foil%first + foil%own_place) + values
       PetscCallA(GFB_VecRestoreArrayRead(foil%force, values, ierr))
     end select
   end subroutine add_changed_force
+
+  !> Forces of a beam's elements, all of them on the rank that has the foil.
+  subroutine add_beam(foil, mesh, width, section, number, bent)
+    type(beam_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
+    type(quad_mesh_type), intent(in) :: mesh !! of one of its beams
+    real(wp), intent(in) :: width !! that is solved [m]
+    type(shell_section_type), intent(in) :: section
+    integer, intent(in) :: number(:, :) !! (5, stations) the foil's own, 0: fixed
+    logical, intent(in) :: bent !! elements bend between their ends
+    PetscScalar, pointer :: state(:), values(:)
+    real(wp) :: moved(0:foil%owned), force(0:foil%owned)
+    PetscErrorCode :: ierr
+    integer :: station
+
+    if (foil%owned == 0) return
+    PetscCallA(GFB_VecGetArrayRead(foil%state, state, ierr))
+    moved(0) = 0.0_wp
+    moved(1:) = state
+    PetscCallA(GFB_VecRestoreArrayRead(foil%state, state, ierr))
+    force = 0.0_wp
+    do station = 1, mesh%stations - 1
+      associate (own => [number(of_beam, station), number(of_beam, station + 1)])
+        force(own) = force(own) + width*matmul(stiffness_behind(mesh, section, station, bent), moved(own))
+      end associate
+    end do
+    PetscCallA(GFB_VecGetArray(foil%force, values, ierr))
+    values = force(1:)
+    PetscCallA(GFB_VecRestoreArray(foil%force, values, ierr))
+  end subroutine add_beam
 
   !> Forces of this rank's super-elements.
   subroutine add_pieces(foil, mesh, section, error)

@@ -32,6 +32,7 @@ module gfb_meshed_foil
     Vec :: state, force                       !! of the owned unknowns, in SI
   contains
     procedure :: add_residual => meshed_residual
+    procedure :: add_contact_forces
     procedure :: add_jacobian => meshed_jacobian
     procedure :: add_constant => meshed_constant
     procedure :: add_load_rates => meshed_load_rates
@@ -85,7 +86,7 @@ contains
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
 
-    real(wp) :: contact(self%local_unknowns()), load(size(self%pressed, 1))
+    real(wp) :: load(size(self%pressed, 1))
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
     integer :: element, i
@@ -108,6 +109,17 @@ contains
       end do
     end do
 
+    call self%add_contact_forces(unknown, residual)
+  end subroutine meshed_residual
+
+  !> Forces of the contacts, and of the top foil's initial moment.
+  subroutine add_contact_forces(self, unknown, residual)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
+    real(wp) :: contact(self%local_unknowns())
+    PetscErrorCode :: ierr
+
     if (allocated(self%initial_load)) then
       associate (mine => residual(self%first + 1:self%first + size(contact)))
         mine = mine - self%initial_load
@@ -121,7 +133,7 @@ contains
       mine = mine - contact
     end associate
     PetscCallA(PetscLogEventEnd(self%events%contact, ierr))
-  end subroutine meshed_residual
+  end subroutine add_contact_forces
 
   !> Stiffness of the contacts as they are linearised.
   subroutine meshed_jacobian(self, unknown, jacobian)

@@ -16,7 +16,8 @@ module gfb_changed_bearing
   use gfb_bearing_system, only: bearing_system_type
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: build_like, take_numbers
-  use gfb_changed_foil, only: takes_numbers, add_changed_force
+  use gfb_changed_contacts, only: takes_numbers, add_contact_forces
+  use gfb_changed_foil, only: add_changed_force
   use gfb_answer_gradient, only: extreme_nodes_type, measure
   implicit none (type)
   private
@@ -109,8 +110,7 @@ contains
     end associate
   end function keeps_meshes
 
-  !> The same bearing with other numbers. Elastic forces as they were are part of the residual, beside those of a foil that
-  !> has changed: differences do not see them.
+  !> The same bearing with other numbers.
   subroutine evaluate_in_place(scene, there, key, bearing, unknown, nodes, residual, number, valid, error)
     type(scene_type), intent(in) :: scene, there !! as it is; with the key changed
     type(swept_key_type), intent(in) :: key !! that is changed
@@ -121,24 +121,45 @@ contains
     real(wp), intent(out) :: number(:)
     logical, intent(out) :: valid !! gap and pressure are positive
     type(error_type), allocatable, intent(out) :: error
-    real(wp) :: value(size(unknown))
-    integer :: i
 
     call take_numbers(there, bearing)
-    call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
-    number = measure(bearing, unknown, bearing%point, nodes)
+    select case (key%group)
+    case ('contact', 'top_foil', 'bump_foil')
+      valid = .true.
+      number = 0.0_wp
+      call evaluate_foils(there, key, bearing, unknown, residual, error)
+    case default
+      call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
+      number = measure(bearing, unknown, bearing%point, nodes)
+    end select
     call take_numbers(scene, bearing)
-    if (is_gap(key) .or. key%group /= 'top_foil' .and. key%group /= 'bump_foil') return
+  end subroutine evaluate_in_place
+
+  !> What a key of the foils changes at a fixed state: forces of contacts, and elastic ones. The film's equations, forces
+  !> of the foils that stay and all numbers are left out: differences do not see them.
+  subroutine evaluate_foils(there, key, bearing, unknown, residual, error)
+    type(scene_type), intent(in) :: there !! with the key changed
+    type(swept_key_type), intent(in) :: key !! that is changed
+    type(bearing_system_type), intent(in) :: bearing !! with the numbers of that scene
+    real(wp), intent(in) :: unknown(:) !! in SI
+    type(tVec), intent(in) :: residual !! scaled
+    type(error_type), allocatable, intent(out) :: error
+    real(wp) :: value(size(unknown))
+    PetscErrorCode :: ierr
+    integer :: i
+
     value = 0.0_wp
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i))
-        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(pad%first + 1:pad%last), &
-                               value(pad%first + 1:pad%last), error)
+      associate (pad => bearing%pad(i), first => bearing%pad(i)%first + 1, last => bearing%pad(i)%last)
+        call add_contact_forces(pad%foil, unknown(first:last), value(first:last))
+        if (is_gap(key) .or. key%group == 'contact') cycle
+        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(first:last), value(first:last), error)
       end associate
       if (allocated(error)) return
     end do
+    PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call bearing%exchange%add(value/bearing%equation_scale(bearing%point), residual)
-  end subroutine evaluate_in_place
+  end subroutine evaluate_foils
 
   !> Another bearing on a mesh like this one's.
   subroutine evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
