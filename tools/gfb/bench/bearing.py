@@ -1,5 +1,5 @@
 """A foil bearing with friction: monolithic against partitioned, reduced against full order, half against full width,
-shells against beams; and other bearings with the same model: three pads, three strips side by side.
+shells against beams; other bearings with the same model: three pads, three strips side by side; derivatives by ten keys.
 
 The bearing of inputs/gu2020_bearing.nml is solved from a cold start at the first load, then at the other loads of a
 sweep, each point from its neighbour. Film, contacts and tolerances are the same in all models, the mesh is the
@@ -44,6 +44,10 @@ OTHERS = {  # other bearings, with the default model: what is changed in the cas
                                 "preload_offset": 0.5}, "bump_foil": {"bumps": 8, "pitch": None}},
     "three strips side by side": {"bump_foil": {"strips": 3, "cut_width": 0.5e-3}},
 }
+KEYS = ("top_foil%thickness", "bump_foil%thickness", "bump_foil%height", "bump_foil%half_length", "bearing%clearance",
+        "contact%friction_top", "contact%friction_sleeve", "operation%load", "operation%speed_rpm", "gas%viscosity")
+DERIVED = {"sensitivity": {"quantity": ("minimum_gap", "friction_torque"), "parameters": KEYS}}
+WITH_DERIVATIVES = (DEFAULT, "beams", *OTHERS)
 COLD_ONLY = "  full order, full width"  # no sweep: it would take as long as all others
 
 # PETSc's log has wall times, which other jobs stretch; the process' CPU time is shared out as they are. An event's
@@ -82,7 +86,7 @@ def run(options):
                 print(f"{model.strip()} ...", file=sys.stderr, flush=True)
                 runs.append(measure(options.gfb, model, options.points, folder))
     draw(measured, options.output/"bearing.png")
-    tables = [cold_table(measured), sweep_table(measured), part_table(measured)]
+    tables = [cold_table(measured), sweep_table(measured), derivative_table(measured), part_table(measured)]
     (options.output/"bearing.md").write_text("\n".join(markdown_table(*table) for table in tables), encoding="utf-8")
     head = (f"bearing of [Gu2020] section 4.2, 100 N cold (three pads: 30 N), then {options.points - 1} points {STEP:g} N "
             f"apart; 30,000 rpm, one rank\nmedians of {options.repetitions} runs of each model; CPU: the whole "
@@ -113,6 +117,8 @@ def measure(gfb, model, points, folder):
     found = {"summary": cold.summary, "cpu": {"cold": cold.cpu, "sweep": 0.0}, "sweep": {},
              "cold": {name: share*value for name, value in first.items()}, "solves": calls(stages, COLD, TRIANGULAR),
              "factorization": share*time_in(stages, COLD, NUMERIC)/max(1.0, calls(stages, COLD, NUMERIC))}
+    if cold.converged and model in WITH_DERIVATIVES:
+        found["cpu"]["derivatives"] = run_model(gfb, model, 1, folder, DERIVED)[0].cpu - cold.cpu
     done = cold
     if cold.converged and model != COLD_ONLY:
         done, stages = run_model(gfb, model, points, folder)
@@ -124,9 +130,9 @@ def measure(gfb, model, points, folder):
     return {**found, "converged": done.converged, "history": history, "points": len(history["load"])}
 
 
-def run_model(gfb, model, points, folder):
-    """A run, and PETSc's log of it."""
-    done, stages = run_logged(gfb, bearing_case(model, points), folder, "bearing", may_stop=True)
+def run_model(gfb, model, points, folder, more=()):
+    """A run, perhaps with more groups in its case file, and PETSc's log of it."""
+    done, stages = run_logged(gfb, bearing_case(model, points) | dict(more), folder, "bearing", may_stop=True)
     if ASSEMBLY not in stages.get(COLD, {}):
         stop("PETSc's log has no assembly in it: is it built without logging?", 3)
     return done, stages
@@ -234,6 +240,19 @@ def sweep_table(measured):
     heads = ["a point of the sweep", "", "points", "CPU [s]", "ratio", "Newton iterations, mean",
              "factorizations, mean", "median", "most"]
     return ("counts of a point of the sweep after the first", heads, rows)
+
+
+def derivative_table(measured):
+    """Title, heads and rows of derivatives by ten keys at the cold start's answer."""
+    rows = []
+    for model, runs in measured.items():
+        if "derivatives" not in runs[0]["cpu"]:
+            continue
+        share = statistics.median(one["cpu"]["derivatives"]/one["cpu"]["cold"] for one in runs)
+        rows.append([model.strip(), f"{len(KEYS)}", f"{median_of(runs, cold_cpu):.2f}",
+                     f"{median_of(runs, lambda one: one['cpu']['derivatives']):.2f}", f"{100.0*share:.0f} %"])
+    return ("what &sensitivity adds to the CPU time of the cold start; share: median of the rounds",
+            ["derivatives", "keys", "cold start [s]", "derivatives [s]", "share"], rows)
 
 
 def part_table(measured):
