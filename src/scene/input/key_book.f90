@@ -93,7 +93,8 @@ contains
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: unread
     associate (n => self%count)
-      unread = any(self%key_groups(:n) == group .and. self%key_names(:n) == key .and. self%keys(:n)%unread)
+      unread = any(self%key_groups(:n) == group .and. self%key_names(:n) == key .and. &
+                   self%keys(:n)%unread)
     end associate
   end function is_unread
 
