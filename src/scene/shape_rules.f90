@@ -1,5 +1,4 @@
-!> Sizes and loads for which the model has no meaning: films, foils and bumps are thin against the
-!> bearing, and nothing bears any pressure.
+!> Sizes for which the model has no meaning: films, foils and bumps are thin against the bearing.
 module gfb_shape_rules
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type, has_sizes, bump_half_lengths, &
@@ -7,8 +6,7 @@ module gfb_shape_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: sweep_load, sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, &
-                            sweep_eccentricity_y
+  use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -17,8 +15,6 @@ module gfb_shape_rules
   real(wp), parameter, public :: thin = 0.05_wp         !! film or foil, over the radius [1]
   real(wp), parameter, public :: thin_in_bump = 0.5_wp  !! foil, over half a bump's chord [1]
   real(wp), parameter, public :: low_in_pad = 0.25_wp   !! bump, over the radius of the pad [1]
-
-  real(wp), parameter :: unbearable = 1.0e10_wp !! mean pressure; metals yield below [Pa]
 
   character(len=*), parameter :: thin_film = ' of the radius: the film is thin and the pad unrolled'
 
@@ -41,7 +37,6 @@ contains
                       scene%strip_load%maximum_displacement, scene%bump_foil%height, &
                       'the height of the bumps')
     call check_position(keys, scene)
-    call check_loads(keys, scene)
   end subroutine check_shape
 
   !> Bumps are low against the bearing, and their foil is thin against them.
@@ -141,40 +136,6 @@ contains
       end do
     end subroutine lifts_must_be_less
   end subroutine check_position
-
-  !> Loads mean pressures that something can bear.
-  subroutine check_loads(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    real(wp) :: area !! that bears the load, 0 where it is not known [m^2]
-    integer :: point
-
-    area = 2.0_wp*scene%bearing%radius*scene%bearing%length
-    call must_be_borne('operation', 'load', norm2(scene%operation%load))
-    if (scene%sweep%parameter == sweep_load) then
-      do point = 1, size(scene%sweep%values)
-        call must_be_borne('sweep', 'values', scene%sweep%values(point), point)
-      end do
-    end if
-    area = scene%bump_foil%width*scene%bump_foil%pitch*scene%bump_foil%bumps
-    call must_be_borne('strip_load', 'maximum_force', scene%strip_load%maximum_force)
-    area = 1.0_wp
-    call must_be_borne('strip_load', 'pressure', scene%strip_load%pressure)
-
-  contains
-
-    !> Complains about a force whose mean pressure nothing bears.
-    subroutine must_be_borne(group, key, force, point)
-      character(len=*), intent(in) :: group, key
-      real(wp), intent(in) :: force !! on the area [N]
-      integer, intent(in), optional :: point !! of a list
-
-      if (force < unbearable*area .or. .not. area > 0.0_wp) return
-      call keys%complain(group, key, 'means a mean pressure of '//text(force/area, 3)// &
-                         ' Pa, which must be less than '//text(unbearable)//' Pa: no metal '// &
-                         'bears more', point)
-    end subroutine must_be_borne
-  end subroutine check_loads
 
   !> Complains about a size that is not less than its limit; none where the limit is not known.
   subroutine must_be_less(keys, group, key, value, limit, what, point, of)

@@ -11,12 +11,10 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, remember_answer, touching_words
+  public :: bearing_answer, remember_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
-  !> height over the clearance from which a top foil is lifted [1]
-  real(wp), parameter :: lifted_from = 0.1_wp
 
   !> Numbers of one state.
   type, public :: bearing_answer_type
@@ -132,32 +130,6 @@ contains
       largest(7) = film_peclet(film, bearing%point, pressure, gap, rough_step)
     end associate
   end subroutine read_film
-
-  !> What closes the film where it is thinnest: the shaft comes to the foil, or a lifted foil to the
-  !> shaft.
-  function touching_words(bearing) result(words)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    character(len=:), allocatable :: words
-    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes())
-    real(wp) :: least, lift(1)
-    integer :: i
-
-    call bearing%get_unknowns(unknown)
-    gap = bearing%gap(unknown)
-    least = bearing%smallest_gap()
-    lift = -huge(lift)
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i))
-        lift(1) = max(lift(1), maxval(-pad%foil%deflection(unknown(pad%first + 1:pad%last)), &
-                                      gap(pad%first_node + 1:pad%last_node) <= least))
-      end associate
-    end do
-    lift = largest_over_ranks(lift)
-    words = 'the shaft touches down'
-    if (lift(1) > lifted_from*bearing%pad(1)%film%clearance) then
-      words = 'the lifted top foil touches the shaft'
-    end if
-  end function touching_words
 
   !> What the shaft's asperities carry, and how they rub: the shaft turns, or begins to.
   subroutine read_solid_contact(bearing, unknown, answer)

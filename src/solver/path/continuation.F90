@@ -8,7 +8,7 @@ module gfb_continuation
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, touching_words
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_fold_search, only: look_beyond, branch_lost, branch_goes_on, branch_folds
   use gfb_path_report, only: path_settings_type, path_report_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
@@ -129,7 +129,7 @@ contains
     thin = bearing%smallest_gap() < settings%touch_down_gap
     if (.not. thin) return
     report%touched = .true.
-    report%reason = touching_words(bearing)//': the film is thinner than '//text(settings%touch_down_gap*micrometres, 3)//' um'
+    report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*micrometres, 3)//' um'
   end function too_thin
 
   !> Where no step leads on: goes to the very end of the branch, or past what hindered.
@@ -240,7 +240,7 @@ contains
     answer = bearing_answer(bearing)
     report%touched = is_closing(bearing) .and. .not. spent
     if (report%touched) then
-      report%reason = touching_words(bearing)//': the gap has closed to '//text(answer%minimum_gap*micrometres, 3)// &
+      report%reason = 'the shaft touches down: the gap has closed to '//text(answer%minimum_gap*micrometres, 3)// &
         ' um, beyond that '//report%reason
     else if (report%folded) then
       report%reason = 'the branch of answers ends in a fold: beyond it the '//trim(merge('top foil', 'shaft   ', &

@@ -4,7 +4,6 @@
 module gfb_folds
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_bearing_answer, only: touching_words
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_signals, only: stop_words
@@ -117,7 +116,7 @@ contains
     gap = sweep%bearing%smallest_gap()
     if (moved .and. gap < sweep%path%touch_down_gap) then
       report%touched = .true.
-      report%reason = touching_words(sweep%bearing)//' at '//value_text(sweep%scene, branch%arc%lambda)
+      report%reason = 'the shaft touches down at '//value_text(sweep%scene, branch%arc%lambda)
     else if (branch%arc%steps >= most_steps) then
       report%reason = 'more than '//text(most_steps)//' steps along the branch'
     end if

@@ -14,7 +14,7 @@ module gfb_key_path
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_bearing
   use gfb_pad_contacts, only: set_upwind
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, touching_words
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
   use gfb_start_problem, only: drop_bearing, count_spent
   use gfb_kept_state, only: kept_state_type
@@ -133,7 +133,7 @@ contains
       if (iterations <= easy_iterations) step = 2.0_wp*step
       if (bearing%smallest_gap() < settings%touch_down_gap) then
         report%touched = .true.
-        report%reason = touching_words(bearing)//': the film is thinner than '//text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
+        report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
         exit
       end if
     end do
