@@ -8,7 +8,7 @@ module gfb_scene_table
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
   use gfb_results, only: add_result
-  use gfb_result_table, only: of_whole_table
+  use gfb_result_phrases, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
   use gfb_table_file, only: table_member_type, write_table_file, remember_member

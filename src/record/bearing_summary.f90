@@ -3,7 +3,7 @@ module gfb_bearing_summary
   use gfb_kinds, only: wp
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
-  use gfb_result_table, only: film_and_contact, film_and_contact_brake
+  use gfb_result_phrases, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type

@@ -5,7 +5,7 @@ module gfb_strip_summary
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
-  use gfb_result_table, only: of_this_step, of_all_steps, travel_of_plate
+  use gfb_result_phrases, only: of_this_step, of_all_steps, travel_of_plate
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_scene, only: scene_type

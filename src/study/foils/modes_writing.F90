@@ -8,7 +8,7 @@ module gfb_modes_writing
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_results, only: add_result
-  use gfb_result_table, only: all_modes_found, of_shifted_stiffness
+  use gfb_result_phrases, only: all_modes_found, of_shifted_stiffness
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type

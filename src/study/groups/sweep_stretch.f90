@@ -5,7 +5,8 @@ module gfb_sweep_stretch
   use gfb_memory, only: memory_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: compared_names, result_unit
-  use gfb_result_table, only: name_length, with_stretches
+  use gfb_result_phrases, only: with_stretches
+  use gfb_result_table, only: name_length
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type

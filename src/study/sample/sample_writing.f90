@@ -10,7 +10,8 @@ module gfb_sample_writing
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_result_names, only: asked_names, result_unit
   use gfb_result_set, only: result_grid_type, write_result_set
-  use gfb_result_table, only: name_length, all_members, seed_and_reason
+  use gfb_result_phrases, only: all_members, seed_and_reason
+  use gfb_result_table, only: name_length
   use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
