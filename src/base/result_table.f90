@@ -202,6 +202,13 @@ module gfb_result_table
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
       'the same: frequency of that whirl over the speed of the shaft', asked=.true.), &
+    result_type('stiffness_<a><b>', 'N/m', number, bearing, &
+      'real part of K + i omega C at the first frequency: force <a> over displacement <b>', &
+      'the same: entries of K and C for x and y, at the first of the frequencies; those of all '// &
+      'frequencies are in `/dynamics`', asked=.true.), &
+    result_type('damping_<a><b>', 'N s/m', number, bearing, &
+      'imaginary part of K + i omega C over omega at the first frequency: force <a> over '// &
+      'velocity <b>', asked=.true., joins=.true.), &
     result_type('coefficients', '1', number, bearing, &
       'stiffness and damping at all frequencies, each entry over the largest of its block', &
       'stiffness and damping at all frequencies, each entry over the largest of its 2 x 2 '// &

@@ -156,8 +156,14 @@ def check_vibrations(checks, folder):
     many = bearing(folder, "many", {**sampled(2), **groups}, random(0.5*MICROMETRE))
     rows = many.history()
     one = bearing(folder, "alone", groups, random(0.5*MICROMETRE, 6))
-    for name in ("critical_mass", "whirl_ratio", "growth_rate"):
+    entries = [f"{part}_{row}{column}" for part in ("stiffness", "damping") for row in "xy" for column in "xy"]
+    for name in ("critical_mass", "whirl_ratio", "growth_rate", *entries):
         checks.below(f"vibrations: {name} of a member", rows[name][1]/one[name] - 1.0, 1.0e-10)
+    with h5py.File(f"{one.stem}.h5") as file:
+        matrices = numpy.concatenate([file[f"dynamics/{part}"][0, :2, :2].ravel() for part in ("stiffness", "damping")])
+    checks.that("vibrations: entries are those of the arrays", matrices.tolist() == [one[name] for name in entries])
+    spread = [abs(rows[name][1] - rows[name][0])/numpy.sqrt(2.0)/many[f"{name}_deviation"] - 1.0 for name in entries]
+    checks.below("vibrations: deviation of stiffness and damping", max(map(abs, spread)), 1.0e-8)
     checks.below("vibrations: mean critical mass", many["critical_mass_mean"]/rows["critical_mass"].mean() - 1.0, 1.0e-14)
 
 

@@ -14,7 +14,9 @@ module gfb_accuracy_case
 
   character(len=*), parameter, public :: all_coefficients = 'coefficients' !! not one number
   character(len=*), parameter :: of_vibrations(*) = &
-    [character(len=13) :: 'critical_mass', 'whirl_ratio', all_coefficients]
+    [character(len=13) :: 'critical_mass', 'whirl_ratio', 'stiffness_xx', 'stiffness_xy', &
+     'stiffness_yx', 'stiffness_yy', 'damping_xx', 'damping_xy', 'damping_yx', 'damping_yy', &
+     all_coefficients]
 
   !> The number and its error.
   type :: accuracy_case_type

@@ -56,7 +56,7 @@ contains
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     procedure(opposite_builder) :: build !! of the bearing of tilts
     type(dynamics_record_type), intent(inout) :: record !! gets the answer's coefficients
-    type(quantity_type), allocatable, intent(out) :: found(:) !! critical mass, whirl ratio
+    type(quantity_type), allocatable, intent(out) :: found(:) !! entries of K and C, critical mass, whirl ratio
     type(rotor_answer_type), intent(out) :: rotor !! modes of the scene's rotor, where it has one
     type(dynamic_response_type) :: response
     type(dynamics_point_type) :: point
@@ -71,8 +71,9 @@ contains
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, log, bearing, response, point, record%problem)
-    if (.not. scene%sweep%present .and. .not. allocated(record%problem)) then
-      call show_coefficients(log, bearing%point%speed, point)
+    if (.not. allocated(record%problem)) then
+      call add_entries(point, found)
+      if (.not. scene%sweep%present) call show_coefficients(log, bearing%point%speed, point)
     end if
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
@@ -287,6 +288,28 @@ contains
       call log%line(line//numbers_of(stiffness_of(point, i))//numbers_of(damping_of(point, i)))
     end do
   end subroutine show_coefficients
+
+  !> Stiffness and damping of x and y at the first frequency, a number each.
+  subroutine add_entries(point, found)
+    type(dynamics_point_type), intent(in) :: point
+    type(quantity_type), allocatable, intent(inout) :: found(:)
+    character(len=*), parameter :: axes(translations) = ['x', 'y']
+    real(wp) :: stiffness(shaft_coordinates, shaft_coordinates), damping(shaft_coordinates, shaft_coordinates)
+    integer :: row, column
+
+    stiffness = stiffness_of(point, 1)
+    damping = damping_of(point, 1)
+    do row = 1, translations
+      do column = 1, translations
+        call add_result(found, 'stiffness_'//axes(row)//axes(column), stiffness(row, column))
+      end do
+    end do
+    do row = 1, translations
+      do column = 1, translations
+        call add_result(found, 'damping_'//axes(row)//axes(column), damping(row, column))
+      end do
+    end do
+  end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.
   subroutine add_whirl(log, bearing, response, found)

@@ -28,8 +28,8 @@ module gfb_sample_writing
   !> What the log shows of the statistics.
   character(len=name_length), parameter :: shown(*) = [character(len=name_length) :: &
     'minimum_gap', 'eccentricity_x', 'eccentricity_y', 'force_x', 'force_y', 'friction_torque', &
-    'maximum_pressure', 'loading_stiffness', 'maximum_force', 'dissipated_energy', &
-    'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
+    'maximum_pressure', 'stiffness_xx', 'stiffness_yy', 'loading_stiffness', 'maximum_force', &
+    'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
 
 contains
 
