@@ -8,7 +8,7 @@ import numpy
 
 
 from bump_sizes import BEARING, bearing, run_strip
-from gfb_run import Checks, largest_difference, natural_sizes, summary_difference
+from gfb_run import Checks, case_groups, largest_difference, natural_sizes, solve, summary_difference
 from sample import normal
 from strips import FOIL, HELD, MICROMETRE, crests
 
@@ -105,9 +105,23 @@ def check_bearings(checks, folder):
         checks.below(f"shells, {words}: force near that of one strip", off, 2.0e-2)
 
 
+def check_cold_start(checks, folder):
+    """Crests of cut strips keep touching where a smaller mesh's answer is carried over: few factorizations of the finest mesh."""
+    foil = {**FOIL, "bumps": 26, "fixed_edge": "trailing", "fixed_line": "half_flat", "cut_width": 0.5e-3}
+    for strips in (3, 5):
+        case = case_groups(BEARING, mesh=(None, 32), foil="shell", load=(-100.0, 0.0), speed_rpm=30000.0, groups={
+            "top_foil": {"thickness": 1.02e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "fixed_edge": "trailing"},
+            "bump_foil": {key: value for key, value in {**foil, "strips": strips}.items() if key != "width"},
+            "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}})
+        found = solve(folder, f"cold_{strips}", case)
+        checks.within(f"{strips} strips, cold: factorizations of the finest mesh", found["factorizations_finest"], 3, 8)
+        checks.within(f"{strips} strips, cold: factorizations", found["factorizations"], 30, 50)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
+        check_cold_start(checks, folder)
         check_sums(checks, folder)
         check_heights(checks, folder)
         check_bearings(checks, folder)

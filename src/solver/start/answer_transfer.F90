@@ -4,14 +4,18 @@
 !> Pressure and foils are interpolated. The top foil is a beam along the motion: between two stations
 !> its deflection is the cubic that has their deflections and turns. All else is linear, so that what
 !> is constant or tilts along the axis stays so. The bump foil has the same stations on every mesh.
+!> Where its strips are cut apart, its rows are not the top foil's: what is interpolated on either would press crests
+!> into the top foil between rows. Crests are moved to where they approach it as on the smaller system.
 module gfb_answer_transfer
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: fetch_entries
   use gfb_film_mesh, only: find_film_place, find_interval
   use gfb_shell_geometry, only: node_unknowns
+  use gfb_contact_point, only: spatial
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_model, only: foil_model_type
-  use gfb_meshed_foil, only: top_surface
+  use gfb_meshed_foil, only: top_surface, bump_surface
+  use gfb_bump_contacts, only: contact_top
   use gfb_foil_builder, only: axial, about_tangent
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
@@ -22,6 +26,7 @@ module gfb_answer_transfer
 
   integer, parameter :: corners = 4                    !! of an element
   integer, parameter :: radial = 2, about_axis = 4     !! components of a displacement: v, alpha
+  integer, parameter :: along_axis = 2, towards = 3    !! of an approach: second slip, penetration
 
   !> Where the stations or rows of one mesh lie among those of a smaller one.
   type :: places_type
@@ -37,7 +42,7 @@ contains
   subroutine transfer_answer(small, bearing)
     type(bearing_system_type), intent(in) :: small      !! with its answer
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
-    real(wp) :: coarse(small%local_size()), unknown(bearing%local_size())
+    real(wp) :: coarse(small%local_size()), unknown(bearing%local_size()), now(bearing%local_size())
     real(wp) :: share(corners, bearing%film_nodes())
     integer :: around(corners, bearing%film_nodes())
     type(foil_surface_type), allocatable :: surface(:), small_surface(:)
@@ -61,6 +66,16 @@ contains
         end associate
       end do
       call bearing%add_up(unknown, bearing%state)
+      if (allocated(small_surface(bump_surface)%mesh%cut)) then
+        call bearing%get_unknowns(now)
+        do k = 1, size(bearing%pad)
+          associate (from => small%pad(k), to => bearing%pad(k))
+            call keep_approach(from, small_surface(bump_surface), coarse(from%first + 1:from%last), to, surface(bump_surface), &
+                               now(to%first + 1:to%last), unknown(to%first + 1:to%last))
+          end associate
+        end do
+        call bearing%add_up(unknown, bearing%state)
+      end if
     else
       call bearing%put_pressure(film_field(small, small%film_pressure(coarse) + small%solid_pressure(coarse), around, share), &
                                 unknown)
@@ -131,6 +146,66 @@ contains
     value = interpolated(small%foil, small_surface, number, coarse, along, across)
     call put_own(bearing%foil, number, wanted, value, unknown)
   end subroutine transfer_surface
+
+  !> Moves this rank's crests to where they approach the top foil as on the smaller system.
+  subroutine keep_approach(small, small_surface, coarse, bearing, surface, now, unknown)
+    type(pad_type), intent(in) :: small, bearing !! a pad of each
+    type(foil_surface_type), intent(in) :: small_surface, surface !! bump foils
+    real(wp), intent(in) :: coarse(:)     !! the smaller pad's local unknowns, in SI
+    real(wp), intent(in) :: now(:)        !! the pad's, as they were interpolated
+    real(wp), intent(inout) :: unknown(:) !! the pad's own ones
+    type(places_type) :: across
+    integer, allocatable :: own(:), crest(:), node(:)
+    real(wp), allocatable :: known(:, :), approach(:, :), upper(:, :)
+    real(wp) :: way(spatial)
+    integer :: i, k
+
+    own = pack(small_surface%part%mesh_node, small_surface%part%owned)
+    known = approaches(small%foil, own, coarse)
+    associate (contacts => bearing%foil%contacts)
+      crest = pack([(i, i=1, size(contacts%point))], contacts%point%law == contact_top)
+      node = contacts%point(crest)%node
+      across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(modulo(node - 1, surface%mesh%rows) + 1), &
+                           small%whole%half)
+      node = (node - 1)/surface%mesh%rows*small_surface%mesh%rows + across%low
+      approach = fetch_entries(small_surface%mesh%nodes(), own, known, node)
+      upper = fetch_entries(small_surface%mesh%nodes(), own, known, node + 1)
+      do i = 1, size(crest)
+        approach(:, i) = approach(:, i) + across%share(i)*(upper(:, i) - approach(:, i))
+        if (across%mirrored(i)) approach(along_axis, i) = -approach(along_axis, i)
+        way = contacts%approach(crest(i), now(bearing%foil%first + 1:)) - approach(:, i)
+        way(towards) = -way(towards)
+        associate (point => contacts%point(crest(i)))
+          way = matmul(point%frame, way)
+          do k = 1, spatial
+            if (point%slave(k) == 0) cycle
+            associate (place => bearing%foil%first + point%slave(k))
+              unknown(place) = unknown(place) - way(k)
+            end associate
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine keep_approach
+
+  !> Slip and penetration of this rank's crests, by its own nodes; 0 at other nodes [m].
+  pure function approaches(foil, own, unknown) result(value)
+    class(foil_model_type), intent(in) :: foil
+    integer, intent(in) :: own(:)      !! nodes of the bump foil
+    real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
+    real(wp) :: value(spatial, size(own))
+    integer :: place(maxval([0, own]))
+    integer :: i
+
+    place = 0
+    place(own) = [(i, i=1, size(own))]
+    value = 0.0_wp
+    do i = 1, size(foil%contacts%point)
+      associate (point => foil%contacts%point(i))
+        if (point%law == contact_top) value(:, place(point%node)) = foil%contacts%approach(i, unknown(foil%first + 1:))
+      end associate
+    end do
+  end function approaches
 
   !> Where positions lie among rising ones; mirrored ones where only positive ones are known.
   pure function find_places(known, position, half) result(places)

@@ -8,7 +8,7 @@ module gfb_smaller_scene
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_model_case, only: meshes_foils, half_width_auto
+  use gfb_model_case, only: foil_shell, meshes_foils, half_width_auto
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
@@ -87,7 +87,7 @@ contains
     type(bearing_plan_type), intent(inout) :: small_plan
     integer :: fewest, of_pitch
 
-    fewest = 2*max(1, least_axial/plan%order)
+    fewest = fewest_rows(scene, plan)
     of_pitch = nint(plan%circumferential*scene%bump_foil%pitch/pad_length(scene%bearing))
     found = .true.
     if (plan%axial >= 2*fewest) then
@@ -103,6 +103,19 @@ contains
       found = .false.
     end if
   end subroutine coarsen_foils
+
+  !> Elements over the width of the smallest mesh of foils; as many on every strip of shells, so that the top foil bends where
+  !> strips are cut apart, as they do.
+  pure function fewest_rows(scene, plan) result(fewest)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    integer :: fewest, of_strips
+
+    fewest = 2*max(1, least_axial/plan%order)
+    if (scene%model%foil /= foil_shell) return
+    of_strips = 2*max(1, scene%bump_foil%strips) ! symmetric
+    fewest = of_strips*((fewest - 1)/of_strips + 1)
+  end function fewest_rows
 
   !> Whether half the elements of a film each way still make a mesh.
   pure function can_coarsen(plan) result(can)
