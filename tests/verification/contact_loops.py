@@ -192,7 +192,7 @@ def check_path(checks, folder):
     for words, run in (("free", free_run), ("clamped", clamped_run), ("pressed", pressed_run)):
         whole = run()
         cut, fewest = whole, int(whole.history()["newton_iterations"].max())
-        while "cuts" not in cut.log and fewest > 4:
+        while "cuts" not in cut.log and fewest > 2:
             fewest -= 1
             cut = run(solver={"maximum_iterations": fewest})
         checks.that(f"{words}: at most {fewest} iterations make detours", "cuts" in cut.log and "cuts" not in whole.log)
