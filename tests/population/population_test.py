@@ -68,6 +68,7 @@ def check_words(checks):
             ("emptied", 2, said + "the film is emptied: its pressure falls to 0.06 Pa behind a gap of 0.7 um"),
             ("suction", 2, said + "the film draws the free edge of the top foil to the shaft"),
             ("suction in part", 2, said + "the film draws the free edge of the top foil to the shaft, as far as it was followed"),
+            ("suction", 2, said + "none of 5 starts led there; sought from 10 % of the load up: the edge stays at no height below that at rest"),
             (trial.NO_REASON, 2, said + "no step, however short, leads on"), (trial.BROKEN, 76, ""), (trial.BROKEN, -11, ""),
             (trial.BOUND, -24, ""), (trial.INVALID, 1, "")):
         checks.that(f"status {status} '{log[-30:]}' is {expected}", trial.outcome_of(status, log) == expected)

@@ -31,8 +31,10 @@ module gfb_path_report
     logical :: drawn = .false.                !! the film draws the free edge to the shaft
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the reason is a smaller mesh's, not shown here
+    logical :: names_cause = .false.          !! the reason has a cause that has no flag here
   contains
     procedure :: has_cause => report_has_cause
+    procedure :: tells_why
   end type path_report_type
 
 contains
@@ -43,4 +45,11 @@ contains
     logical :: has
     has = self%touched .or. self%folded .or. self%emptied
   end function report_has_cause
+
+  !> Whether its reason names a cause in the bearing, be it one that only a smaller mesh has shown.
+  elemental function tells_why(self) result(tells)
+    class(path_report_type), intent(in) :: self !! of a path that did not reach its end
+    logical :: tells
+    tells = self%has_cause() .or. self%drawn .or. self%names_cause
+  end function tells_why
 end module gfb_path_report

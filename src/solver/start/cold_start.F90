@@ -80,6 +80,7 @@ contains
       way%load(2) = light*target%load(2)
       call come_along(way, .true.)
       if (allocated(error)) return
+      call add_evidence('from '//text(100.0_wp*light(1), 2)//' % of the load up')
     end if
     again = .not. (refusal%drawn .or. refusal%has_cause() .or. report%has_cause())
     again = (again .or. (refusal%drawn .and. scene%model%foil == foil_shell)) .and. .not. report%converged
@@ -91,6 +92,7 @@ contains
       way%speed = fast*target%speed
       call come_along(way, .false.)
       if (allocated(error)) return
+      call add_evidence('from '//text(fast(1), 2)//' times the speed down')
     end if
     if (.not. report%converged .and. (refusal%has_cause() .or. refusal%drawn .or. .not. report%has_cause())) then
       report = refusal
@@ -99,6 +101,15 @@ contains
     call refused%destroy()
 
   contains
+
+    !> A refusal that names no cause tells what has ended a way to it, where that is one.
+    subroutine add_evidence(place)
+      character(len=*), intent(in) :: place !! where the way begins
+
+      if (report%converged .or. refusal%tells_why() .or. .not. report%tells_why()) return
+      refusal%reason = refusal%reason//'; sought '//place//': '//report%reason
+      refusal%names_cause = .true.
+    end subroutine add_evidence
 
     !> From an answer at the first of some points to the last.
     subroutine come_along(way, one_start)
@@ -275,6 +286,7 @@ contains
         report%reason = problem%refusal%reason ! of all starts, not of one
         report%drawn = problem%refusal%drawn
         report%of_smaller = .true.
+        report%names_cause = problem%refusal%tells_why()
       end if
       if (.not. (told .or. problem%refusal%of_smaller)) then
         report%reason = report%reason//', as the mesh of '//text(small_plan%circumferential)//' x '// &

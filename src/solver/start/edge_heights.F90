@@ -207,6 +207,7 @@ contains
       report%reason = report%reason//', as the film presses '//edge_words(problem%bearing, pad)//' down'
     else
       report%reason = 'the edge of the top foil stays at no height below that at rest'
+      report%names_cause = .true.
     end if
   end subroutine seek_below
 

@@ -185,7 +185,6 @@ contains
     call start(thick, plan, operating_point(operation), tolerances, settings, log, bearing, newton, way, error)
     call count_spent(newton, spent)
     if (allocated(error)) return
-    way%touched = .false. ! with a foil far from the one asked for
     if (way%converged) reached = thick%top_foil%thickness
     do i = 2, size(thicker)
       if (.not. way%converged) exit
@@ -198,11 +197,13 @@ contains
     else
       call build_anew(scene, plan, bearing, newton)
       call refused%put_back(bearing)
-      if (way%touched) then
+      if (way%touched .and. reached > 0.0_wp) then
         report%touched = .true.
         report%reason = way%reason//', with a top foil of '//text(reached*1.0e6_wp, 3)//' um on the way from a thicker one'
       else if (reached > 0.0_wp) then
         report%reason = report%reason//'; a top foil of '//text(reached*1.0e6_wp, 3)//' um has an answer'
+      else if (way%tells_why() .and. .not. report%tells_why()) then
+        report%reason = report%reason//'; with a top foil of '//text(thick%top_foil%thickness*1.0e6_wp, 3)//' um: '//way%reason
       end if
     end if
     call refused%destroy()
@@ -227,7 +228,6 @@ contains
 
     value = from + at*(to - from)
     if (at >= 1.0_wp) value = to
-    if (at <= 0.0_wp) value = from
   end function value_at
 
   !> Builds the bearing at a value and solves it from the answers before.

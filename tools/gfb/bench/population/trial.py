@@ -12,8 +12,8 @@ from gfb.results import read_history, read_summary
 from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
 
 ANSWER, NO_REASON, BOUND, BROKEN, INVALID = "answer", "no reason", "CPU bound", "broke off", "wrong input"
-REFUSALS = {"touch-down": "touches down", "fold": "ends in a fold", "emptied": "film is emptied",
-            "suction in part": "as far as it was followed", "suction": "draws the free edge"}
+REFUSALS = {"touch-down": ("touches down",), "fold": ("ends in a fold",), "emptied": ("film is emptied",),
+            "suction in part": ("as far as it was followed",), "suction": ("draws the free edge", "stays at no height below that at rest")}
 SUCTION = ("suction", "suction in part")
 OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
@@ -75,7 +75,7 @@ def outcome_of(status, log):
     if status != NOT_CONVERGED:
         return BROKEN
     reason = reason_in(log)
-    return next((name for name, words in REFUSALS.items() if words in reason), NO_REASON)
+    return next((name for name, sentences in REFUSALS.items() if any(words in reason for words in sentences)), NO_REASON)
 
 
 def try_case(gfb, groups, seconds):
