@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Equilibria of a bearing of shells whose leading edge is lifted: independent numbers; takes minutes."""
+"""Equilibria of a bearing of shells whose leading edge is lifted: independent numbers, on 16 of their 30 rows; takes minutes."""
 
 import tempfile
 
@@ -16,7 +16,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         lifts = [lift*MICROMETRE for lift in LIFTED["lifts"]]
-        run = solve(folder, "lifted", mesh=PAPER_MESH, solver={"stability": True},
+        run = solve(folder, "lifted", mesh={**PAPER_MESH, "axial_elements": 16}, solver={"stability": True},
                     operation={"leading_edge_lift": lifts[0], "leading_edge_lift_edge": lifts[1]})
         for axis, word in enumerate("xy"):
             found = run.eccentricity[axis]/BEARING.clearance

@@ -332,29 +332,35 @@ def check_all_foils(checks, folder, loads, tilts, chance):
                         model={"foundation_pressure": "axial_mean"}, mesh={"axial_elements": 12}), chance)
 
 
+def check_kinds(checks, folder, loads, tilts, chance):
+    """Beams and strips, with and without memory of friction, and rotors."""
+    whole = check_kills(checks, folder, "beams_memory", bearing("beam", loads), chance)
+    check_kills(checks, folder, "beams_tilted", bearing("beam", tilts, every=2), chance)
+    check_kills(checks, folder, "beams_folded",
+                bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
+    check_kills(checks, folder, "rotor", vibrating(), chance)
+    heavy = shaft_in_time(foils={"density": 8200.0}, foil_mass="on", output_every=25, steady_tolerance=1.0e-9)
+    turning = run_time(write_case(folder, "turning", heavy), pathlib.Path(folder)/"whole")
+    check_kills(checks, folder, "turning", heavy, chance, whole=turning)
+    check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)
+    loop = check_kills(checks, folder, "strip_squeezed", strip("plates"), chance)
+    check_kills(checks, folder, "beams_memory", bearing("beam", loads), chance, (2, 1, 2, 2), whole)
+    check_kills(checks, folder, "strip_squeezed", strip("plates"), chance, (2, 2, 1, 2), loop)
+
+
 def main():
-    """All checks, or with --long those of all kinds of foils too."""
+    """The checks of every run, or with --long those of all other kinds of foils."""
     checks = Checks()
     chance = random.Random(SEED)
     loads = {"parameter": "load", "values": (60.0, 80.0, 100.0, 120.0, 100.0, 80.0)}
     tilts = {"parameter": "tilt_x", "values": (0.0, 1.0e-5, 2.0e-5, 3.0e-5, 2.0e-5, 1.0e-5), "hold_position": True}
     remembers = {"friction_memory": True}
     with tempfile.TemporaryDirectory() as folder:
-        check_refusals(checks, folder, bearing("beam", {**loads, "values": (60.0, 80.0, 100.0, 80.0)}))
-        whole = check_kills(checks, folder, "beams_memory", bearing("beam", loads | remembers), chance)
-        check_kills(checks, folder, "beams_tilted", bearing("beam", tilts | remembers, every=2), chance)
-        check_kills(checks, folder, "beams_folded",
-                    bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
-        check_kills(checks, folder, "rotor", vibrating(), chance)
-        heavy = shaft_in_time(foils={"density": 8200.0}, foil_mass="on", output_every=25, steady_tolerance=1.0e-9)
-        turning = run_time(write_case(folder, "turning", heavy), pathlib.Path(folder)/"whole")
-        check_kills(checks, folder, "turning", heavy, chance, whole=turning)
-        check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)
-        loop = check_kills(checks, folder, "strip_squeezed", strip("plates"), chance)
         if "--long" in sys.argv:
             check_all_foils(checks, folder, loads | remembers, tilts, chance)
-        check_kills(checks, folder, "beams_memory", bearing("beam", loads | remembers), chance, (2, 1, 2, 2), whole)
-        check_kills(checks, folder, "strip_squeezed", strip("plates"), chance, (2, 2, 1, 2), loop)
+        else:
+            check_refusals(checks, folder, bearing("beam", {**loads, "values": (60.0, 80.0, 100.0, 80.0)}))
+            check_kinds(checks, folder, loads | remembers, tilts | remembers, chance)
     checks.close()
 
 
