@@ -142,7 +142,7 @@ def check_vibrations(checks, folder):
             found = numpy.genfromtxt(f"{parts.stem}.coefficients.csv", delimiter=",", skip_header=1)
             checks.that(f"{words}: a row a frequency, in order", found.shape == table.shape and (found[:, 0] == table[:, 0]).all())
             checks.below(f"{words}: coefficients", float((numpy.abs(found - table).max(0)/numpy.abs(table).max(0).clip(1.0)).max()), LIMIT)
-            for key in ("critical_mass", "whirl_ratio", "growth_rate", "whirl_frequency"):
+            for key in ("critical_mass", "whirl_ratio", "growth_rate", "whirl_frequency", "stiffness_xy", "damping_xx"):
                 checks.below(f"{words}: {key}", parts[key]/whole[key] - 1.0, LIMIT)
             checks.that(f"{words}: the same datasets", set(datasets(f"{parts.stem}.h5")) == set(arrays))
             with h5py.File(f"{parts.stem}.h5", "r") as file:
