@@ -156,7 +156,7 @@ contains
     real(wp), intent(inout) :: unknown(:) !! the pad's own ones
     type(places_type) :: across
     integer, allocatable :: own(:), crest(:), node(:)
-    real(wp), allocatable :: known(:, :), approach(:, :), upper(:, :)
+    real(wp), allocatable :: known(:, :), approach(:, :)
     real(wp) :: way(spatial)
     integer :: i, k
 
@@ -167,11 +167,8 @@ contains
       node = contacts%point(crest)%node
       across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(modulo(node - 1, surface%mesh%rows) + 1), &
                            small%whole%half)
-      node = (node - 1)/surface%mesh%rows*small_surface%mesh%rows + across%low
-      approach = fetch_entries(small_surface%mesh%nodes(), own, known, node)
-      upper = fetch_entries(small_surface%mesh%nodes(), own, known, node + 1)
+      approach = between_rows(small_surface, own, known, (node - 1)/surface%mesh%rows, across)
       do i = 1, size(crest)
-        approach(:, i) = approach(:, i) + across%share(i)*(upper(:, i) - approach(:, i))
         if (across%mirrored(i)) approach(along_axis, i) = -approach(along_axis, i)
         way = contacts%approach(crest(i), now(bearing%foil%first + 1:)) - approach(:, i)
         way(towards) = -way(towards)
@@ -237,32 +234,34 @@ contains
 
     own = pack(surface%part%mesh_node, surface%part%owned)
     own_value = own_values(foil, number, own, coarse)
-    first = station_values(0)
-    second = station_values(1)
+    first = between_rows(surface, own, own_value, along%low - 1, across)
+    second = between_rows(surface, own, own_value, along%low, across)
     allocate (value, mold=first)
     do i = 1, size(value, 2)
       value(:, i) = between(first(:, i), second(:, i), along%share(i), along%distance(i))
       if (across%mirrored(i)) value([axial, about_tangent], i) = -value([axial, about_tangent], i)
     end do
-
-  contains
-
-    !> Values on the stations before the places, or after them.
-    function station_values(next) result(there)
-      integer, intent(in) :: next !! 0: before, 1: after
-      real(wp), allocatable :: there(:, :)
-      real(wp), allocatable :: upper(:, :)
-      integer, allocatable :: node(:)
-      integer :: k
-
-      node = (along%low + next - 1)*surface%mesh%rows + across%low
-      there = fetch_entries(surface%mesh%nodes(), own, own_value, node)
-      upper = fetch_entries(surface%mesh%nodes(), own, own_value, node + 1)
-      do k = 1, size(node)
-        there(:, k) = there(:, k) + across%share(k)*(upper(:, k) - there(:, k))
-      end do
-    end function station_values
   end function interpolated
+
+  !> Values on stations of a surface, linear between its rows. All ranks ask.
+  function between_rows(surface, own, own_value, stations_before, across) result(there)
+    type(foil_surface_type), intent(in) :: surface
+    integer, intent(in) :: own(:)             !! this rank's nodes
+    real(wp), intent(in) :: own_value(:, :)   !! at these [SI]
+    integer, intent(in) :: stations_before(:) !! of each place
+    type(places_type), intent(in) :: across
+    real(wp), allocatable :: there(:, :)
+    real(wp), allocatable :: upper(:, :)
+    integer, allocatable :: node(:)
+    integer :: i
+
+    node = stations_before*surface%mesh%rows + across%low
+    there = fetch_entries(surface%mesh%nodes(), own, own_value, node)
+    upper = fetch_entries(surface%mesh%nodes(), own, own_value, node + 1)
+    do i = 1, size(node)
+      there(:, i) = there(:, i) + across%share(i)*(upper(:, i) - there(:, i))
+    end do
+  end function between_rows
 
   !> A displacement between two stations.
   pure function between(first, second, share, distance) result(value)

@@ -72,7 +72,8 @@ contains
     call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, log, bearing, response, point, record%problem)
     if (.not. allocated(record%problem)) then
-      call add_entries(point, found)
+      call add_entries('stiffness_', stiffness_of(point, 1), found)
+      call add_entries('damping_', damping_of(point, 1), found)
       if (.not. scene%sweep%present) call show_coefficients(log, bearing%point%speed, point)
     end if
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
@@ -289,24 +290,17 @@ contains
     end do
   end subroutine show_coefficients
 
-  !> Stiffness and damping of x and y at the first frequency, a number each.
-  subroutine add_entries(point, found)
-    type(dynamics_point_type), intent(in) :: point
+  !> The entries of x and y, a number each.
+  subroutine add_entries(name, matrix, found)
+    character(len=*), intent(in) :: name !! before the two axes
+    real(wp), intent(in) :: matrix(:, :)
     type(quantity_type), allocatable, intent(inout) :: found(:)
     character(len=*), parameter :: axes(translations) = ['x', 'y']
-    real(wp) :: stiffness(shaft_coordinates, shaft_coordinates), damping(shaft_coordinates, shaft_coordinates)
     integer :: row, column
 
-    stiffness = stiffness_of(point, 1)
-    damping = damping_of(point, 1)
     do row = 1, translations
       do column = 1, translations
-        call add_result(found, 'stiffness_'//axes(row)//axes(column), stiffness(row, column))
-      end do
-    end do
-    do row = 1, translations
-      do column = 1, translations
-        call add_result(found, 'damping_'//axes(row)//axes(column), damping(row, column))
+        call add_result(found, name//axes(row)//axes(column), matrix(row, column))
       end do
     end do
   end subroutine add_entries
