@@ -19,6 +19,7 @@ from transient import foil_case, history, stepped
 CLEARANCE = 31.8e-6
 UNBALANCE = 1.0e-9  # of a tiny orbit [kg m]
 RIGID = {"foil": "rigid"}
+ARM = {"maxwell_stiffness": 3.0e9, "maxwell_time": 1.0e-4}
 LOCAL = {"foundation_pressure": "local"}  # springs whose deflections are no unknowns, but with dampers part of a state
 
 
@@ -48,9 +49,11 @@ def periodic_case(mass, load, keys, name="PT2", mesh=(32, 4), model=None):
 def check_march(checks, folder):
     """The orbit under a large unbalance is that which a long march with the same steps ends in."""
     steps, turns = 40, 60
-    for words, mass, load, unbalance, model in (("forced orbit", 0.3, -60.0, 3.0e-6, {}),
-                                                ("forced orbit, local springs", 0.1, -20.0, 1.0e-6, LOCAL)):
-        keys = {"unbalance": unbalance, "unbalance_angle": 0.3, "steps_per_turn": steps}
+    for words, mass, load, unbalance, model, arm in (("forced orbit", 0.3, -60.0, 3.0e-6, {}, {}),
+                                                     ("forced orbit, Maxwell arms", 0.3, -60.0, 3.0e-6, {}, ARM),
+                                                     ("forced orbit, local springs", 0.1, -20.0, 1.0e-6, LOCAL, {}),
+                                                     ("forced orbit, local springs, Maxwell arms", 0.1, -20.0, 1.0e-6, LOCAL, ARM)):
+        keys = {"unbalance": unbalance, "unbalance_angle": 0.3, "steps_per_turn": steps, **arm}
         content, _ = periodic_case(mass, (load, 0.0), keys, model=model)
         answer = solve(folder, "closed", content)
         found = orbits(answer)
@@ -63,10 +66,11 @@ def check_march(checks, folder):
             checks.below(f"{words}, {axis}: the last turn of a long march", largest_difference(
                 found[f"eccentricity_{axis}"][0], rows[f"eccentricity_{axis}"][-steps - 1:], CLEARANCE), 1.0e-7)
         checks.that(f"{words}: large", found["orbit_x"][0] > 0.1*CLEARANCE)
-    content, _ = periodic_case(0.1, (-20.0, 0.0), {"unbalance": 2.0e-7, "steps_per_turn": 24}, mesh=(16, 2), model=LOCAL)
-    one, two = (orbits(solve(folder, "ranks", content, ranks)) for ranks in (1, 2))
-    checks.below("local springs: two ranks", largest_difference(one["eccentricity_x"], two["eccentricity_x"], CLEARANCE), 1.0e-7)
-    checks.below("local springs: two ranks, multipliers", largest_difference(one["multipliers"], two["multipliers"], 1.0), 1.0e-4)
+    for words, arm in (("local springs", {}), ("local springs, Maxwell arms", ARM)):
+        content, _ = periodic_case(0.1, (-20.0, 0.0), {"unbalance": 2.0e-7, "steps_per_turn": 24, **arm}, mesh=(16, 2), model=LOCAL)
+        one, two = (orbits(solve(folder, "ranks", content, ranks)) for ranks in (1, 2))
+        checks.below(f"{words}: two ranks", largest_difference(one["eccentricity_x"], two["eccentricity_x"], CLEARANCE), 1.0e-7)
+        checks.below(f"{words}: two ranks, multipliers", largest_difference(one["multipliers"], two["multipliers"], 1.0), 1.0e-4)
 
 
 def check_small(checks, folder):
@@ -102,30 +106,33 @@ def check_small(checks, folder):
 
 def check_onset(checks, folder):
     """Limit cycles begin where the linear theory's whirl neither grows nor decays; the square of their size is then linear."""
-    keys = {"motion": "free", "parameter": "mass", "final_value": 0.32, "steps_per_turn": 40, "points": 5, "step": 0.06}
-    content, linear = periodic_case(0.25, (-20.0, 0.0), keys)
-    answer = solve(folder, "branch", content)
-    found = orbits(answer)
-    critical = solve(folder, "critical", linear)["critical_mass"]
-    rates = []
-    for mass in (0.99*critical, 1.01*critical):
-        linear["rotor"]["mass"] = mass
-        modes = solve(folder, "mode", linear)
-        rates.append(complex(modes["growth_rate"], modes["whirl_frequency"]))
-    # Growth that the steps take from a whirl: the rate of which a mode of constant size is made.
-    step = found["period"][0]/(len(found["eccentricity_x"][0]) - 1)
-    z = cmath.exp(1j*0.5*(rates[0] + rates[1]).imag*step)
-    taken = ((3.0 - 4.0/z + 1.0/z**2)/(2.0*step)).real
-    wanted = critical + taken*0.02*critical/(rates[1] - rates[0]).real
-    checks.below("onset: critical mass, with what the steps take", answer["critical_mass"]/wanted - 1.0, 2.0e-5)
-    checks.below("onset: frequency", found["frequency_ratio"][0]*speed_of(content)/rates[0].imag - 1.0, 5.0e-3)
-    checks.below("onset: the whirl's multipliers are 1", numpy.abs(found["multipliers"][0, :2] - 1.0).max(), 2.0e-5)
-    squares = (found["orbit_x"][1:4]/CLEARANCE)**2
-    begin = numpy.polyfit(squares, found["mass"][1:4], 2)
-    checks.below("branch: where its size goes to zero", begin[2]/wanted - 1.0, 1.0e-5)
-    checks.below("branch: the square of its size is linear there", begin[0]*squares[0]/begin[1], 2.0e-2)
-    checks.that("branch: supercritical and stable", answer["subcritical"] == "false" and bool(found["stable"][1:].all()))
-    checks.below("branch: the multiplier of a shift is 1", numpy.abs(found["multipliers"] - 1.0).min(axis=1).max(), 1.0e-5)
+    for words, model, arm in (("springs", {}, {}), ("Maxwell arms", {}, ARM), ("local springs, Maxwell arms", LOCAL, ARM)):
+        keys = {"motion": "free", "parameter": "mass", "steps_per_turn": 40, "points": 5, "step": 0.06, **arm}
+        content, linear = periodic_case(0.25, (-20.0, 0.0), keys, model=model)
+        linear["dynamics"] |= arm
+        critical = solve(folder, "critical", linear)["critical_mass"]
+        content["rotor"]["mass"], content["periodic"]["final_value"] = 0.93*critical, 1.2*critical
+        answer = solve(folder, "branch", content)
+        found = orbits(answer)
+        rates = []
+        for mass in (0.99*critical, 1.01*critical):
+            linear["rotor"]["mass"] = mass
+            modes = solve(folder, "mode", linear)
+            rates.append(complex(modes["growth_rate"], modes["whirl_frequency"]))
+        # Growth that the steps take from a whirl: the rate of which a mode of constant size is made.
+        step = found["period"][0]/(len(found["eccentricity_x"][0]) - 1)
+        z = cmath.exp(1j*0.5*(rates[0] + rates[1]).imag*step)
+        taken = ((3.0 - 4.0/z + 1.0/z**2)/(2.0*step)).real
+        wanted = critical + taken*0.02*critical/(rates[1] - rates[0]).real
+        checks.below(f"onset, {words}: critical mass, with what the steps take", answer["critical_mass"]/wanted - 1.0, 2.0e-5)
+        checks.below(f"onset, {words}: frequency", found["frequency_ratio"][0]*speed_of(content)/rates[0].imag - 1.0, 5.0e-3)
+        checks.below(f"onset, {words}: the whirl's multipliers are 1", numpy.abs(found["multipliers"][0, :2] - 1.0).max(), 2.0e-5)
+        squares = (found["orbit_x"][1:4]/CLEARANCE)**2
+        begin = numpy.polyfit(squares, found["mass"][1:4], 2)
+        checks.below(f"branch, {words}: where its size goes to zero", begin[2]/wanted - 1.0, 1.0e-5)
+        checks.below(f"branch, {words}: the square of its size is linear there", begin[0]*squares[0]/begin[1], 2.0e-2)
+        checks.that(f"branch, {words}: supercritical and stable", answer["subcritical"] == "false" and bool(found["stable"][1:].all()))
+        checks.below(f"branch, {words}: the multiplier of a shift is 1", numpy.abs(found["multipliers"] - 1.0).min(axis=1).max(), 1.0e-5)
 
 
 def check_branch(checks, folder):

@@ -5,7 +5,7 @@ module gfb_maxwell_keys
   use gfb_value_rules, only: positive
   implicit none (type, external)
   private
-  public :: read_maxwell_keys, check_maxwell_keys, refuse_maxwell_keys
+  public :: read_maxwell_keys, check_maxwell_keys
 
   character(len=*), parameter :: stiffness = 'maxwell_stiffness', time = 'maxwell_time'
 
@@ -22,17 +22,6 @@ contains
     call keys%real_key(time, arm%time, 's', 'relaxation time of that arm: its dashpot over '// &
                        'its spring', positive, default=no_default)
   end subroutine read_maxwell_keys
-
-  !> Where the arms' own ways would have to close with the orbit.
-  subroutine refuse_maxwell_keys(keys)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, in the group
-    character(len=*), parameter :: meaning = 'of a Maxwell arm: not here', &
-      why = "has no place in a periodic orbit: follow it with analysis = 'transient', or take "// &
-            'foundation_damping'
-
-    call keys%useless_key(stiffness, meaning, why)
-    call keys%useless_key(time, meaning, why)
-  end subroutine refuse_maxwell_keys
 
   !> Both or none, and springs for the arm to stand beside.
   subroutine check_maxwell_keys(keys, group, rests)

@@ -2,7 +2,8 @@
 module gfb_periodic_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_maxwell_keys, only: refuse_maxwell_keys
+  use gfb_maxwell_arm, only: maxwell_arm_type
+  use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_scene_case, only: analysis_periodic, misplaced_group
   use gfb_value_rules, only: any_value, positive, not_negative, at_least
   implicit none (type, external)
@@ -32,6 +33,7 @@ module gfb_periodic_case
     real(wp) :: unbalance = 0.0_wp          !! [kg m]
     real(wp) :: unbalance_angle = 0.0_wp    !! [rad]
     real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
+    type(maxwell_arm_type) :: arm           !! beside the springs of an elastic foundation
   end type periodic_case_type
 
 contains
@@ -78,7 +80,7 @@ contains
     call keys%real_key('foundation_damping', periodic%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
-    call refuse_maxwell_keys(keys)
+    call read_maxwell_keys(keys, periodic%arm)
     call keys%finish_group()
   end subroutine read_periodic_case
 end module gfb_periodic_case

@@ -2,6 +2,7 @@
 module gfb_periodic_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_maxwell_keys, only: check_maxwell_keys
   use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
     meshes_foils
   use gfb_operation_case, only: operation_case_type
@@ -102,6 +103,7 @@ contains
     if (periodic%foundation_damping > 0.0_wp .and. model%foil /= foil_elastic_foundation) then
       call keys%complain(group, 'foundation_damping', "needs foil = 'elastic_foundation' in &model")
     end if
+    call check_maxwell_keys(keys, group, any(model%foil == [0, foil_elastic_foundation]))
     if (meshes_foils(model%foil) .and. may_rub .and. &
         (periodic%motion == motion_free .or. periodic%parameter /= follow_nothing)) then
       call keys%complain('model', 'foil', 'needs friction_top and friction_sleeve of 0 with '// &

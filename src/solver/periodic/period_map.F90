@@ -4,8 +4,8 @@
 !> A state is all that the march remembers: film, foil and sleeve now and one step ago, and the sleeve's velocity then and
 !> now. As the past is part of it, a state that the map leads back to itself is an orbit whose steps wrap round: it has no
 !> first step that differs from the others. Contacts with friction remember their slips as well, which are then part of the
-!> state: those of contacts that always stick stay as they began, so an orbit closes whatever they are. So are the deflections
-!> of damped springs under local pressures, now and one step ago, which have no unknowns.
+!> state: those of contacts that always stick stay as they began, so an orbit closes whatever they are. So are, now and one step
+!> ago, the deflections of damped springs under local pressures, which have no unknowns, and the ways of the dashpots of Maxwell arms.
 !>
 !> A point x holds the state, the period and one parameter, all over their sizes; every rank has its own unknowns and all of
 !> the rest.
@@ -16,7 +16,9 @@ module gfb_period_map
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_contact_slips, only: slips_of, put_slips
-  use gfb_spring_history, only: begin_springs, put_deflections
+  use gfb_maxwell_arm, only: maxwell_arm_type
+  use gfb_spring_history, only: begin_springs
+  use gfb_spring_entries, only: remembered_by, pack_springs, unpack_springs
   use gfb_march_state, only: pad_history_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type
@@ -40,6 +42,7 @@ module gfb_period_map
     real(wp) :: stretch = 1.0_wp     !! of that period [1]
     integer :: steps = 0             !! of a period
     real(wp) :: damping = 0.0_wp     !! of an elastic foundation [N s/m^3]
+    type(maxwell_arm_type) :: arm    !! beside its springs
     real(wp) :: period_scale = 1.0_wp    !! [s]
     real(wp) :: parameter_scale = 1.0_wp !! [its unit]
     real(wp) :: length = 1.0_wp      !! of places [m]
@@ -48,7 +51,8 @@ module gfb_period_map
     integer :: owned = 0             !! unknowns of this rank
     logical :: rubs = .false.        !! contacts have friction, whose slips are part of the state
     integer :: slips = 0             !! of this rank's contacts, where they rub
-    integer :: springs = 0           !! entries of deflections that are no unknowns, where dampers feel how fast they change
+    integer, allocatable :: remembered(:) !! what springs remember beside the unknowns
+    integer :: springs = 0           !! entries of that
     integer :: local = 0             !! entries of a point that no other rank has
     integer :: periods = 0           !! marched so far
     real(wp), allocatable :: orbit(:, :) !! (2, steps + 1) the sleeve's places in the last of them [m]
@@ -71,8 +75,8 @@ contains
     map%rubs = rubs(bearing)
     map%slips = 0
     if (map%rubs) map%slips = 2*contacts_of(bearing)
-    map%springs = 0
-    if (map%damping > 0.0_wp .and. bearing%pad(1)%foil%local_unknowns() == 0) map%springs = 2*map%owned
+    map%remembered = remembered_by(map%damping, map%arm, bearing)
+    map%springs = 2*map%owned*size(map%remembered)
     map%local = 2*map%owned + map%slips + map%springs
     map%share = 1.0_wp/sqrt(real(all, wp))
     map%length = bearing%pad(1)%film%clearance
@@ -97,7 +101,7 @@ contains
           call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i)%springs)
         end associate
       end do
-      call pack_springs(map, bearing, rest, x)
+      call pack_springs(map%remembered, map%share/map%length, bearing, rest, x(map%local - map%springs + 1:map%local))
     end if
     speed = map%drive%speed
     x(size(x) - 1) = 2.0_wp*pi*map%turns/speed/map%period_scale
@@ -140,6 +144,7 @@ contains
     drive = drive_at(map, x)
     settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
     settings%damping = map%damping
+    settings%arm = map%arm
     settings%end_time = huge(1.0_wp)
     call begin_march(drive, settings, bearing, march)
   end subroutine begin_at
@@ -203,7 +208,8 @@ contains
     bearing%point%speed = drive%speed
     call bearing%set_unknowns(unknown(:, 1))
     call begin_at(map, bearing, x, march)
-    if (map%springs > 0) call unpack_springs(map, x, unknown, bearing, march)
+    if (map%springs > 0) call unpack_springs(map%remembered, map%length/map%share, &
+                                             x(map%local - map%springs + 1:map%local), unknown, bearing, march%pad)
     call resume_march(unknown, velocity, bearing, march)
     map%periods = map%periods + 1
     map%smallest_gap = huge(1.0_wp)
@@ -219,7 +225,8 @@ contains
     end do
     if (done) then
       call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
-      if (map%springs > 0) call pack_springs(map, bearing, march%pad, y)
+      if (map%springs > 0) call pack_springs(map%remembered, map%share/map%length, bearing, march%pad, &
+                                             y(map%local - map%springs + 1:map%local))
     else
       map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
       if (.not. report%converged) map%problem = map%problem//': '//report%reason
@@ -303,62 +310,6 @@ contains
       end associate
     end do
   end subroutine unpack_point
-
-  !> Deflections of local springs, now and one step ago, as entries of a point.
-  subroutine pack_springs(map, bearing, history, x)
-    type(period_map_type), intent(in) :: map
-    type(bearing_system_type), intent(in) :: bearing
-    type(pad_history_type), intent(in) :: history(:) !! of all pads
-    real(wp), intent(inout) :: x(:)
-    real(wp) :: moved(bearing%local_size(), 2)
-    PetscScalar, pointer :: values(:)
-    Vec :: vector
-    PetscErrorCode :: ierr
-    integer :: i, k, first
-
-    moved = 0.0_wp
-    do i = 1, size(bearing%pad)
-      moved(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = history(i)%springs%deflection
-    end do
-    PetscCallA(VecDuplicate(bearing%state, vector, ierr))
-    do k = 1, 2
-      call bearing%exchange%put(moved(:, k), vector)
-      first = map%local - map%springs + (k - 1)*map%owned
-      PetscCallA(GFB_VecGetArrayRead(vector, values, ierr))
-      x(first + 1:first + map%owned) = map%share/map%length*values(:map%owned)
-      PetscCallA(GFB_VecRestoreArrayRead(vector, values, ierr))
-    end do
-    PetscCallA(VecDestroy(vector, ierr))
-  end subroutine pack_springs
-
-  !> The reverse.
-  subroutine unpack_springs(map, x, unknown, bearing, march)
-    type(period_map_type), intent(in) :: map
-    real(wp), intent(in) :: x(:)
-    real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
-    type(bearing_system_type), intent(inout) :: bearing !! its foils are without dampers after that
-    type(march_type), intent(inout) :: march !! that has begun; gets them
-    real(wp) :: moved(size(unknown, 1), 2)
-    PetscScalar, pointer :: values(:)
-    Vec :: vector
-    PetscErrorCode :: ierr
-    integer :: i, k, first
-
-    PetscCallA(VecDuplicate(bearing%state, vector, ierr))
-    do k = 1, 2
-      first = map%local - map%springs + (k - 1)*map%owned
-      PetscCallA(GFB_VecGetArray(vector, values, ierr))
-      values(:map%owned) = x(first + 1:first + map%owned)*map%length/map%share
-      PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
-      call bearing%exchange%get(vector, moved(:, k))
-    end do
-    PetscCallA(VecDestroy(vector, ierr))
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), from => bearing%pad(i)%first + 1, to => bearing%pad(i)%last)
-        call put_deflections(moved(from:to, :), unknown(from:to, :), pad%foil, march%pad(i)%springs)
-      end associate
-    end do
-  end subroutine unpack_springs
 
   !> Whether contacts rub.
   pure function rubs(bearing)
