@@ -14,7 +14,7 @@ import threading
 
 from gfb.bench.population import page
 from gfb.bench.population.members import FOUNDATION, MODELS, SETS
-from gfb.bench.population.trial import BOUND, second_way, try_case
+from gfb.bench.population.trial import BOUND, REFUSALS, second_way, try_case
 from gfb.bench.runs import keep_rows, kept_rows
 from gfb.run import write_case
 from gfb.tool import MEASURED, ROOT, stop
@@ -84,20 +84,26 @@ def measure(members, options):
     rows = kept_rows(STORE, program) if options.reuse else {}
     lock = threading.Lock()
 
-    def one(member):
-        key = key_of(member)
-        if key in rows and not (rows[key]["outcome"] == BOUND and rows[key]["bound"] < options.seconds):
-            return
-        row = try_case(options.gfb, member.groups, options.seconds)
-        row["bound"] = options.seconds
-        row["shown"], row["cpu_shown"] = second_way(options.gfb, member, row)
+    def keep(member, row):
         with lock:
-            rows[key] = row
+            rows[key_of(member)] = row
             keep_rows(STORE, program, rows)
         print(f"{member.model} {member.name}: {row['outcome']}{', ' + row['shown'] if row['shown'] else ''}, "
               f"{row['cpu']:.1f} s, {row['summary'].get('factorizations', 0):.0f} factorizations", flush=True)
 
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for done in [pool.submit(one, member) for member in members]:
-            done.result()
+    def end(member):
+        kept = rows.get(key_of(member))
+        if not kept or kept["outcome"] == BOUND and kept["bound"] < options.seconds:
+            keep(member, {**try_case(options.gfb, member.groups, options.seconds), "bound": options.seconds, "shown": ""})
+
+    def show(member):
+        row = rows[key_of(member)]
+        if row["outcome"] in REFUSALS and not row["shown"]:
+            shown, spent = second_way(options.gfb, member, row)
+            keep(member, {**row, "shown": shown, "cpu_shown": spent})
+
+    for work in (end, show):  # all ends first: a command that is interrupted has them
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            for done in [pool.submit(work, member) for member in members]:
+                done.result()
     return [rows[key_of(member)] for member in members]
