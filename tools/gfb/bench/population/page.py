@@ -4,8 +4,8 @@ import statistics
 import textwrap
 
 from gfb.bench.population.members import MODELS
-from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, CHEAP, FALLING, LEAST, LIGHTER, OUTCOMES,
-                                        REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, THINNER, TURNED, imbalance)
+from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, CHEAP, FALLING, LEAST, LIGHTER, OPEN,
+                                        OUTCOMES, REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, THINNER, TURNED, imbalance)
 from gfb.tables import markdown_table, plain_table
 
 WORST = 10
@@ -42,7 +42,7 @@ def write(members, rows, options, folder):
     kept = f"; of these members the {len(members)} that were run" if options.count != len(members) else ""
     text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds)
     text += facts(members, rows) + "\n"
-    for table in [*tables, nameless_table(members, rows)]:
+    for table in [*tables, open_table(members, rows), nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
     folder.mkdir(parents=True, exist_ok=True)
     (folder/FILES[options.set]).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
@@ -67,6 +67,7 @@ def notes(title):
 
 
 OUTCOME, RATIO, SHOWN, DEAR = "Outcomes", "Refusals against answers", "Second ways", f"The {WORST} most expensive"
+UNSHOWN = "Refusals that nothing shows"
 NAMELESS = "Neither answered nor refused by name, and refusals that the second way contradicts"
 
 
@@ -79,6 +80,11 @@ def facts(members, rows):
             f"without a reason,\n{stopped} of these stopped at the bound; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
     if answers:
         text += f"Force of the answers off the load by at most {max(imbalance(*one) for one in answers):.0e} of it.\n"
+    shown = [row["shown"] for row in rows if row["outcome"] in REFUSALS]
+    untried = shown.count("")
+    text += (f"Of the {named} refusals {named - untried - shown.count(AGAINST) - shown.count(OPEN)} are shown a second way, "
+             f"{shown.count(AGAINST)} contradicted, {shown.count(OPEN)} not shown"
+             + (f"; {untried} were not tried" if untried else "") + ".\n")
     enlarged = sum(row["enlarged"] > 0 for row in rows)
     if enlarged:
         text += f"MUMPS' workspace was enlarged in {enlarged} of the runs.\n"
@@ -142,6 +148,18 @@ def shown_table(members, rows):
             if some:
                 table.append([model, outcome, *(f"{sum(row['shown'] == way for row in some)}" for way in SECOND_WAYS)])
     return SHOWN, ["model", "refusal", *SECOND_WAYS], table
+
+
+def open_table(members, rows):
+    """Numbers of the refusals that no second way shows."""
+    table = []
+    for model in MODELS:
+        for outcome in REFUSALS:
+            names = [str(member.name) for member, row in zip(members, rows)
+                     if member.model == model and row["outcome"] == outcome and row["shown"] == OPEN]
+            if names:
+                table.append([model, outcome, ", ".join(names)])
+    return UNSHOWN, ["model", "refusal", "members"], table
 
 
 def shortened(words, width):
