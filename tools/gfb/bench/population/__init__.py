@@ -102,8 +102,11 @@ def measure(members, options):
             shown, spent = second_way(options.gfb, member, row)
             keep(member, {**row, "shown": shown, "cpu_shown": spent})
 
-    for work in (end, show):  # all ends first: a command that is interrupted has them
+    def work_on(work, some):
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            for done in [pool.submit(work, member) for member in members]:
+            for done in [pool.submit(work, member) for member in some]:
                 done.result()
+
+    work_on(end, members)  # all ends first, then what costs least: a command that is interrupted has most of them
+    work_on(show, sorted(members, key=lambda member: rows[key_of(member)]["cpu"]))
     return [rows[key_of(member)] for member in members]

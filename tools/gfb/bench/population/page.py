@@ -10,6 +10,7 @@ from gfb.tables import markdown_table, plain_table
 
 WORST = 10
 FILES = {"random": "population.md", "engineer": "population_engineer.md"}
+MORE = {"random": " What refusals cost, and what was\ntried on members that have no reason: [population_refusals.md](population_refusals.md).", "engineer": ""}
 SAID = {
     "random": "Bearings drawn from a fixed seed: radius 8 to 50 mm, L/D 0.5 to 1.5, C/R 0.0005 to 0.003, 8 to 40 bumps of a pitch "
               "of 1.5 to 10 mm,\nfoils of 50 to 200 um, friction 0 to 0.3, either fixed edge, 5,000 to 120,000 rpm, loads in all "
@@ -30,7 +31,7 @@ machine the system's limit may strike before that by the times given here). *no 
 sentence names nothing of the bearing. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
 the shaft; *in part*: at every height that was reached. *emptied*: the pressure falls to nothing on cells that are too large.
 Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
-those of answers of the same model. Times depend on the machine and on what else runs there.
+those of answers of the same model. Times depend on the machine and on what else runs there.{more}
 
 """
 
@@ -40,7 +41,8 @@ def write(members, rows, options, folder):
     tables = [outcome_table(members, rows), ratio_table(members, rows), shown_table(members, rows),
               worst_table(members, rows)]
     kept = f"; of these members the {len(members)} that were run" if options.count != len(members) else ""
-    text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds)
+    text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds,
+                       more=MORE[options.set])
     text += facts(members, rows) + "\n"
     for table in [*tables, open_table(members, rows), nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
