@@ -14,7 +14,7 @@ import threading
 
 from gfb.bench.population import page
 from gfb.bench.population.members import FOUNDATION, MODELS, SETS
-from gfb.bench.population.trial import BOUND, REFUSALS, second_way, try_case
+from gfb.bench.population.trial import BOUND, REFUSALS, second_way, shows_itself, try_case
 from gfb.bench.runs import keep_rows, kept_rows
 from gfb.run import write_case
 from gfb.tool import MEASURED, ROOT, stop
@@ -107,6 +107,10 @@ def measure(members, options):
             for done in [pool.submit(work, member) for member in some]:
                 done.result()
 
+    def cost(member):
+        row = rows[key_of(member)]
+        return 0.0 if shows_itself(member, row) else row["cpu"]
+
     work_on(end, members)  # all ends first, then what costs least: a command that is interrupted has most of them
-    work_on(show, sorted(members, key=lambda member: rows[key_of(member)]["cpu"]))
+    work_on(show, sorted(members, key=cost))
     return [rows[key_of(member)] for member in members]

@@ -102,13 +102,17 @@ def points_of(file):
         return 0
 
 
+def shows_itself(member, row):
+    """Whether the last film of a touch-down is as thin as that says."""
+    thin = THIN*TOUCH_DOWN_SHARE*member.groups["bearing"]["clearance"]
+    return row["outcome"] == "touch-down" and row["summary"].get("minimum_gap", math.inf) <= thin
+
+
 def second_way(gfb, member, row):
     """Whether a refusal is shown another way, and the CPU time of that."""
     if row["outcome"] not in REFUSALS:
         return "", 0.0
-    clearance = member.groups["bearing"]["clearance"]
-    gap = row["summary"].get("minimum_gap", math.inf)
-    if row["outcome"] == "touch-down" and gap <= THIN*TOUCH_DOWN_SHARE*clearance:
+    if shows_itself(member, row):
         return BY_GAP, 0.0
     spent = 0.0
     for parameter, shares in SWEEPS[row["outcome"]]:
