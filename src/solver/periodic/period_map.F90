@@ -16,7 +16,6 @@ module gfb_period_map
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_contact_slips, only: slips_of, put_slips
-  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_spring_history, only: begin_springs
   use gfb_spring_entries, only: remembered_by, pack_springs, unpack_springs
   use gfb_march_state, only: pad_history_type
@@ -41,8 +40,7 @@ module gfb_period_map
     integer :: turns = 1             !! of the shaft in a period, where it is not free
     real(wp) :: stretch = 1.0_wp     !! of that period [1]
     integer :: steps = 0             !! of a period
-    real(wp) :: damping = 0.0_wp     !! of an elastic foundation [N s/m^3]
-    type(maxwell_arm_type) :: arm    !! beside its springs
+    type(march_settings_type) :: settings !! dampers and Maxwell arms of an elastic foundation; steps are the map's own
     real(wp) :: period_scale = 1.0_wp    !! [s]
     real(wp) :: parameter_scale = 1.0_wp !! [its unit]
     real(wp) :: length = 1.0_wp      !! of places [m]
@@ -75,7 +73,7 @@ contains
     map%rubs = rubs(bearing)
     map%slips = 0
     if (map%rubs) map%slips = 2*contacts_of(bearing)
-    map%remembered = remembered_by(map%damping, map%arm, bearing)
+    map%remembered = remembered_by(map%settings, bearing)
     map%springs = 2*map%owned*size(map%remembered)
     map%local = 2*map%owned + map%slips + map%springs
     map%share = 1.0_wp/sqrt(real(all, wp))
@@ -142,9 +140,8 @@ contains
     type(shaft_drive_type) :: drive
 
     drive = drive_at(map, x)
+    settings = map%settings
     settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
-    settings%damping = map%damping
-    settings%arm = map%arm
     settings%end_time = huge(1.0_wp)
     call begin_march(drive, settings, bearing, march)
   end subroutine begin_at

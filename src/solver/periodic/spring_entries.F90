@@ -6,9 +6,8 @@
 module gfb_spring_entries
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_spring_history, only: spring_history_type, put_deflections
-  use gfb_march_state, only: pad_history_type
+  use gfb_march_state, only: march_settings_type, pad_history_type
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private
@@ -19,17 +18,14 @@ module gfb_spring_entries
 contains
 
   !> What springs remember.
-  function remembered_by(damping, arm, bearing) result(remembered)
-    real(wp), intent(in) :: damping !! viscous, of the springs [N s/m^3]
-    type(maxwell_arm_type), intent(in) :: arm !! beside them
+  function remembered_by(settings, bearing) result(remembered)
+    type(march_settings_type), intent(in) :: settings !! with dampers and arms of the springs
     type(bearing_system_type), intent(in) :: bearing !! on them, or on other foils
     integer, allocatable :: remembered(:) !! each has two entries for each of this rank's unknowns
-    logical :: damped
 
     allocate (remembered(0))
-    damped = damping > 0.0_wp .or. arm%is_present()
-    if (damped .and. bearing%pad(1)%foil%local_unknowns() == 0) remembered = [deflections]
-    if (arm%is_present()) remembered = [remembered, dashpots]
+    if (settings%damps() .and. bearing%pad(1)%foil%local_unknowns() == 0) remembered = [deflections]
+    if (settings%arm%is_present()) remembered = [remembered, dashpots]
   end function remembered_by
 
   !> What springs remember as entries.

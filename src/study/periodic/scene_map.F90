@@ -30,8 +30,8 @@ contains
       map%drive%speed = angular_speed(scene%operation%speed_rpm)
       map%drive%unbalance = periodic%unbalance
       map%drive%unbalance_angle = periodic%unbalance_angle
-      map%damping = periodic%foundation_damping
-      map%arm = periodic%arm
+      map%settings%damping = periodic%foundation_damping
+      map%settings%arm = periodic%arm
       map%turns = 1
       if (periodic%motion /= motion_free) map%turns = periodic%period_turns
       map%steps = periodic%steps_per_turn*map%turns
