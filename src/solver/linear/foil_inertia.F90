@@ -13,17 +13,10 @@
 module gfb_foil_inertia
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_petsc_kinds, only: pint
+  use gfb_inner_modes, only: inner_modes_type, inner_block, add_to_pieces
   implicit none (type)
   private
-  public :: inner_block, add_inertia, destroy_inertia
-
-  !> Modes inside the condensed pieces of one kind.
-  type, public :: inner_modes_type
-    integer, allocatable :: number(:, :)     !! (retained, pieces) bearing's, from 0; -1: fixed
-    real(wp), allocatable :: coupling(:, :)  !! (retained, modes) m_i
-    real(wp), allocatable :: eigenvalue(:)   !! omega_i squared [1/s2]
-  end type inner_modes_type
+  public :: add_inertia, destroy_inertia
 
   !> The mass, or why there is none.
   type, public :: foil_inertia_type
@@ -50,7 +43,7 @@ contains
     type(tMat) :: part(2)
     complex(wp), allocatable :: block(:, :)
     PetscErrorCode :: ierr
-    integer :: i, k
+    integer :: i
 
     if (.not. inertia%present) return
     PetscCallA(MatAXPY(real_part, real(rate**2, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
@@ -62,12 +55,8 @@ contains
     end do
     do i = 1, size(inertia%inner)
       block = inner_block(inertia%inner(i), rate, loss)
-      do k = 1, size(inertia%inner(i)%number, 2)
-        associate (row => int(inertia%inner(i)%number(:, k), pint))
-          PetscCallA(MatSetValues(part(1), size(row, 1, pint), row, size(row, 1, pint), row, [real(block, wp)], ADD_VALUES, ierr))
-          PetscCallA(MatSetValues(part(2), size(row, 1, pint), row, size(row, 1, pint), row, [aimag(block)], ADD_VALUES, ierr))
-        end associate
-      end do
+      call add_to_pieces(inertia%inner(i), real(block, wp), part(1))
+      call add_to_pieces(inertia%inner(i), aimag(block), part(2))
     end do
     do i = 1, 2
       PetscCallA(MatAssemblyBegin(part(i), MAT_FINAL_ASSEMBLY, ierr))
@@ -80,23 +69,6 @@ contains
       PetscCallA(MatDestroy(part(i), ierr))
     end do
   end subroutine add_inertia
-
-  !> What the modes inside a piece do to its retained unknowns.
-  pure function inner_block(inner, rate, loss) result(block)
-    type(inner_modes_type), intent(in) :: inner !! of one kind
-    complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp), intent(in) :: loss !! l of the stiffness [1]
-    complex(wp) :: block(size(inner%coupling, 1), size(inner%coupling, 1))
-    integer :: i
-
-    block = 0.0_wp
-    do i = 1, size(inner%eigenvalue)
-      associate (m => inner%coupling(:, i))
-        block = block - rate**4/(inner%eigenvalue(i)*(1.0_wp + loss) + rate**2)* &
-          spread(m, 2, size(m))*spread(m, 1, size(m))
-      end associate
-    end do
-  end function inner_block
 
   !> Frees what PETSc holds.
   subroutine destroy_inertia(inertia)
