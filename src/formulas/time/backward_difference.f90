@@ -12,7 +12,7 @@ module gfb_backward_difference
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: difference_weights, extrapolation_weights, error_share, next_step
+  public :: difference_weights, free_value, newest_rate, extrapolation_weights, error_share, next_step
 
   integer, parameter, public :: kept_times = 3 !! before the new one: what the prediction needs
 
@@ -35,6 +35,29 @@ contains
     weight(2) = ratio**2/((1.0_wp + ratio)*step)
     weight(1) = -(weight(0) + weight(2)) ! of what stays there is no rate, to the last digit
   end function difference_weights
+
+  !> Values at the end of a step that nothing forces: the difference of their rates' differences is
+  !> \( a_0^2 (y - \hat y) \) with \( \hat y = y_1 - (a_2 (y_2 - y_1) + (a_1 \dot y_1 + a_2 \dot y_2)/a_0)/a_0 \).
+  pure function free_value(weight, value, rate) result(free)
+    real(wp), intent(in) :: weight(0:2)  !! a_0, a_1, a_2 of the step [1/s]
+    real(wp), intent(in) :: value(:, :)  !! (values, times) now and one step ago, in any unit
+    real(wp), intent(in) :: rate(:, :)   !! (values, times) of them
+    real(wp) :: free(size(value, 1)), drift(size(value, 1))
+
+    ! Differences of values and of rates keep their digits.
+    drift = weight(2)*(value(:, 2) - value(:, 1)) + (weight(1)*rate(:, 1) + weight(2)*rate(:, 2))/weight(0)
+    free = value(:, 1) - drift/weight(0)
+  end function free_value
+
+  !> Rates at the end of a step, \( a_0 (y - y_1) + a_2 (y_2 - y_1) \).
+  pure function newest_rate(weight, newest, value) result(rate)
+    real(wp), intent(in) :: weight(0:2) !! as in `free_value` [1/s]
+    real(wp), intent(in) :: newest(:)   !! y that the step led to, in any unit
+    real(wp), intent(in) :: value(:, :) !! (values, times) now and one step ago
+    real(wp) :: rate(size(newest))
+
+    rate = weight(0)*(newest - value(:, 1)) + weight(2)*(value(:, 2) - value(:, 1))
+  end function newest_rate
 
   !> Weights of the last three values in the parabola through them, one step ahead.
   pure function extrapolation_weights(steps) result(weight)

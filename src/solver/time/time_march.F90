@@ -14,7 +14,7 @@ module gfb_time_march
   use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_backward_difference, only: difference_weights, extrapolation_weights, next_step, kept_times
+  use gfb_backward_difference, only: difference_weights, free_value, newest_rate, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on
   use gfb_spring_history, only: begin_springs, damp_springs, follow_springs, recall_springs
@@ -212,7 +212,7 @@ contains
     PetscErrorCode :: ierr
 
     weight = difference_weights(step, march%past_step(1))
-    velocity = weight(0)*(place - march%place(:, 1)) + weight(2)*(march%place(:, 2) - march%place(:, 1))
+    velocity = newest_rate(weight, place, march%place)
     march%velocity(:, 2) = march%velocity(:, 1)
     march%velocity(:, 1) = velocity
     march%place(:, 2:) = march%place(:, :kept_times - 1)
@@ -277,12 +277,9 @@ contains
   pure function free_place(march, weight) result(place)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
-    real(wp) :: place(film_forces), drift(film_forces)
+    real(wp) :: place(film_forces)
 
-    ! Differences of places and of velocities keep their digits.
-    drift = weight(2)*(march%place(:, 2) - march%place(:, 1)) &
-      + (weight(1)*march%velocity(:, 1) + weight(2)*march%velocity(:, 2))/weight(0)
-    place = march%place(:, 1) - drift/weight(0)
+    place = free_value(weight, march%place, march%velocity)
   end function free_place
 
   !> The same of the tilts with the gyroscopic torque, which follows the rates of both: where
