@@ -7,11 +7,12 @@ module gfb_natural_order
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top
   use gfb_contact_set, only: contact_set_type
+  use gfb_inner_motion, only: inner_motion_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_strip_system, only: strip_system_type, plate_forced
   implicit none (type)
   private
-  public :: bearing_order, path_order, strip_order, contact_order, to_natural, from_natural, vector_values, set_vector
+  public :: bearing_order, path_order, strip_order, contact_order, piece_order, to_natural, from_natural, vector_values, set_vector
 
   !> What this rank owns, by numbers that some of which nothing may have.
   type, public :: natural_order_type
@@ -80,6 +81,16 @@ contains
     end associate
     order%total = largest_number(order%number)
   end function contact_order
+
+  !> Order of the condensed pieces whose inner modes move: pad by pad, along the foil.
+  function piece_order(motion) result(order)
+    type(inner_motion_type), intent(in) :: motion !! of this rank's pieces
+    type(natural_order_type) :: order
+    integer :: i
+
+    order%number = [(motion%inner(i)%place, i=1, size(motion%inner))]
+    order%total = largest_number(order%number)
+  end function piece_order
 
   !> Numbers of the film nodes this rank owns, in the order of the vectors.
   pure function film_numbers(mesh) result(number)

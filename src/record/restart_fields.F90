@@ -13,7 +13,7 @@ module gfb_restart_fields
   use gfb_contact_record, only: contact_record_type, record_fields
   implicit none (type)
   private
-  public :: put_memory, read_memory, end_memory, put_vector, read_vector, put_contacts, read_contacts, &
+  public :: put_memory, read_memory, end_memory, put_field, read_field, put_vector, read_vector, put_contacts, read_contacts, &
             put_contact_record, read_contact_record
 
   character(len=*), parameter :: words_meaning = 'name, kind and shape of the numbers, one a line; texts behind theirs'
@@ -53,10 +53,12 @@ contains
 
   !> Adds a field.
   subroutine put_field(order, value, path, unit, meaning, file)
-    type(natural_order_type), intent(in) :: order
-    real(wp), intent(in) :: value(:, :) !! (components, things this rank owns)
-    character(len=*), intent(in) :: path, unit, meaning
-    type(result_file_type), intent(inout) :: file
+    type(natural_order_type), intent(in) :: order !! of the things
+    real(wp), intent(in) :: value(:, :)    !! (components, things this rank owns)
+    character(len=*), intent(in) :: path   !! of the field in the file
+    character(len=*), intent(in) :: unit   !! of the numbers
+    character(len=*), intent(in) :: meaning !! of the numbers
+    type(result_file_type), intent(inout) :: file !! that is being written
 
     if (order%total == 0) return
     call file%put_block(path, to_natural(order, value), order%offset(), order%total, unit, meaning)
@@ -64,10 +66,10 @@ contains
 
   !> Reads a field; zeros where it cannot be read.
   function read_field(order, components, path, file) result(value)
-    type(natural_order_type), intent(in) :: order
-    integer, intent(in) :: components
-    character(len=*), intent(in) :: path
-    type(stored_file_type), intent(inout) :: file
+    type(natural_order_type), intent(in) :: order !! of the things
+    integer, intent(in) :: components    !! numbers of each
+    character(len=*), intent(in) :: path !! of the field in the file
+    type(stored_file_type), intent(inout) :: file !! that is being read
     real(wp) :: value(components, size(order%number))
 
     value = 0.0_wp

@@ -41,7 +41,8 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at rest
     type(foil_inertia_type) :: inertia
 
-    call give_momentum(bearing, mass_wanted(scene), fastest_motion(scene), inertia)
+    call give_momentum(bearing, mass_wanted(scene), scene%transient%foil_modes, &
+                       fastest_motion(scene), inertia)
     if (meshes_foils(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
     call destroy_inertia(inertia)
   end subroutine choose_momentum
@@ -52,7 +53,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! where the file has left it
     type(foil_inertia_type) :: inertia
 
-    call give_momentum(bearing, mass_on, fastest_motion(scene), inertia)
+    call give_momentum(bearing, mass_on, scene%transient%foil_modes, fastest_motion(scene), inertia)
     call destroy_inertia(inertia)
   end subroutine resume_momentum
 
@@ -103,7 +104,7 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(foil_inertia_type), intent(in) :: inertia !! of its foil
     logical, intent(in) :: first !! it is the first answer; later ones say what they have judged
-    character(len=:), allocatable :: line, lowest, highest, remedy
+    character(len=:), allocatable :: line, lowest, highest
 
     if (scene%model%foil == foil_rigid .or. .not. (first .or. inertia%judged)) return
     lowest = hertz(inertia%lowest)
@@ -125,10 +126,8 @@ contains
     end if
     call log%line('foil mass: '//line)
     if (inertia%present .and. inertia%left_out < 3.0_wp*inertia%highest) then
-      remedy = 'more foil_modes keep'
-      if (scene%transient%present) remedy = "reduction = 'none' in &model has"
       call log%line('warning: condensed bumps have modes from '//hertz(inertia%left_out)// &
-                    ' on that are left out: '//remedy//' them')
+                    ' on that are left out: more foil_modes keep them')
     end if
   end subroutine describe_mass
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Mass of foils over time: the force of the linear theory on a small orbit, condensed and full shells, two bearings, ranks,
-runs that are stopped.
+"""Mass of foils over time: the force of the linear theory on a small orbit, condensed shells with modes inside and full
+ones, two bearings, ranks, runs that are stopped.
 
 Small orbits are tiny against the gaps of open contacts, and without friction: the foils are linear then. What rings on from
 the sleeve's sudden start dies out slowly, so the harmonic is read through a window.
 """
 
 import pathlib
+import random
 import tempfile
 
 import numpy
@@ -14,7 +15,8 @@ import numpy
 from dynamics import FOIL_BEARING, beams, vibrate
 from dynamics_foils import shells
 from dynamics_mass import heavy
-from gfb_run import Checks, case_groups, largest_difference, solve
+from gfb_run import Checks, case_groups, largest_difference, solve, write_case
+from restart import SEED, check_kills, run_time
 from rotor import speed_of
 from transient import TIGHT, history, plane
 
@@ -73,17 +75,32 @@ def check_force(checks, folder):
 
 
 def check_shells(checks, folder):
-    """Shells that rub, on a large orbit: half the width is the whole one, condensed bumps have the mass of full ones."""
+    """Shells that rub, on a large orbit: half the width is the whole one, condensed bumps have the mass of full ones, and
+    with modes inside their motion."""
     found = {}
-    for words, mass, model in (("half", "on", {"half_width": "yes"}), ("whole", "on", {"half_width": "no"}),
-                               ("full", "on", {"half_width": "yes", "reduction": "none"}), ("off", "off", {"half_width": "yes"})):
-        case = heavy(shells(0.1, **({"reduction": "guyan"} | model)))
-        found[words] = orbit(history(solve(folder, words, rotor_in_time(case, foil_mass=mass))))
+    for words, mass, model in (("half", {}, {}), ("whole", {}, {"half_width": "no"}), ("full", {}, {"reduction": "none"}),
+                               ("off", {"foil_mass": "off"}, {}), ("modes", {"foil_modes": 12}, {}), ("none", {"foil_modes": 0}, {})):
+        case = heavy(shells(0.1, **({"reduction": "guyan", "half_width": "yes"} | model)))
+        answer = solve(folder, words, rotor_in_time(case, **({"foil_mass": "on"} | mass)))
+        found[words] = orbit(history(answer))
     effect = largest_difference(found["off"], found["half"], 1.0)
     checks.that("shells: a large orbit, on which the mass is felt", numpy.ptp(found["half"].real) > 0.05 and effect > 1.0e-4)
     checks.below("shells: half and whole width", largest_difference(found["half"], found["whole"], 1.0), 1.0e-8)
-    checks.below("shells: condensed and full bumps, over what the mass changes",
-                 largest_difference(found["half"], found["full"], effect), 1.0e-2)
+    off = {words: largest_difference(found[words], found["full"], effect) for words in ("none", "half", "modes")}
+    checks.below("shells: condensed and full bumps, over what the mass changes, two modes", off["half"], 1.0e-5)
+    checks.below("shells: the same, twelve modes", off["modes"], 1.0e-7)
+    checks.that(f"shells: the same, none: {off['none']:.1e}, further off", off["none"] > 2.0*off["half"])
+
+
+def check_stops(checks, folder):
+    """Shells with modes inside go on with the same digits after they were killed, and on other ranks."""
+    content = rotor_in_time(heavy(shells(0.1, reduction="guyan", half_width="yes")), foil_mass="on", foil_modes=4)
+    content["transient"] |= {"turns": 2.0, "unbalance": 1.0e-6}  # whose film is not yet so thin that round-off shows
+    content["output"] = {"restart_every": 10}
+    chance = random.Random(SEED)
+    whole = run_time(write_case(folder, "stopped", content), folder/"whole")
+    for ranks in ((1, 1, 1, 1), (2, 1, 2, 1)):
+        check_kills(checks, folder, "stopped", content, chance, ranks, whole)
 
 
 def check_beams(checks, folder):
@@ -111,6 +128,7 @@ def main():
         check_force(checks, pathlib.Path(folder))
         check_beams(checks, pathlib.Path(folder))
         check_shells(checks, pathlib.Path(folder))
+        check_stops(checks, pathlib.Path(folder))
     checks.close()
 
 

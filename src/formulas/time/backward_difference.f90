@@ -12,7 +12,8 @@ module gfb_backward_difference
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: difference_weights, free_value, newest_rate, extrapolation_weights, error_share, next_step
+  public :: difference_weights, free_value, newest_rate, extrapolation_weights, error_share, &
+            next_step
 
   integer, parameter, public :: kept_times = 3 !! before the new one: what the prediction needs
 
@@ -37,7 +38,10 @@ contains
   end function difference_weights
 
   !> Values at the end of a step that nothing forces: the difference of their rates' differences is
-  !> \( a_0^2 (y - \hat y) \) with \( \hat y = y_1 - (a_2 (y_2 - y_1) + (a_1 \dot y_1 + a_2 \dot y_2)/a_0)/a_0 \).
+  !> \( a_0^2 (y - \hat y) \) with
+  !>
+  !> $$ \hat y = y_1 - \frac{1}{a_0}
+  !>    \left( a_2 (y_2 - y_1) + \frac{a_1 \dot y_1 + a_2 \dot y_2}{a_0} \right) $$
   pure function free_value(weight, value, rate) result(free)
     real(wp), intent(in) :: weight(0:2)  !! a_0, a_1, a_2 of the step [1/s]
     real(wp), intent(in) :: value(:, :)  !! (values, times) now and one step ago, in any unit
@@ -45,7 +49,8 @@ contains
     real(wp) :: free(size(value, 1)), drift(size(value, 1))
 
     ! Differences of values and of rates keep their digits.
-    drift = weight(2)*(value(:, 2) - value(:, 1)) + (weight(1)*rate(:, 1) + weight(2)*rate(:, 2))/weight(0)
+    drift = weight(2)*(value(:, 2) - value(:, 1)) &
+      + (weight(1)*rate(:, 1) + weight(2)*rate(:, 2))/weight(0)
     free = value(:, 1) - drift/weight(0)
   end function free_value
 

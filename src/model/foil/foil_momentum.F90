@@ -6,10 +6,12 @@
 !> $$ M \ddot u \approx a_0^2 M (u - \hat u), \quad
 !>    \hat u = u_1 - \frac{1}{a_0} \left( a_2 (u_2 - u_1) + \frac{a_1 \dot u_1 + a_2 \dot u_2}{a_0} \right): $$
 !>
-!> the foils would be at \( \hat u \) without any force. Film and shaft have neither row nor column in M.
+!> the foils would be at \( \hat u \) without any force. Film and shaft have neither row nor column in M. Modes inside
+!> condensed pieces join in (`gfb_inner_motion`).
 module gfb_foil_momentum
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_inner_motion, only: inner_motion_type
   implicit none (type)
   private
 
@@ -21,6 +23,7 @@ module gfb_foil_momentum
     Vec, private :: free             !! scaled unknowns without forces on the foils
     Vec :: rate(2)                   !! of the scaled unknowns, now and one step ago [1/s]
     Vec, private :: way, force       !! work space: from there to a state; its inertia
+    type(inner_motion_type) :: inner !! modes inside condensed pieces, where they have any
   contains
     procedure :: begin
     procedure :: prepare
@@ -65,6 +68,7 @@ contains
     PetscCallA(VecAXPY(self%free, -weight(2)/weight(0), self%way, ierr))
     PetscCallA(VecAXPY(self%free, -weight(1)/self%share, self%rate(1), ierr))
     PetscCallA(VecAXPY(self%free, -weight(2)/self%share, self%rate(2), ierr))
+    call self%inner%prepare(weight)
   end subroutine prepare
 
   !> Ends a step: its rate becomes the newest.
@@ -75,6 +79,8 @@ contains
     Vec, intent(in) :: now, before !! as in `prepare`
     PetscErrorCode :: ierr
 
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, self%free, state, ierr))
+    call self%inner%carry(weight, self%way)
     PetscCallA(VecCopy(self%rate(1), self%rate(2), ierr))
     PetscCallA(VecWAXPY(self%way, -1.0_wp, now, before, ierr))
     PetscCallA(VecWAXPY(self%rate(1), -1.0_wp, now, state, ierr))
@@ -92,16 +98,18 @@ contains
     PetscCallA(VecWAXPY(self%way, -1.0_wp, self%free, state, ierr))
     PetscCallA(MatMult(self%mass, self%way, self%force, ierr))
     PetscCallA(VecAXPY(residual, self%share, self%force, ierr))
+    call self%inner%add_force(self%way, residual)
   end subroutine add_force
 
   !> Adds its derivative.
   subroutine add_stiffness(self, jacobian)
-    class(foil_momentum_type), intent(in) :: self !! the foils' inertia
+    class(foil_momentum_type), intent(inout) :: self !! the foils' inertia
     Mat, intent(in) :: jacobian !! of the bearing, scaled
     PetscErrorCode :: ierr
 
     if (.not. self%present) return
     PetscCallA(MatAXPY(jacobian, self%share, self%mass, SAME_NONZERO_PATTERN, ierr))
+    call self%inner%add_stiffness(jacobian)
   end subroutine add_stiffness
 
   !> Frees what PETSc holds; may be called twice.
@@ -118,6 +126,7 @@ contains
     PetscCallA(VecDestroy(self%way, ierr))
     PetscCallA(VecDestroy(self%free, ierr))
     PetscCallA(MatDestroy(self%mass, ierr))
+    call self%inner%destroy()
     self%present = .false.
   end subroutine destroy
 end module gfb_foil_momentum

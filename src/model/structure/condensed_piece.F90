@@ -11,6 +11,7 @@ module gfb_condensed_piece
     Mat :: stiffness, mass                  !! of all unknowns of the piece, on this rank alone
     logical, allocatable :: is_retained(:)  !! one an unknown
     integer, allocatable :: number(:, :)    !! (retained, pieces) foil's own numbers, from 1; 0: fixed
+    integer, allocatable :: place(:)        !! (pieces) along the foil, from 1, whatever rank has them
   end type condensed_piece_type
 
 contains

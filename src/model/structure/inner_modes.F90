@@ -18,7 +18,8 @@ module gfb_inner_modes
   !> Modes inside the condensed pieces of one kind.
   type, public :: inner_modes_type
     integer, allocatable :: number(:, :)     !! (retained, pieces) bearing's, from 0; -1: fixed
-    real(wp), allocatable :: coupling(:, :)  !! (retained, modes) m_i
+    integer, allocatable :: place(:)         !! (pieces) from 1, pad by pad, whatever rank has them
+    real(wp), allocatable :: coupling(:, :)  !! (retained, modes) m_i [sqrt(kg)], of one sign on all ranks
     real(wp), allocatable :: eigenvalue(:)   !! omega_i squared [1/s2]
   end type inner_modes_type
 

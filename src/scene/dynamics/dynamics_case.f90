@@ -6,7 +6,7 @@ module gfb_dynamics_case
                             foil_rigid, meshes_foils
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
-  use gfb_foil_mass_words, only: mass_auto, mass_words
+  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys, check_maxwell_keys
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
@@ -86,9 +86,7 @@ contains
     call keys%choice_key('foil_mass', dynamics%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the frequencies '// &
                          'ask for it, always, never')
-    call keys%integer_key('foil_modes', dynamics%foil_modes, &
-                          'fixed-interface modes kept inside each condensed piece of the bumps '// &
-                          'that has its mass', not_negative)
+    call keys%integer_key('foil_modes', dynamics%foil_modes, foil_modes_words, not_negative)
     call keys%real_list_key('vibration_amplitudes', dynamics%amplitudes, longest_list, 'm', &
                             'amplitudes of the shaft along x and along y at which stiffness '// &
                             'and damping are asked for too, contacts sliding to and fro', &

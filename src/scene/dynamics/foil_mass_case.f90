@@ -22,19 +22,9 @@ contains
     type(model_case_type), intent(in) :: model !! what `&model` asks for
     type(top_foil_case_type), intent(in) :: top_foil !! what `&top_foil` says
     type(bump_foil_case_type), intent(in) :: bump_foil !! what `&bump_foil` says
-    character(len=*), parameter :: group = 'dynamics', modes = 'foil_modes'
-
     if (model%foil == 0) return
     if (transient%present) call check_mass('transient', transient%foil_mass)
-    if (.not. dynamics%present) return
-    call check_mass(group, dynamics%foil_mass)
-    if (.not. keys%meant(group, modes)) return
-    if (model%foil /= foil_shell .or. model%reduction == reduction_none) then
-      call keys%complain(group, modes, "needs foil = 'shell' and condensed bumps in &model: "// &
-                         'nothing else has modes of its own inside')
-    else if (dynamics%foil_mass == mass_off) then
-      call keys%complain(group, modes, "has no use with foil_mass = 'off'")
-    end if
+    if (dynamics%present) call check_mass('dynamics', dynamics%foil_mass)
 
   contains
 
@@ -42,7 +32,7 @@ contains
     subroutine check_mass(asking, wanted)
       character(len=*), intent(in) :: asking !! the group
       integer, intent(in) :: wanted
-      character(len=*), parameter :: mass = 'foil_mass'
+      character(len=*), parameter :: mass = 'foil_mass', modes = 'foil_modes'
 
       if (keys%meant(asking, mass) .and. .not. meshes_foils(model%foil)) then
         call keys%complain(asking, mass, "needs foil = 'shell' in &model, or 'beam': no other "// &
@@ -50,6 +40,13 @@ contains
       else if (wanted == mass_on .and. .not. has_densities(top_foil, bump_foil)) then
         call keys%complain(asking, mass, 'needs the density of both foils: give density in '// &
                            '&top_foil and in &bump_foil')
+      end if
+      if (.not. keys%meant(asking, modes)) return
+      if (model%foil /= foil_shell .or. model%reduction == reduction_none) then
+        call keys%complain(asking, modes, "needs foil = 'shell' and condensed bumps in &model: "// &
+                           'nothing else has modes of its own inside')
+      else if (wanted == mass_off) then
+        call keys%complain(asking, modes, "has no use with foil_mass = 'off'")
       end if
     end subroutine check_mass
   end subroutine check_foil_mass

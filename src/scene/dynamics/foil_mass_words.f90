@@ -7,4 +7,6 @@ module gfb_foil_mass_words
   integer, parameter, public :: mass_on = 2   !! it has it
   integer, parameter, public :: mass_off = 3  !! it has none
   character(len=*), parameter, public :: mass_words(*) = [character(len=4) :: 'auto', 'on', 'off']
+  character(len=*), parameter, public :: foil_modes_words = &
+    'fixed-interface modes kept inside each condensed piece of the bumps that has its mass'
 end module gfb_foil_mass_words

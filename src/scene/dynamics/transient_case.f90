@@ -2,7 +2,7 @@
 module gfb_transient_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_foil_mass_words, only: mass_auto, mass_words
+  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_operation_case, only: operation_case_type, angular_speed
@@ -43,6 +43,7 @@ module gfb_transient_case
     real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
     type(maxwell_arm_type) :: arm           !! beside the springs of an elastic foundation
     integer :: foil_mass = mass_auto
+    integer :: foil_modes = 2               !! kept inside each condensed bump
     integer :: output_every = 1             !! steps
     real(wp) :: field_interval = 0.0_wp     !! between stored fields; 0: the last ones alone [s]
     real(wp) :: field_start = 0.0_wp        !! first of these times [s]
@@ -77,6 +78,7 @@ contains
     call keys%choice_key('foil_mass', transient%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the shaft moves '// &
                          'fast enough for it to count, always, never')
+    call keys%integer_key('foil_modes', transient%foil_modes, foil_modes_words, not_negative)
     call keys%integer_key('output_every', transient%output_every, &
                           'steps from one line of the history to the next', positive)
     call keys%real_key('field_interval', transient%field_interval, 's', &

@@ -9,7 +9,7 @@ module gfb_foil_weighing
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: largest_over_ranks, any_rank
+  use gfb_petsc_session, only: largest_over_ranks, largest_number, any_rank
   use gfb_foil_mass_words, only: mass_auto, mass_on, mass_off
   use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
@@ -45,11 +45,11 @@ contains
                         response%opposite%equations%inertia)
   end subroutine give_mass
 
-  !> Gives the foils of a bearing their mass over time where it is asked for, or counts; modes inside condensed pieces are
-  !> left out.
-  subroutine give_momentum(bearing, wanted, highest, inertia)
+  !> Gives the foils of a bearing their mass over time where it is asked for, or counts.
+  subroutine give_momentum(bearing, wanted, modes, highest, inertia)
     type(bearing_system_type), intent(inout) :: bearing !! at rest; its equations stay
     integer, intent(in) :: wanted   !! `mass_auto`, `mass_on` or `mass_off`
+    integer, intent(in) :: modes    !! kept in each condensed piece, at most
     real(wp), intent(in) :: highest !! frequency that is expected [rad/s]
     type(foil_inertia_type), intent(out) :: inertia !! what was found; to be destroyed
     type(bearing_system_type), allocatable :: none
@@ -59,11 +59,12 @@ contains
     inertia%highest = highest
     if (wanted == mass_off .or. .not. bearing%is_meshed()) return
     call linearise_steady(bearing, .true., steady, none)
-    call create_inertia(bearing, steady, wanted, 0, highest, inertia)
+    call create_inertia(bearing, steady, wanted, modes, highest, inertia)
     PetscCallA(MatDestroy(steady, ierr))
     if (.not. inertia%present) return
     PetscCallA(MatDuplicate(inertia%mass, MAT_COPY_VALUES, mass, ierr))
     call bearing%momentum%begin(mass, bearing%state)
+    if (inertia%has_modes) call bearing%momentum%inner%begin(inertia%inner, inertia%mass, inertia%left, inertia%right)
   end subroutine give_momentum
 
   !> Makes the mass where it is asked for, or decides whether it counts.
@@ -105,7 +106,7 @@ contains
     real(wp) :: most(1)
     Mat :: of_foil
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, pieces
 
     associate (foil => bearing%pad(1)%foil)
       PetscCallA(MatDuplicate(foil%elastic, MAT_DO_NOT_COPY_VALUES, of_foil, ierr))
@@ -114,9 +115,10 @@ contains
       call foil%add_mass(of_foil, piece, error)
       if (allocated(error)) error stop 'an element that has a stiffness has a mass'
     end associate
+    pieces = largest_number([(piece(i)%place, i=1, size(piece))])
     allocate (inertia%inner(size(piece)))
     do i = 1, size(piece)
-      call reduce_piece(bearing, piece(i), modes, inertia%left_out, inertia%inner(i), of_foil)
+      call reduce_piece(bearing, piece(i), pieces, modes, inertia%left_out, inertia%inner(i), of_foil)
     end do
     call destroy_pieces(piece)
     PetscCallA(MatAssemblyBegin(of_foil, MAT_FINAL_ASSEMBLY, ierr))
@@ -131,9 +133,10 @@ contains
   end subroutine weigh_foil
 
   !> Adds the condensed mass of all pieces of a kind, and keeps its modes.
-  subroutine reduce_piece(bearing, piece, wanted, left_out, inner, of_foil)
+  subroutine reduce_piece(bearing, piece, pieces, wanted, left_out, inner, of_foil)
     type(bearing_system_type), intent(in) :: bearing
     type(condensed_piece_type), intent(in) :: piece
+    integer, intent(in) :: pieces !! of a pad, of all kinds and ranks
     integer, intent(in) :: wanted !! modes
     real(wp), intent(inout) :: left_out !! [rad/s]
     type(inner_modes_type), intent(out) :: inner
@@ -150,6 +153,13 @@ contains
     if (reduced%modes > modes) left_out = min(left_out, sqrt(reduced%eigenvalue(modes + 1)))
     inner%eigenvalue = reduced%eigenvalue(:modes)
     inner%coupling = reduced%mass(:kept, kept + 1:kept + modes)
+    do i = 1, modes
+      associate (m => inner%coupling(:, i))
+        ! Eigenvectors have either sign: the first large entry is positive, on any rank.
+        if (m(findloc(abs(m) > 0.5_wp*maxval(abs(m)), .true., dim=1)) < 0.0_wp) m = -m
+      end associate
+    end do
+    inner%place = [((pad - 1)*pieces + piece%place, pad=1, size(bearing%pad))]
     allocate (inner%number(kept, size(bearing%pad)*size(piece%number, 2)), source=-1)
     do k = 1, size(piece%number, 2)
       row = int(piece%number(:, k) - 1, pint)

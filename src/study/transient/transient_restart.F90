@@ -20,6 +20,7 @@ module gfb_transient_restart
   use gfb_foil_mass_choice, only: resume_momentum
   use gfb_transient_history, only: transient_history_type
   use gfb_spring_restart, only: keep_springs, recall_past_springs
+  use gfb_mode_restart, only: keep_modes, recall_modes
   implicit none (type)
   private
   public :: keep_march, recall_march
@@ -55,6 +56,7 @@ contains
       if (has_mass) then
         call put_vector(bearing_order(bearing), bearing%momentum%rate(1), '/march/rate', 'of the scaled unknowns [1/s]', file)
         call put_vector(bearing_order(bearing), bearing%momentum%rate(2), '/march/rate_before', 'the same one step ago', file)
+        call keep_modes(bearing%momentum%inner, file)
       end if
       call keep_springs(bearing, march, file)
     end if
@@ -88,6 +90,7 @@ contains
       call resume_momentum(scene, bearing)
       call read_vector(bearing_order(bearing), '/march/rate', file, bearing%momentum%rate(1))
       call read_vector(bearing_order(bearing), '/march/rate_before', file, bearing%momentum%rate(2))
+      call recall_modes(file, bearing%momentum%inner)
     end if
     call recall_past_springs(bearing, file, march)
     call check_restart_file(file, error)

@@ -1,0 +1,216 @@
+#include "gfb_petsc.h"
+!> The inertia of fixed-interface modes inside condensed pieces, over a step of time.
+!>
+!> Each mode follows the retained unknowns u of its piece (`gfb_modal_step`), its amplitude is no unknown of the
+!> step. With the way \( w = u - \hat u \) from where the foil would be without any force
+!>
+!> $$ f = \sum_i m_i \ddot\eta_i, \qquad
+!>    \frac{\partial f}{\partial u} = -\sum_i \frac{a_0^4}{a_0^2 + \omega_i^2} m_i m_i^T, $$
+!>
+!> the block of `gfb_inner_modes` in a motion \( e^{a_0 t} \). Source: [CraigBampton1968].
+module gfb_inner_motion
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_backward_difference, only: free_value, newest_rate
+  use gfb_modal_step, only: modal_amplitude, modal_acceleration
+  use gfb_inner_modes, only: inner_modes_type, inner_block, add_to_pieces
+  implicit none (type)
+  private
+
+  !> Modes of all pieces, and what of their past a step needs; nothing where it is not begun.
+  type, public :: inner_motion_type
+    logical :: present = .false.
+    real(wp), allocatable :: amplitude(:, :) !! (this rank's modes, 2) now and one step ago [m sqrt(kg)]
+    real(wp), allocatable :: rate(:, :)      !! (this rank's modes, 2) of the amplitudes [m sqrt(kg)/s]
+    real(wp), allocatable, private :: free(:)       !! amplitudes without any force in the present step
+    real(wp), allocatable, private :: eigenvalue(:) !! of each mode [1/s2]
+    type(inner_modes_type), allocatable :: inner(:) !! this rank's kinds
+    real(wp), private :: factor = 0.0_wp     !! a_0 of the present step [1/s]
+    logical, private :: formed = .false.     !! the stiffness is that of this a_0
+    Mat, private :: coupling                 !! (modes, unknowns) m^T
+    Mat, private :: stiffness                !! derivative of the force, scaled as the bearing's matrix
+    Vec, private :: left, right              !! these scales
+    Vec, private :: drive, force             !! work space: one a mode; one an unknown
+  contains
+    procedure :: begin
+    procedure :: prepare
+    procedure :: carry
+    procedure :: add_force
+    procedure :: add_stiffness
+    procedure :: destroy
+    procedure, private :: driven_by
+  end type inner_motion_type
+
+contains
+
+  !> Begins at rest.
+  subroutine begin(self, inner, mass, left, right)
+    class(inner_motion_type), intent(inout) :: self !! nothing before
+    type(inner_modes_type), intent(in) :: inner(:)  !! kinds of this rank's pieces
+    Mat, intent(in) :: mass !! M, scaled as the bearing's matrix, has room for the pieces' blocks
+    Vec, intent(in) :: left, right !! these scales
+    PetscInt :: owned, first, last
+    PetscErrorCode :: ierr
+    integer :: i, k, n
+
+    self%inner = inner
+    allocate (self%eigenvalue(0))
+    do i = 1, size(inner)
+      do k = 1, size(inner(i)%number, 2)
+        self%eigenvalue = [self%eigenvalue, inner(i)%eigenvalue]
+      end do
+    end do
+    n = size(self%eigenvalue)
+    allocate (self%amplitude(n, 2), self%rate(n, 2), self%free(n), source=0.0_wp)
+    PetscCallA(VecDuplicate(left, self%left, ierr))
+    PetscCallA(VecCopy(left, self%left, ierr))
+    PetscCallA(VecDuplicate(right, self%right, ierr))
+    PetscCallA(VecCopy(right, self%right, ierr))
+    PetscCallA(VecDuplicate(left, self%force, ierr))
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(n, pint), PETSC_DETERMINE, self%drive, ierr))
+    PetscCallA(MatDuplicate(mass, MAT_DO_NOT_COPY_VALUES, self%stiffness, ierr))
+    PetscCallA(MatSetOption(self%stiffness, MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
+    PetscCallA(VecGetLocalSize(left, owned, ierr))
+    PetscCallA(VecGetOwnershipRange(left, first, last, ierr))
+    call couple(inner, n, owned, [first, last], self%drive, self%coupling)
+    self%present = .true.
+  end subroutine begin
+
+  !> Couples every mode to the retained unknowns of its piece.
+  subroutine couple(inner, modes, owned, range, drive, coupling)
+    type(inner_modes_type), intent(in) :: inner(:)
+    integer, intent(in) :: modes    !! of this rank
+    PetscInt, intent(in) :: owned   !! unknowns of this rank
+    PetscInt, intent(in) :: range(2) !! of their numbers, from 0; without the second
+    Vec, intent(in) :: drive        !! one a mode
+    Mat, intent(out) :: coupling
+    PetscInt :: row, last, room(modes), beside(modes)
+    PetscErrorCode :: ierr
+    integer :: i, k, mode, here
+
+    here = 0
+    do i = 1, size(inner)
+      do k = 1, size(inner(i)%number, 2)
+        associate (mine => inner(i)%number(:, k) >= range(1) .and. inner(i)%number(:, k) < range(2), &
+                   next => here + size(inner(i)%eigenvalue))
+          room(here + 1:next) = count(mine, kind=pint)
+          beside(here + 1:next) = count(inner(i)%number(:, k) >= 0 .and. .not. mine, kind=pint)
+          here = next
+        end associate
+      end do
+    end do
+    PetscCallA(MatCreateAIJ(PETSC_COMM_WORLD, int(modes, pint), owned, PETSC_DETERMINE, PETSC_DETERMINE, 0_pint, room, 0_pint, beside, coupling, ierr))
+    PetscCallA(VecGetOwnershipRange(drive, row, last, ierr))
+    do i = 1, size(inner)
+      do k = 1, size(inner(i)%number, 2)
+        do mode = 1, size(inner(i)%eigenvalue)
+          associate (column => int(inner(i)%number(:, k), pint))
+            PetscCallA(MatSetValues(coupling, 1_pint, [row], size(column, kind=pint), column, inner(i)%coupling(:, mode), INSERT_VALUES, ierr))
+          end associate
+          row = row + 1
+        end do
+      end do
+    end do
+    PetscCallA(MatAssemblyBegin(coupling, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(coupling, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine couple
+
+  !> From now on the equations are those of a step.
+  subroutine prepare(self, weight)
+    class(inner_motion_type), intent(inout) :: self !! the modes
+    real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of the step [1/s]
+
+    if (.not. self%present) return
+    self%formed = self%formed .and. .not. abs(weight(0) - self%factor) > 0.0_wp
+    self%factor = weight(0)
+    self%free = free_value(weight, self%amplitude, self%rate)
+  end subroutine prepare
+
+  !> Ends a step: its amplitudes become the newest.
+  subroutine carry(self, weight, way)
+    class(inner_motion_type), intent(inout) :: self !! the modes
+    real(wp), intent(in) :: weight(0:2) !! as in `prepare` [1/s]
+    Vec, intent(in) :: way !! from the state without any force to where the step led, scaled
+    real(wp) :: newest(size(self%free))
+
+    if (.not. self%present) return
+    newest = modal_amplitude(self%factor, self%eigenvalue, self%free, self%driven_by(way))
+    self%rate(:, 2) = self%rate(:, 1)
+    self%rate(:, 1) = newest_rate(weight, newest, self%amplitude)
+    self%amplitude(:, 2) = self%amplitude(:, 1)
+    self%amplitude(:, 1) = newest
+  end subroutine carry
+
+  !> Drives of this rank's modes.
+  function driven_by(self, way) result(drive)
+    class(inner_motion_type), intent(in) :: self !! the modes
+    Vec, intent(in) :: way !! scaled
+    real(wp) :: drive(size(self%free)) !! [m sqrt(kg)]
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecPointwiseMult(self%force, self%right, way, ierr))
+    PetscCallA(MatMult(self%coupling, self%force, self%drive, ierr))
+    PetscCallA(GFB_VecGetArrayRead(self%drive, values, ierr))
+    drive = values
+    PetscCallA(GFB_VecRestoreArrayRead(self%drive, values, ierr))
+  end function driven_by
+
+  !> Adds the inertia at a state.
+  subroutine add_force(self, way, residual)
+    class(inner_motion_type), intent(in) :: self !! the modes
+    Vec, intent(in) :: way      !! as in `carry`
+    Vec, intent(in) :: residual !! of the bearing, scaled
+    real(wp) :: acceleration(size(self%free))
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    acceleration = modal_acceleration(self%factor, self%eigenvalue, self%free, self%driven_by(way))
+    PetscCallA(GFB_VecGetArray(self%drive, values, ierr))
+    values = acceleration
+    PetscCallA(GFB_VecRestoreArray(self%drive, values, ierr))
+    PetscCallA(MatMultTranspose(self%coupling, self%drive, self%force, ierr))
+    PetscCallA(VecPointwiseMult(self%force, self%left, self%force, ierr))
+    PetscCallA(VecAXPY(residual, 1.0_wp, self%force, ierr))
+  end subroutine add_force
+
+  !> Adds its derivative.
+  subroutine add_stiffness(self, jacobian)
+    class(inner_motion_type), intent(inout) :: self !! the modes
+    Mat, intent(in) :: jacobian !! of the bearing, scaled
+    PetscErrorCode :: ierr
+    integer :: i
+
+    if (.not. self%present) return
+    if (.not. self%formed) then
+      PetscCallA(MatZeroEntries(self%stiffness, ierr))
+      do i = 1, size(self%inner)
+        associate (inner => self%inner(i))
+          call add_to_pieces(inner, real(inner_block(inner, cmplx(self%factor, 0.0_wp, wp), (0.0_wp, 0.0_wp)), wp), self%stiffness)
+        end associate
+      end do
+      PetscCallA(MatAssemblyBegin(self%stiffness, MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatAssemblyEnd(self%stiffness, MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatDiagonalScale(self%stiffness, self%left, self%right, ierr))
+      self%formed = .true.
+    end if
+    PetscCallA(MatAXPY(jacobian, 1.0_wp, self%stiffness, SAME_NONZERO_PATTERN, ierr))
+  end subroutine add_stiffness
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy(self)
+    class(inner_motion_type), intent(inout) :: self !! no modes any longer
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(MatDestroy(self%coupling, ierr))
+    PetscCallA(MatDestroy(self%stiffness, ierr))
+    PetscCallA(VecDestroy(self%left, ierr))
+    PetscCallA(VecDestroy(self%right, ierr))
+    PetscCallA(VecDestroy(self%drive, ierr))
+    PetscCallA(VecDestroy(self%force, ierr))
+    self%present = .false.
+  end subroutine destroy
+end module gfb_inner_motion
