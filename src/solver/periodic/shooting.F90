@@ -19,7 +19,8 @@ module gfb_shooting
   private
   public :: shoot, learn_map, model_step
 
-  real(wp), parameter :: tolerance = 1.0e-9_wp   !! of an orbit that closes, and of its conditions [1]
+  real(wp), parameter :: closed = 1.0e-11_wp     !! an orbit, and its conditions [1]
+  real(wp), parameter :: nearly = 1.0e-9_wp      !! the same, where one more step does not get there [1]
   real(wp), parameter :: difference = 2.0e-6_wp  !! of points whose maps are subtracted [1]
   real(wp), parameter :: settled = 1.0e-6_wp     !! residual of a multiplier that is found [1]
   real(wp), parameter :: counted = 0.3_wp        !! multipliers of this size must be [1]
@@ -62,18 +63,19 @@ contains
     logical :: found
     real(wp) :: step(size(x)), before(size(x)), size_of_step
     integer :: halvings
+    logical :: near
 
     found = .false.
+    near = .false.
     step = 0.0_wp
     before = 0.0_wp
     halvings = 0
     do iterations = 1, most_iterations
       if (apply_map(map, bearing, newton, x, y, .true.)) then
         if (iterations > 1) call learn_step(map, step, y - step_free(before, x, y), derivative)
-        if (is_closed(map, condition, x, y)) then
-          found = .true.
-          return
-        end if
+        found = is_closed(map, condition, x, y, merge(nearly, closed, near))
+        if (found) return
+        near = is_closed(map, condition, x, y, nearly)
         call model_step(map, derivative, y - x, condition%row, condition%value - dots(map, condition%row, x), step)
         size_of_step = sqrt(sum(dots(map, reshape(step, [size(step), 1]), step)))
         if (.not. size_of_step < huge(1.0_wp)) return
@@ -101,16 +103,17 @@ contains
   end function step_free
 
   !> Whether a point is an orbit.
-  function is_closed(map, condition, x, y) result(closed)
+  function is_closed(map, condition, x, y, tolerance) result(yes)
     type(period_map_type), intent(in) :: map
     type(condition_type), intent(in) :: condition
     real(wp), intent(in) :: x(:), y(:)
-    logical :: closed
+    real(wp), intent(in) :: tolerance !! [1]
+    logical :: yes
     real(wp) :: open, missing(conditions)
 
     open = sum(dots(map, reshape(y - x, [size(x), 1]), y - x))
     missing = condition%value - dots(map, condition%row, x)
-    closed = open < tolerance**2 .and. all(abs(missing) < tolerance)
+    yes = open < tolerance**2 .and. all(abs(missing) < tolerance)
   end function is_closed
 
   !> Broyden's formula: the derivative that is nearest to the one before and maps the last step as it was.
