@@ -20,7 +20,8 @@ module gfb_shooting
   public :: shoot, learn_map, model_step
 
   real(wp), parameter :: closed = 1.0e-11_wp     !! an orbit, and its conditions [1]
-  real(wp), parameter :: nearly = 1.0e-9_wp      !! the same, where one more step does not get there [1]
+  real(wp), parameter :: nearly = 1.0e-9_wp      !! the same along a branch, or where round-off ends it [1]
+  real(wp), parameter :: round_off = 0.3_wp      !! of an opening, over that of the step before [1]
   real(wp), parameter :: difference = 2.0e-6_wp  !! of points whose maps are subtracted [1]
   real(wp), parameter :: settled = 1.0e-6_wp     !! residual of a multiplier that is found [1]
   real(wp), parameter :: counted = 0.3_wp        !! multipliers of this size must be [1]
@@ -61,21 +62,21 @@ contains
     real(wp), intent(out) :: y(:)   !! what it is mapped to [1]
     integer, intent(out) :: iterations !! periods marched
     logical :: found
-    real(wp) :: step(size(x)), before(size(x)), size_of_step
+    real(wp) :: step(size(x)), before(size(x)), size_of_step, open, opened
     integer :: halvings
-    logical :: near
 
     found = .false.
-    near = .false.
+    open = huge(open)
     step = 0.0_wp
     before = 0.0_wp
     halvings = 0
     do iterations = 1, most_iterations
       if (apply_map(map, bearing, newton, x, y, .true.)) then
         if (iterations > 1) call learn_step(map, step, y - step_free(before, x, y), derivative)
-        found = is_closed(map, condition, x, y, merge(nearly, closed, near))
+        opened = open
+        open = opening(map, condition, x, y)
+        found = open < merge(nearly, closed, map%parameter > 0 .or. open > round_off*opened)
         if (found) return
-        near = is_closed(map, condition, x, y, nearly)
         call model_step(map, derivative, y - x, condition%row, condition%value - dots(map, condition%row, x), step)
         size_of_step = sqrt(sum(dots(map, reshape(step, [size(step), 1]), step)))
         if (.not. size_of_step < huge(1.0_wp)) return
@@ -102,19 +103,16 @@ contains
     rest(size(x) - 1:) = y(size(x) - 1:)
   end function step_free
 
-  !> Whether a point is an orbit.
-  function is_closed(map, condition, x, y, tolerance) result(yes)
+  !> How far a point is from an orbit, and from its conditions.
+  function opening(map, condition, x, y) result(open)
     type(period_map_type), intent(in) :: map
     type(condition_type), intent(in) :: condition
     real(wp), intent(in) :: x(:), y(:)
-    real(wp), intent(in) :: tolerance !! [1]
-    logical :: yes
-    real(wp) :: open, missing(conditions)
+    real(wp) :: open
 
-    open = sum(dots(map, reshape(y - x, [size(x), 1]), y - x))
-    missing = condition%value - dots(map, condition%row, x)
-    yes = open < tolerance**2 .and. all(abs(missing) < tolerance)
-  end function is_closed
+    open = sqrt(sum(dots(map, reshape(y - x, [size(x), 1]), y - x)))
+    open = max(open, maxval(abs(condition%value - dots(map, condition%row, x))))
+  end function opening
 
   !> Broyden's formula: the derivative that is nearest to the one before and maps the last step as it was.
   subroutine learn_step(map, step, change, derivative)
