@@ -116,6 +116,9 @@ PetscErrorCode gfb_use_klu(intptr_t handle, int *has)
   PetscCall(PetscNew(&factors));
   klu_defaults(&factors->common);
   factors->common.tol = threshold;
+  /* Rows and columns are scaled already. Scaled once more by its largest entry, the shaft's dense row of unknowns becomes a
+     pivot early, and fills all that follow. */
+  factors->common.scale = 0;
   PetscCall(PCSetType(pc, PCSHELL));
   PetscCall(PCShellSetName(pc, label));
   PetscCall(PCShellSetContext(pc, factors));
