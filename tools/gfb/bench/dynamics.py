@@ -10,7 +10,7 @@ import statistics
 import sys
 import tempfile
 
-from gfb.bench.bearing import CASE, NUMERIC, SWEEP, calls, time_in
+from gfb.bench.bearing import CASE, FACTORIZATION, SWEEP, calls, time_in
 from gfb.run import run_case, run_logged
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
@@ -70,7 +70,7 @@ def measure(gfb, model, folder):
     loads = {"sweep": {"parameter": "load", "values": LOADS}}
     swept, stages = run_logged(gfb, groups_of(model, ()) | loads, folder, "loads")
     share = swept.cpu/sum(time_in(stages, stage, ("summary",)) for stage in stages)
-    factorization = share*time_in(stages, SWEEP, NUMERIC)/max(1.0, calls(stages, SWEEP, NUMERIC))
+    factorization = share*time_in(stages, SWEEP, FACTORIZATION)/max(1.0, calls(stages, SWEEP, FACTORIZATION))
     more = MODELS[model][2]
     few = run_case(gfb, groups_of(model, TWO), folder, "few")
     many = run_case(gfb, groups_of(model, TWO + tuple(0.6 + 0.05*i for i in range(more))), folder, "many")
