@@ -156,7 +156,7 @@ contains
     do i = 1, modes
       associate (m => inner%coupling(:, i))
         ! Eigenvectors have either sign: the first large entry is positive, on any rank.
-        if (m(findloc(abs(m) > 0.5_wp*maxval(abs(m)), .true., dim=1)) < 0.0_wp) m = -m
+        if (m(findloc(abs(m) >= 0.5_wp*maxval(abs(m)), .true., dim=1)) < 0.0_wp) m = -m
       end associate
     end do
     inner%place = [((pad - 1)*pieces + piece%place, pad=1, size(bearing%pad))]
