@@ -38,6 +38,7 @@ module gfb_bearing_system
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
     procedure :: commit => commit_bearing
+    procedure :: settle_again
     procedure :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -343,6 +344,20 @@ contains
     PetscCallA(GFB_VecRestoreArrayRead(residual, force, ierr))
     work = sum(sum_over_ranks(share))
   end function work_on_foils
+
+  !> Linearises the foils' contacts at the present state, which was an answer, whatever was tried since.
+  subroutine settle_again(self)
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
+    real(wp) :: unknown(self%local_size())
+    integer :: i
+
+    call self%get_unknowns(unknown)
+    do i = 1, size(self%pad)
+      associate (pad => self%pad(i))
+        if (pad%foil%has_contacts()) call pad%foil%settle_at(unknown(pad%first + 1:pad%last))
+      end associate
+    end do
+  end subroutine settle_again
 
   !> Ends a load step of the scene: friction carries its slip along.
   subroutine commit_bearing(self)

@@ -41,6 +41,7 @@ module gfb_contact_set
     procedure :: settle_like
     procedure :: linearise_again
     procedure :: drop_anchor
+    procedure :: settle_at
     procedure :: add_forces
     procedure :: point_block
     procedure :: point_unknowns
@@ -185,6 +186,18 @@ contains
       self%point(i)%anchor = self%point(i)%place
     end do
   end subroutine drop_anchor
+
+  !> Linearises every contact at a state that was an answer, whatever was tried since.
+  pure subroutine settle_at(self, displacement)
+    class(contact_set_type), intent(inout) :: self !! this rank's contacts
+    real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
+    integer :: i
+
+    do i = 1, size(self%point)
+      self%point(i)%anchor = self%approach(i, displacement)
+    end do
+    call self%settle(displacement)
+  end subroutine settle_at
 
   !> A two-way spring without friction.
   pure subroutine glue(set, point)

@@ -60,6 +60,7 @@ module gfb_foil_model
     procedure :: has_contacts
     procedure :: settle
     procedure :: begin_step
+    procedure :: settle_at
     procedure :: commit
     procedure :: set_hardness
     procedure :: set_adhesion
@@ -259,6 +260,13 @@ contains
     class(foil_model_type), intent(inout) :: self !! the foil
     call self%contacts%drop_anchor()
   end subroutine begin_step
+
+  !> Linearises the contacts at a state that was an answer, whatever was tried since.
+  subroutine settle_at(self, unknown)
+    class(foil_model_type), intent(inout) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    call self%contacts%settle_at(self%own_part(unknown))
+  end subroutine settle_at
 
   !> Ends a load step of the scene: friction carries its slip along.
   subroutine commit(self, unknown)

@@ -53,6 +53,7 @@ contains
     PetscCallA(VecCopy(self%state, bearing%state, ierr))
     bearing%point = self%point
     bearing%shaft_fixed = self%shaft_fixed
+    call bearing%settle_again()
   end subroutine put_back
 
   !> Largest change of a scaled unknown since the state was kept.
