@@ -38,7 +38,7 @@ module gfb_bearing_system
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
     procedure :: commit => commit_bearing
-    procedure :: settle_again
+    procedure :: return_to
     procedure :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -299,9 +299,7 @@ contains
     moved = .false.
     settled = .true.
     do i = 1, size(self%pad)
-      associate (pad => self%pad(i))
-        call pad%foil%settle(unknown(pad%first + 1:pad%last), pad_moved, pad_settled)
-      end associate
+      call self%pad(i)%foil%settle(unknown(self%pad(i)%first + 1:self%pad(i)%last), pad_moved, pad_settled)
       moved = moved .or. pad_moved
       settled = settled .and. pad_settled
     end do
@@ -345,19 +343,22 @@ contains
     work = sum(sum_over_ranks(share))
   end function work_on_foils
 
-  !> Linearises the foils' contacts at the present state, which was an answer, whatever was tried since.
-  subroutine settle_again(self)
+  !> Makes an earlier answer the present state: contacts are linearised there again, whatever was tried since.
+  subroutine return_to(self, state)
     class(bearing_system_type), intent(inout) :: self !! the bearing's equations
+    Vec, intent(in) :: state !! the earlier answer, scaled
     real(wp) :: unknown(self%local_size())
     integer :: i
+    PetscErrorCode :: ierr
 
+    PetscCallA(VecCopy(state, self%state, ierr))
+    if (.not. self%pad(1)%foil%has_contacts()) return
     call self%get_unknowns(unknown)
     do i = 1, size(self%pad)
-      associate (pad => self%pad(i))
-        if (pad%foil%has_contacts()) call pad%foil%settle_at(unknown(pad%first + 1:pad%last))
-      end associate
+      call self%pad(i)%foil%settle_at(unknown(self%pad(i)%first + 1:self%pad(i)%last))
     end do
-  end subroutine settle_again
+    self%settled = .true.
+  end subroutine return_to
 
   !> Ends a load step of the scene: friction carries its slip along.
   subroutine commit_bearing(self)
@@ -367,9 +368,7 @@ contains
 
     call self%get_unknowns(unknown)
     do i = 1, size(self%pad)
-      associate (pad => self%pad(i))
-        call pad%foil%commit(unknown(pad%first + 1:pad%last))
-      end associate
+      call self%pad(i)%foil%commit(unknown(self%pad(i)%first + 1:self%pad(i)%last))
     end do
   end subroutine commit_bearing
 

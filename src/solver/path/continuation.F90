@@ -82,7 +82,7 @@ contains
         report%cuts = report%cuts + 1
         just_cut = .true. ! what failed need not be tried again at once
         call newton%log%detail('cut: '//solved%reason)
-        PetscCallA(VecCopy(here, bearing%state, ierr))
+        call bearing%return_to(here)
         report%reason = solved%reason
         if (stop_agreed() .or. (report%steps > 0 .and. report%cuts >= settings%most_cuts)) exit
         step = 0.5_wp*step
@@ -192,7 +192,7 @@ contains
     do trial = 1, size(leaps)
       share = leaps(trial)
       bearing%point = point_between(start, target, share)
-      PetscCallA(VecCopy(here, bearing%state, ierr))
+      call bearing%return_to(here)
       call solve_newton(newton, solved)
       PetscCallA(VecWAXPY(change, -1.0_wp, here, bearing%state, ierr))
       PetscCallA(VecNorm(change, NORM_INFINITY, farthest, ierr))
@@ -207,7 +207,7 @@ contains
       report%fraction = report%fraction + share*(1.0_wp - report%fraction)
       report%reached = bearing%point
     else
-      PetscCallA(VecCopy(here, bearing%state, ierr))
+      call bearing%return_to(here)
       bearing%point = start
     end if
   end subroutine leap

@@ -141,17 +141,9 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! is put on the branch
     type(operating_point_type), intent(in) :: point !! of the branches
     type(branch_type), intent(in) :: branch         !! one that was found on this bearing
-    integer, parameter :: settlings = 2 !! what slides in the other direction sticks first
-    integer :: pass
-    logical :: moved
-    PetscErrorCode :: ierr
 
     bearing%point = point
-    PetscCallA(VecCopy(branch%state, bearing%state, ierr))
-    do pass = 1, settlings
-      call bearing%begin_step()
-      call bearing%settle(bearing%state, moved)
-    end do
+    call bearing%return_to(branch%state)
   end subroutine take_branch
 
   !> Frees what PETSc holds.

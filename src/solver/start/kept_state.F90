@@ -48,12 +48,10 @@ contains
   subroutine put_back(self, bearing)
     class(kept_state_type), intent(in) :: self !! the kept state
     type(bearing_system_type), intent(inout) :: bearing !! that whose state was kept
-    PetscErrorCode :: ierr
 
-    PetscCallA(VecCopy(self%state, bearing%state, ierr))
     bearing%point = self%point
     bearing%shaft_fixed = self%shaft_fixed
-    call bearing%settle_again()
+    call bearing%return_to(self%state)
   end subroutine put_back
 
   !> Largest change of a scaled unknown since the state was kept.
