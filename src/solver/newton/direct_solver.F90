@@ -16,8 +16,8 @@ module gfb_direct_solver
   use gfb_petsc_session, only: rank_count
   implicit none (type)
   private
-  public :: use_factors, make_factors, factor_matrix, factor_failure, failure_in_words, enlarge_workspace, keep_factors_on_disk, &
-            set_option_default, larger_workspace, are_of_mumps, factors_by
+  public :: use_factors, make_factors, factor_matrix, factor_failure, failure_in_words, enlarge_workspace, drop_factors, &
+            keep_factors_on_disk, set_option_default, larger_workspace, are_of_mumps, factors_by
 
   !> Prefixes of PETSc's options of all solvers that factor.
   character(len=*), parameter :: prefixes(*) = [character(len=10) :: 'strip_', 'bearing_', 'film_', &
@@ -38,6 +38,11 @@ module gfb_direct_solver
       integer(c_int), intent(out) :: has
       integer(c_int) :: status
     end function gfb_use_klu
+    function gfb_forget_klu(factors) result(status) bind(c)
+      import :: c_intptr_t, c_int
+      integer(c_intptr_t), value :: factors
+      integer(c_int) :: status
+    end function gfb_forget_klu
     function gfb_klu_sign(factors, sign) result(status) bind(c)
       import :: c_intptr_t, c_int
       integer(c_intptr_t), value :: factors
@@ -224,8 +229,19 @@ contains
       PetscCallA(KSPGetOptionsPrefix(linear, prefix, ierr))
       PetscCallA(PetscOptionsSetValue(PETSC_NULL_OPTIONS, '-'//trim(prefix)//'mat_mumps_icntl_14', text(room), ierr))
     end if
-    PetscCallA(KSPReset(linear, ierr))
+    call drop_factors(linear)
   end subroutine enlarge_workspace
+
+  !> Drops factors and how they were found, whoever made them. The solver has no matrix afterwards.
+  subroutine drop_factors(linear)
+    KSP, intent(in) :: linear !! with or without factors
+    PC :: factors
+    PetscErrorCode :: ierr
+
+    PetscCallA(KSPReset(linear, ierr))
+    PetscCallA(KSPGetPC(linear, factors, ierr))
+    if (gfb_forget_klu(int(factors%v, c_intptr_t)) /= 0) error stop 'PETSc does not drop KLU''s factors'
+  end subroutine drop_factors
 
   !> Room for pivoting to try next [%], where MUMPS found its workspace too small, at most five times; else 0.
   pure function larger_workspace(status, given) result(room)

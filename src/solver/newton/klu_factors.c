@@ -5,6 +5,8 @@
 
 /* A PC (its Fortran handle) becomes KLU's factors of its matrix; `has` tells whether the program was built with KLU. */
 PetscErrorCode gfb_use_klu(intptr_t handle, int *has);
+/* Drops KLU's factors and their pivots, if the PC has any: the next ones do not depend on those before. */
+PetscErrorCode gfb_forget_klu(intptr_t handle);
 /* Sign of the determinant that the present factors tell: 1, -1; 0 where the PC has none of KLU's. */
 PetscErrorCode gfb_klu_sign(intptr_t handle, int *sign);
 
@@ -15,11 +17,13 @@ _Static_assert(sizeof(PetscInt) == sizeof(int), "KLU takes PETSc's integers as t
 
 static const char   label[] = "KLU";
 static const double threshold = 0.01; /* of a pivot on the diagonal, over the largest in its column: as MUMPS has it */
+static const double most_growth = 10.0; /* of factors by earlier pivots, over that of factors by pivots of their own */
 
 typedef struct {
   klu_common       common;
   klu_symbolic    *symbolic; /* of the pattern that matrix and state name */
   klu_numeric     *numeric;
+  double           growth; /* largest entry of the matrix over that of its upper factor, when pivots were chosen */
   PetscObjectId    matrix;
   PetscObjectState state;
 } Factors;
@@ -30,6 +34,26 @@ static PetscErrorCode forget(Factors *factors)
   klu_free_numeric(&factors->numeric, &factors->common);
   klu_free_symbolic(&factors->symbolic, &factors->common);
   PetscFunctionReturn(0);
+}
+
+/* Factors by the pivots of those before: most of a factorization's time is the search for pivots. Without factors, or where
+   these would lose digits, none are left. */
+static void refactor(Factors *factors, int row[], int column[], double value[])
+{
+  if (!factors->numeric) return;
+  if (klu_refactor(row, column, value, factors->symbolic, factors->numeric, &factors->common)
+      && klu_rgrowth(row, column, value, factors->symbolic, factors->numeric, &factors->common)
+      && factors->common.rgrowth * most_growth >= factors->growth) return;
+  klu_free_numeric(&factors->numeric, &factors->common);
+}
+
+/* Factors by pivots of the matrix's own. */
+static void find_factors(Factors *factors, int row[], int column[], double value[])
+{
+  factors->numeric = klu_factor(row, column, value, factors->symbolic, &factors->common);
+  if (!factors->numeric) return;
+  klu_rgrowth(row, column, value, factors->symbolic, factors->numeric, &factors->common);
+  factors->growth = factors->common.rgrowth;
 }
 
 /* PETSc has the matrix by rows, KLU takes columns: the factors are those of the transposed matrix. */
@@ -56,9 +80,9 @@ static PetscErrorCode factor(PC pc)
   PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "KLU takes matrices of one rank");
   PetscCall(MatSeqAIJGetArrayRead(matrix, &value));
   if (!factors->symbolic) factors->symbolic = klu_analyze(order, (int *)row, (int *)column, &factors->common);
-  klu_free_numeric(&factors->numeric, &factors->common);
   if (factors->symbolic) {
-    factors->numeric = klu_factor((int *)row, (int *)column, (double *)value, factors->symbolic, &factors->common);
+    refactor(factors, (int *)row, (int *)column, (double *)value);
+    if (!factors->numeric) find_factors(factors, (int *)row, (int *)column, (double *)value);
   }
   PetscCall(MatSeqAIJRestoreArrayRead(matrix, &value));
   PetscCall(MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
@@ -129,6 +153,32 @@ PetscErrorCode gfb_use_klu(intptr_t handle, int *has)
   PetscFunctionReturn(0);
 }
 
+/* KLU's factors of a PC, NULL where it has none. */
+static PetscErrorCode get_factors(PC pc, Factors **factors)
+{
+  PetscBool   is_shell, is_klu;
+  const char *name;
+
+  PetscFunctionBeginUser;
+  *factors = NULL;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCSHELL, &is_shell));
+  if (!is_shell) PetscFunctionReturn(0);
+  PetscCall(PCShellGetName(pc, &name));
+  PetscCall(PetscStrcmp(name, label, &is_klu));
+  if (is_klu) PetscCall(PCShellGetContext(pc, factors));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode gfb_forget_klu(intptr_t handle)
+{
+  Factors *factors;
+
+  PetscFunctionBeginUser;
+  PetscCall(get_factors((PC)handle, &factors));
+  if (factors) PetscCall(forget(factors));
+  PetscFunctionReturn(0);
+}
+
 /* Whether it takes an odd number of exchanges to put a permutation in order; `seen` is overwritten. */
 static PetscBool is_odd(const int permutation[], int order, PetscBool seen[])
 {
@@ -146,20 +196,13 @@ static PetscBool is_odd(const int permutation[], int order, PetscBool seen[])
 
 PetscErrorCode gfb_klu_sign(intptr_t handle, int *sign)
 {
-  PC          pc = (PC)handle;
-  Factors    *factors;
-  PetscBool   is_shell, is_klu, odd, *seen;
-  const char *name;
+  Factors   *factors;
+  PetscBool  odd, *seen;
 
   PetscFunctionBeginUser;
   *sign = 0;
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCSHELL, &is_shell));
-  if (!is_shell) PetscFunctionReturn(0);
-  PetscCall(PCShellGetName(pc, &name));
-  PetscCall(PetscStrcmp(name, label, &is_klu));
-  if (!is_klu) PetscFunctionReturn(0);
-  PetscCall(PCShellGetContext(pc, &factors));
-  if (!factors->numeric) PetscFunctionReturn(0);
+  PetscCall(get_factors((PC)handle, &factors));
+  if (!factors || !factors->numeric) PetscFunctionReturn(0);
   const int   order = factors->symbolic->n;
   const double *pivot = factors->numeric->Udiag;
   PetscCall(PetscMalloc1(order, &seen));
@@ -178,6 +221,12 @@ PetscErrorCode gfb_use_klu(intptr_t handle, int *has)
 {
   (void)handle;
   *has = 0;
+  return 0;
+}
+
+PetscErrorCode gfb_forget_klu(intptr_t handle)
+{
+  (void)handle;
   return 0;
 }
 

@@ -9,7 +9,7 @@ module gfb_linear_solver
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: use_factors, factor_failure, enlarge_workspace
+  use gfb_direct_solver, only: use_factors, factor_failure, enlarge_workspace, drop_factors
   use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
   use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
   implicit none (type)
@@ -218,7 +218,7 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(SNESGetKSP(snes, linear, ierr))
-    PetscCallA(KSPReset(linear, ierr))
+    call drop_factors(linear)
     solver%ready = .false.
     solver%forgotten = .true.
     solver%usual = 0.0_wp
