@@ -28,22 +28,28 @@ module gfb_changed_foil
   use gfb_beam_foil, only: beam_foil_type, stiffness_behind, width_of, of_beam
   implicit none (type)
   private
-  public :: add_changed_force
+  public :: add_changed_force, destroy_changed_pieces
 
   real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
+
+  !> Super-elements of another bump foil, one a kind, for all pads: these are equal.
+  type, public :: changed_pieces_type
+    type(super_element_type), allocatable, private :: super(:)
+  end type changed_pieces_type
 
 contains
 
   !> Adds the elastic forces of one of the foils as a scene has it. All ranks ask.
   !>
   !> Fails where an element is degenerate.
-  subroutine add_changed_force(foil, scene, film, of_bumps, unknown, residual, error)
+  subroutine add_changed_force(foil, scene, film, of_bumps, unknown, residual, pieces, error)
     class(foil_model_type), intent(in) :: foil !! that can take other numbers
     type(scene_type), intent(in) :: scene !! with a foil on the same mesh of the film
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     logical, intent(in) :: of_bumps !! of the bump foil, else of the top foil
     real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
     real(wp), intent(inout) :: residual(:) !! of the pad, one a local unknown [SI]
+    type(changed_pieces_type), intent(inout) :: pieces !! of the scene, so far
     type(error_type), allocatable, intent(out) :: error !! why it failed
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
@@ -60,7 +66,8 @@ contains
       if (.not. of_bumps) then
         call add_elements(foil, foil%top, foil%top%mesh, plate_section(scene), of_bumps, error)
       else if (foil%bumps%reduced) then
-        call add_pieces(foil, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), error)
+        call add_pieces(foil, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), &
+                        pieces, error)
       else
         call add_elements(foil, foil%bumps, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), &
                           of_bumps, error)
@@ -113,17 +120,18 @@ contains
   end subroutine add_beam
 
   !> Forces of this rank's super-elements.
-  subroutine add_pieces(foil, mesh, section, error)
+  subroutine add_pieces(foil, mesh, section, pieces, error)
     type(shell_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
     type(quad_mesh_type), intent(in) :: mesh
     type(shell_section_type), intent(in) :: section
+    type(changed_pieces_type), intent(inout) :: pieces !! gets the kinds that this rank needs and has not yet
     type(error_type), allocatable, intent(out) :: error
-    type(super_element_type) :: super(size(foil%bumps%super))
     integer, allocatable :: number(:)
     real(wp), allocatable :: moved(:), force(:)
     type(foil_ranges_type) :: ranges
     integer :: i, first
 
+    if (.not. allocated(pieces%super)) allocate (pieces%super(size(foil%bumps%super)))
     ranges = ranges_of(foil%top, foil%bumps)
     associate (bumps => foil%bumps)
       allocate (number(0))
@@ -135,7 +143,7 @@ contains
       first = 0
       do i = 1, size(bumps%mine)
         associate (one => bumps%substructure(bumps%mine(i)))
-          associate (here => super(one%kind), n => size(bumps%super(one%kind)%retained))
+          associate (here => pieces%super(one%kind), n => size(bumps%super(one%kind)%retained))
             if (.not. allocated(here%stiffness)) then
               call condense_piece(mesh, section, bumps%free(:, one%nodes), one, .true., here, error)
               if (allocated(error)) exit
@@ -147,11 +155,20 @@ contains
       end do
       call share_failure(error)
       if (.not. allocated(error)) call add_up(foil, number, force)
-      do i = 1, size(super)
-        call destroy_super_element(super(i))
-      end do
     end associate
   end subroutine add_pieces
+
+  !> Frees what PETSc holds.
+  subroutine destroy_changed_pieces(pieces)
+    type(changed_pieces_type), intent(inout) :: pieces !! is empty then
+    integer :: i
+
+    if (.not. allocated(pieces%super)) return
+    do i = 1, size(pieces%super)
+      call destroy_super_element(pieces%super(i))
+    end do
+    deallocate (pieces%super)
+  end subroutine destroy_changed_pieces
 
   !> Forces of a structure's elements on this rank. Neighbours of the same shape share a stiffness.
   subroutine add_elements(foil, structure, mesh, section, of_bumps, error)

@@ -17,7 +17,7 @@ module gfb_changed_bearing
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: build_like, take_numbers
   use gfb_changed_contacts, only: takes_numbers, add_contact_forces
-  use gfb_changed_foil, only: add_changed_force
+  use gfb_changed_foil, only: add_changed_force, changed_pieces_type, destroy_changed_pieces
   use gfb_answer_gradient, only: extreme_nodes_type, measure
   implicit none (type)
   private
@@ -145,6 +145,7 @@ contains
     type(tVec), intent(in) :: residual !! scaled
     type(error_type), allocatable, intent(out) :: error
     real(wp) :: value(size(unknown))
+    type(changed_pieces_type) :: pieces
     PetscErrorCode :: ierr
     integer :: i
 
@@ -153,10 +154,13 @@ contains
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first + 1, last => bearing%pad(i)%last)
         call add_contact_forces(pad%foil, unknown(first:last), value(first:last))
         if (is_gap(key) .or. key%group == 'contact') cycle
-        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(first:last), value(first:last), error)
+        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(first:last), value(first:last), &
+                               pieces, error)
       end associate
-      if (allocated(error)) return
+      if (allocated(error)) exit
     end do
+    call destroy_changed_pieces(pieces)
+    if (allocated(error)) return
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call bearing%exchange%add(value/bearing%equation_scale(bearing%point), residual)
   end subroutine evaluate_foils
