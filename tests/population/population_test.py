@@ -74,7 +74,7 @@ def check_words(checks):
         checks.that(f"status {status} '{log[-30:]}' is {expected}", trial.outcome_of(status, log) == expected)
     some = members.random_set(6, members.MODELS)
     rows = [{"outcome": outcome, "status": 0, "cpu": cpu, "reason": "", "enlarged": 0, "shown": shown, "cpu_shown": 0.0,
-             "summary": {"factorizations": 100.0*cpu, "force_x": one.groups["operation"]["load"][0],
+             "shown_by": "0.1.0" if cpu == 4.0 else "", "summary": {"factorizations": 100.0*cpu, "force_x": one.groups["operation"]["load"][0],
                          "force_y": one.groups["operation"]["load"][1]}}
             for one, (outcome, cpu, shown) in zip(some, ((trial.ANSWER, 2.0, ""), (trial.ANSWER, 1.0, ""),
                                                          ("touch-down", 6.0, trial.BY_GAP),
@@ -83,10 +83,14 @@ def check_words(checks):
     with tempfile.TemporaryDirectory() as folder:
         table = page.write(some, rows, argparse.Namespace(set="random", seconds=9.0, count=20), pathlib.Path(folder))
         text = (pathlib.Path(folder)/"population.md").read_text(encoding="utf-8")
+        ways = page.read_ways(pathlib.Path(folder)/"population.csv")
     for words in ("--count 20 --seconds 9 --docs`; of these members the 6 that were run.", "6 members: 2 answers, 3 refused by name, 1 without a reason",
                   "Of the 3 refusals 2 are shown a second way, 0 contradicted, 1 not shown.", "| beam | fold | 5 |", "| beam | by name | 3.0 | 3.0 |",
                   "| elastic_foundation | by name | 4.0 | 4.0 |", "| shell 4 | CPU bound | 9.0 |", "| shell | CPU bound | 1 | 100 % | 9.0 | 9.0 | 900 |"):
         checks.that(f"the page has '{words}'", words in text)
+    checks.that(f"the table of all members has the second ways {ways}", ways == {
+        ("2", members.BEAM, "touch-down"): (trial.BY_GAP, ""), ("3", members.FOUNDATION, "touch-down"): (trial.BY_SWEEP["load"], "0.1.0"),
+        ("5", members.BEAM, "fold"): (trial.OPEN, "")})
     checks.that("the terminal has the same", "3 refused by name" in table)
 
 

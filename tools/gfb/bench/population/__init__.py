@@ -3,20 +3,22 @@
 --set random: bearings drawn from a fixed seed, member by member, so that the first hundred of a thousand are the same.
 --set engineer: one bearing, 12 directions of the load x 4 loads x 3 speeds, beams and shells.
 Touch-downs and folds are shown a second way. A run is stopped at a bound on its CPU time, which counts as no answer.
-Rows are kept in build/bench/population.json, so that an interrupted command goes on with --reuse.
+Rows are kept in build/bench/population.json, so that an interrupted command goes on with --reuse. Beside the page is a table of
+all members; with --earlier such a table, a refusal that it has, too, is not shown once more.
 """
 
 import concurrent.futures
 import hashlib
 import json
 import pathlib
+import re
 import threading
 
 from gfb.bench.population import page
 from gfb.bench.population.members import FOUNDATION, MODELS, SETS
 from gfb.bench.population.trial import BOUND, REFUSALS, second_way, shows_itself, try_case
 from gfb.bench.runs import keep_rows, kept_rows
-from gfb.run import write_case
+from gfb.run import call, write_case
 from gfb.tool import MEASURED, ROOT, stop
 
 STORE = ROOT/"build/bench/population.json"
@@ -33,6 +35,9 @@ def add_options(parser):
     parser.add_argument("--seconds", metavar="S", type=float, default=300.0,
                         help="CPU time of a run at most; default: %(default)s")
     parser.add_argument("--reuse", action="store_true", help="go on with the runs of an earlier call")
+    parser.add_argument("--earlier", metavar="FILE", type=pathlib.Path,
+                        help="a table of an earlier program, such as docs/measured/population.csv: second ways of members that end "
+                             "as they did there are taken from it")
     parser.add_argument("--kept", action="store_true", help="run nothing: the page of the runs that are kept")
     parser.add_argument("--only-write", metavar="DIR", type=pathlib.Path, help="write the case files there, run nothing")
     parser.add_argument("--docs", action="store_true", help="write the page to docs/measured")
@@ -78,10 +83,18 @@ def program_of(options):
     return hashlib.sha256(pathlib.Path(options.gfb).read_bytes()).hexdigest()[:16]
 
 
+def version_of(gfb):
+    """The program's version and commit, as it tells them."""
+    found = re.match(r"gfb (\S+ \([0-9a-f]{7}|\S+)", call([gfb, "--version"]).log)
+    return found[1] + (")" if "(" in found[1] else "") if found else "unknown"
+
+
 def measure(members, options):
     """A row a member; those that are kept are not run again."""
     program = program_of(options)
     rows = kept_rows(STORE, program) if options.reuse else {}
+    earlier = page.read_ways(options.earlier) if options.earlier else {}
+    version = version_of(options.gfb)
     lock = threading.Lock()
 
     def keep(member, row):
@@ -99,8 +112,12 @@ def measure(members, options):
     def show(member):
         row = rows[key_of(member)]
         if row["outcome"] in REFUSALS and not row["shown"]:
-            shown, spent = second_way(options.gfb, member, row)
-            keep(member, {**row, "shown": shown, "cpu_shown": spent})
+            shown, by = earlier.get((member.name, member.model, row["outcome"]), ("", ""))
+            spent = 0.0
+            if not shown:
+                shown, spent = second_way(options.gfb, member, row)
+                by = version
+            keep(member, {**row, "shown": shown, "shown_by": by, "cpu_shown": spent})
 
     def work_on(work, some):
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

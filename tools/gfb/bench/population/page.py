@@ -1,5 +1,6 @@
 """The page of tools/bench population: outcomes, their cost, second ways, the worst."""
 
+import csv
 import statistics
 import textwrap
 
@@ -7,6 +8,7 @@ from gfb.bench.population.members import MODELS
 from gfb.bench.population.trial import (AGAINST, ANSWER, BELOW, BOUND, BY_GAP, CHEAP, FALLING, LEAST, LIGHTER, OPEN,
                                         OUTCOMES, REFUSALS, RISING, SECOND_WAYS, SLOWER, THIN, THINNER, TURNED, imbalance)
 from gfb.tables import markdown_table, plain_table
+from gfb.tool import stop
 
 WORST = 10
 FILES = {"random": "population.md", "engineer": "population_engineer.md"}
@@ -20,6 +22,7 @@ SAID = {
                 "0.45 mm), top foil 0.1 mm,\nfriction 0.1, both foils fixed at the trailing edge; 20, 60, 100 and 140 N in twelve "
                 "directions at 40,000, 80,000 and 120,000 rpm.",
 }
+COLUMNS = ("member", "model", "outcome", "CPU [s]", "factorizations", "smallest gap [um]", "second way", "shown by")
 HEAD = """# Population: {name}
 
 Written by `tools/bench population --set {name} --count {count} --seconds {seconds:g} --docs`{kept}.
@@ -31,7 +34,8 @@ machine the system's limit may strike before that by the times given here). *no 
 sentence names nothing of the bearing. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
 the shaft; *in part*: at every height that was reached. *emptied*: the pressure falls to nothing on cells that are too large.
 Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
-those of answers of the same model. Times depend on the machine and on what else runs there.{more}
+those of answers of the same model. Times depend on the machine and on what else runs there. All members, one by one, with the
+program that found the second way: [{table}]({table}).{more}
 
 """
 
@@ -42,13 +46,37 @@ def write(members, rows, options, folder):
               worst_table(members, rows)]
     kept = f"; of these members the {len(members)} that were run" if options.count != len(members) else ""
     text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds,
-                       more=MORE[options.set])
+                       table=FILES[options.set].replace(".md", ".csv"), more=MORE[options.set])
     text += facts(members, rows) + "\n"
     for table in [*tables, open_table(members, rows), nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
     folder.mkdir(parents=True, exist_ok=True)
     (folder/FILES[options.set]).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
+    write_members(members, rows, (folder/FILES[options.set]).with_suffix(".csv"))
     return facts(members, rows) + "\n" + "\n".join(plain_table(*table) for table in tables)
+
+
+def write_members(members, rows, file):
+    """Leaves a table of all members."""
+    with open(file, "w", encoding="utf-8", newline="") as opened:
+        table = csv.writer(opened, lineterminator="\n")
+        table.writerow(COLUMNS)
+        for member, row in zip(members, rows):
+            gap = row["summary"].get("minimum_gap")
+            table.writerow([member.name, member.model, row["outcome"], f"{row['cpu']:.1f}", median(factorizations([row]), "{:.0f}"),
+                            "-" if gap is None else f"{1.0e6*gap:.4g}", row["shown"], row.get("shown_by", "") if row["shown"] else ""])
+
+
+def read_ways(file):
+    """{(member, model, outcome): (second way, program that found it)} of such a table."""
+    try:
+        with open(file, encoding="utf-8", newline="") as opened:
+            rows = list(csv.DictReader(opened))
+    except OSError as error:
+        stop(f"{file} cannot be read: {error.strerror}")
+    if not rows or tuple(rows[0]) != COLUMNS:
+        stop(f"{file} is no table of tools/bench population: its columns are not {', '.join(COLUMNS)}")
+    return {(row["member"], row["model"], row["outcome"]): (row["second way"], row["shown by"]) for row in rows if row["second way"]}
 
 
 def notes(title):
