@@ -142,7 +142,7 @@ PetscErrorCode gfb_use_klu(intptr_t handle, int *has)
   factors->common.tol = threshold;
   /* Rows and columns are scaled already. Scaled once more by its largest entry, the shaft's dense row of unknowns becomes a
      pivot early, and fills all that follow. */
-  factors->common.scale = 0;
+  factors->common.scale = -1; /* nor looks KLU for indices out of range, in what PETSc has put together */
   PetscCall(PCSetType(pc, PCSHELL));
   PetscCall(PCShellSetName(pc, label));
   PetscCall(PCShellSetContext(pc, factors));
