@@ -177,7 +177,7 @@ contains
         step = shortened*step
       end if
       march%rejections = march%rejections + 1
-      call go_back(march, bearing)
+      call bearing%return_to(march%state(1))
     end do
     if (report%converged .and. trial > most_trials) then
       report%converged = .false.
@@ -191,15 +191,6 @@ contains
       call drive_at(march, march%time, bearing)
     end if
   end subroutine take_step
-
-  !> Puts the bearing back to the newest state, with all its digits.
-  subroutine go_back(march, bearing)
-    type(march_type), intent(in) :: march
-    type(bearing_system_type), intent(inout) :: bearing
-    PetscErrorCode :: ierr
-
-    PetscCallA(VecCopy(march%state(1), bearing%state, ierr))
-  end subroutine go_back
 
   !> The state becomes the newest of the past; friction carries its slip along.
   subroutine accept(march, step, place, bearing)
