@@ -36,8 +36,8 @@ static PetscErrorCode forget(Factors *factors)
   PetscFunctionReturn(0);
 }
 
-/* Factors by the pivots of those before: most of a factorization's time is the search for pivots. Without factors, or where
-   these would lose digits, none are left. */
+/* Factors by the pivots of those before, which spares the search for them. Without factors, or where these would lose digits,
+   none are left. */
 static void refactor(Factors *factors, int row[], int column[], double value[])
 {
   if (!factors->numeric) return;

@@ -11,14 +11,14 @@ import concurrent.futures
 import hashlib
 import json
 import pathlib
-import re
 import threading
 
 from gfb.bench.population import page
 from gfb.bench.population.members import FOUNDATION, MODELS, SETS
 from gfb.bench.population.trial import BOUND, REFUSALS, second_way, shows_itself, try_case
 from gfb.bench.runs import keep_rows, kept_rows
-from gfb.run import call, write_case
+from gfb.build import version_of
+from gfb.run import write_case
 from gfb.tool import MEASURED, ROOT, stop
 
 STORE = ROOT/"build/bench/population.json"
@@ -83,18 +83,12 @@ def program_of(options):
     return hashlib.sha256(pathlib.Path(options.gfb).read_bytes()).hexdigest()[:16]
 
 
-def version_of(gfb):
-    """The program's version and commit, as it tells them."""
-    found = re.match(r"gfb (\S+ \([0-9a-f]{7}|\S+)", call([gfb, "--version"]).log)
-    return found[1] + (")" if "(" in found[1] else "") if found else "unknown"
-
-
 def measure(members, options):
     """A row a member; those that are kept are not run again."""
     program = program_of(options)
     rows = kept_rows(STORE, program) if options.reuse else {}
     earlier = page.read_ways(options.earlier) if options.earlier else {}
-    version = version_of(options.gfb)
+    version = version_of(options.gfb).partition(",")[0].removeprefix("gfb ")  # and commit
     lock = threading.Lock()
 
     def keep(member, row):
@@ -109,14 +103,16 @@ def measure(members, options):
         if not kept or kept["outcome"] == BOUND and kept["bound"] < options.seconds:
             keep(member, {**try_case(options.gfb, member.groups, options.seconds), "bound": options.seconds, "shown": ""})
 
+    def known(member, row):
+        return earlier.get((member.name, member.model, row["outcome"]))
+
     def show(member):
         row = rows[key_of(member)]
         if row["outcome"] in REFUSALS and not row["shown"]:
-            shown, by = earlier.get((member.name, member.model, row["outcome"]), ("", ""))
-            spent = 0.0
-            if not shown:
-                shown, spent = second_way(options.gfb, member, row)
-                by = version
+            if known(member, row):
+                (shown, by), spent = known(member, row), 0.0
+            else:
+                (shown, spent), by = second_way(options.gfb, member, row), version
             keep(member, {**row, "shown": shown, "shown_by": by, "cpu_shown": spent})
 
     def work_on(work, some):
@@ -126,7 +122,7 @@ def measure(members, options):
 
     def cost(member):
         row = rows[key_of(member)]
-        return 0.0 if shows_itself(member, row) else row["cpu"]
+        return 0.0 if shows_itself(member, row) or known(member, row) else row["cpu"]
 
     work_on(end, members)  # all ends first, then what costs least: a command that is interrupted has most of them
     work_on(show, sorted(members, key=cost))

@@ -11,7 +11,7 @@ from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
 
 WORST = 10
-FILES = {"random": "population.md", "engineer": "population_engineer.md"}
+FILES = {"random": "population", "engineer": "population_engineer"}  # page and table, without .md and .csv
 MORE = {"random": " What refusals cost, and what was\ntried on members that have no reason: [population_refusals.md](population_refusals.md).", "engineer": ""}
 SAID = {
     "random": "Bearings drawn from a fixed seed: radius 8 to 50 mm, L/D 0.5 to 1.5, C/R 0.0005 to 0.003, 8 to 40 bumps of a pitch "
@@ -46,13 +46,13 @@ def write(members, rows, options, folder):
               worst_table(members, rows)]
     kept = f"; of these members the {len(members)} that were run" if options.count != len(members) else ""
     text = HEAD.format(name=options.set, count=options.count, kept=kept, said=SAID[options.set], seconds=options.seconds,
-                       table=FILES[options.set].replace(".md", ".csv"), more=MORE[options.set])
+                       table=f"{FILES[options.set]}.csv", more=MORE[options.set])
     text += facts(members, rows) + "\n"
     for table in [*tables, open_table(members, rows), nameless_table(members, rows)]:
         text += f"## {table[0]}\n\n" + markdown_table(*table) + "\n" + notes(table[0])
     folder.mkdir(parents=True, exist_ok=True)
-    (folder/FILES[options.set]).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
-    write_members(members, rows, (folder/FILES[options.set]).with_suffix(".csv"))
+    (folder/f"{FILES[options.set]}.md").write_text(text.rstrip("\n") + "\n", encoding="utf-8")
+    write_members(members, rows, folder/f"{FILES[options.set]}.csv")
     return facts(members, rows) + "\n" + "\n".join(plain_table(*table) for table in tables)
 
 
@@ -64,7 +64,7 @@ def write_members(members, rows, file):
         for member, row in zip(members, rows):
             gap = row["summary"].get("minimum_gap")
             table.writerow([member.name, member.model, row["outcome"], f"{row['cpu']:.1f}", median(factorizations([row]), "{:.0f}"),
-                            "-" if gap is None else f"{1.0e6*gap:.4g}", row["shown"], row.get("shown_by", "") if row["shown"] else ""])
+                            "-" if gap is None else f"{1.0e6*gap:.4g}", row["shown"], row.get("shown_by", "")])
 
 
 def read_ways(file):
