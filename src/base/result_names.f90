@@ -22,13 +22,17 @@ contains
   pure recursive subroutine find_result(name, found)
     character(len=*), intent(in) :: name     !! as it is written
     type(result_type), intent(out) :: found  !! its row
+    character(len=name_length), allocatable :: names(:)
     integer :: row, i
 
     do row = 1, size(result_rows)
       if (.not. may_fit(trim(result_rows(row)%name), name)) cycle
-      do i = 1, fillings(result_rows(row))
-        found = filled(result_rows(row), i)
-        if (.not. fits(trim(found%name), name)) cycle
+      names = names_of_row(result_rows(row)%name)
+      do i = 1, size(names)
+        if (.not. fits(trim(names(i)), name)) cycle
+        found = result_rows(row)
+        found%name = names(i)
+        found%meaning = filled(trim(found%meaning), result_rows(row)%name, i)
         if (index(result_rows(row)%name, any_quantity) > 0) then
           if (found%unit == own_unit) found%unit = unit_of_asked(i)
           if (found%unit == own_square) found%unit = bracketed(unit_of_asked(i))//'2'
@@ -165,50 +169,55 @@ contains
   pure recursive function names_of(rows) result(names)
     type(result_type), intent(in) :: rows(:)
     character(len=name_length), allocatable :: names(:)
-    type(result_type) :: one
-    integer :: row, i
+    integer :: row
 
     allocate (names(0))
     do row = 1, size(rows)
-      do i = 1, fillings(rows(row))
-        one = filled(rows(row), i)
-        names = [character(len=name_length) :: names, one%name]
-      end do
+      names = [character(len=name_length) :: names, names_of_row(rows(row)%name)]
     end do
   end function names_of
 
-  !> How many names a row stands for, but for numbers.
-  pure recursive function fillings(row) result(number)
-    type(result_type), intent(in) :: row
-    integer :: number
-    integer :: i
+  !> The names that a row stands for, but for numbers and keys.
+  pure recursive function names_of_row(pattern) result(names)
+    character(len=*), intent(in) :: pattern !! the row's name
+    character(len=name_length), allocatable :: names(:)
+    character(len=name_length), allocatable :: words(:), before(:)
+    integer :: i, j, k
 
-    number = 1
-    if (index(row%name, '<') == 0) return
+    names = [character(len=name_length) :: pattern]
+    if (index(pattern, '<') == 0) return
     do i = 1, size(markers)
-      if (index(row%name, trim(markers(i))) > 0) number = number*size(marker_words(markers(i)))
+      if (index(pattern, trim(markers(i))) == 0) cycle
+      words = marker_words(markers(i))
+      before = names
+      deallocate (names)
+      allocate (names(size(before)*size(words)))
+      do j = 1, size(words)
+        do k = 1, size(before)
+          names(k + (j - 1)*size(before)) = replaced(trim(before(k)), trim(markers(i)), &
+                                                     trim(words(j)))
+        end do
+      end do
     end do
-  end function fillings
+  end function names_of_row
 
-  !> A row for one of the names that it stands for.
-  pure recursive function filled(row, number) result(one)
-    type(result_type), intent(in) :: row
-    integer, intent(in) :: number !! of the name, from 1
-    type(result_type) :: one
-    character(len=name_length), allocatable :: words(:)
-    character(len=name_length) :: word
+  !> A text with the words that one of a row's names has in the place of its marks.
+  pure recursive function filled(words, pattern, number) result(new)
+    character(len=*), intent(in) :: words
+    character(len=*), intent(in) :: pattern !! the row's name
+    integer, intent(in) :: number !! of the name among those of the row, from 1
+    character(len=:), allocatable :: new
+    character(len=name_length), allocatable :: choices(:)
     integer :: i, left
 
-    one = row
-    if (index(row%name, '<') == 0) return
+    new = words
+    if (index(pattern, '<') == 0) return
     left = number - 1
     do i = 1, size(markers)
-      if (index(row%name, trim(markers(i))) == 0) cycle
-      words = marker_words(markers(i))
-      word = words(1 + modulo(left, size(words)))
-      left = left/size(words)
-      one%name = replaced(trim(one%name), trim(markers(i)), trim(word))
-      one%meaning = replaced(trim(one%meaning), trim(markers(i)), trim(word))
+      if (index(pattern, trim(markers(i))) == 0) cycle
+      choices = marker_words(markers(i))
+      new = replaced(new, trim(markers(i)), trim(choices(1 + modulo(left, size(choices)))))
+      left = left/size(choices)
     end do
   end function filled
 
