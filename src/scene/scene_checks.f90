@@ -10,7 +10,6 @@ module gfb_scene_checks
   use gfb_pads_rules, only: check_pads
   use gfb_foil_mass_case, only: check_foil_mass
   use gfb_periodic_rules, only: check_periodic
-  use gfb_plausible_values, only: check_plausible
   use gfb_rotor_case, only: check_rotor
   use gfb_sample_rules, only: check_sample
   use gfb_scene, only: scene_type
@@ -73,6 +72,5 @@ contains
     call check_periodic(keys, scene%periodic, scene%operation, scene%rotor, scene%model, &
                         scene%contact%may_rub)
     call check_shape(keys, scene)
-    call check_plausible(keys, scene)
   end subroutine check_groups
 end module gfb_scene_checks

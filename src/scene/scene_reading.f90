@@ -8,6 +8,7 @@ module gfb_scene_reading
   use gfb_foreign_characters, only: as_utf8
   use gfb_listed_keys, only: list_length
   use gfb_key_notes, only: noted_key_type
+  use gfb_plausible_values, only: check_plausible
   use gfb_scene, only: scene_type
   use gfb_scene_checks, only: check_groups
   use gfb_sensitivity_rules, only: check_sensitivity
@@ -52,6 +53,7 @@ contains
 
     call as_utf8(words, utf8, line, byte)
     call read_and_check(utf8, file, .true., keys, scene, strict)
+    call check_plausible(keys, scene)
     if (line > 0) call keys%warn_of_line(line, 'the byte '//text(byte)//' is no UTF-8: it is '// &
                                          'read as a character of Latin-1; save the file as UTF-8')
     call check_sensitivity(keys, scene)
@@ -62,7 +64,8 @@ contains
     call keys%report(error)
   end subroutine read_scene_text
 
-  !> Reads the text of a case file, and checks all but what a sweep of keys makes of it.
+  !> Reads the text of a case file, and checks all but what a sweep of keys makes of it, and how
+  !> plausible the values are.
   subroutine read_and_check(words, file, noted, keys, scene, strict)
     character(len=*), intent(in) :: words, file
     logical, intent(in) :: noted !! for an echo of the keys
@@ -93,6 +96,7 @@ contains
     do point = 1, size(scene%sweep%values)
       call read_and_check(text_at_value(scene, scene%sweep%values(point)), scene%file, .false., &
                           changed, there, strict)
+      call check_plausible(changed, there)
       call keys%add_new(changed, known, 'sweep', 'values', point)
     end do
   end subroutine check_swept_values
