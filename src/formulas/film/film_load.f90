@@ -6,7 +6,7 @@ module gfb_film_load
   use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: film_force_weights, film_force, film_friction
+  public :: film_force_weights, film_force, film_friction, film_friction_rates
 
   integer, parameter, public :: film_forces = shaft_coordinates !! F_x, F_y, M_x, M_y
   !> The force acts on the sleeve, as the shaft's coordinates are the sleeve's; the torque does not.
@@ -83,6 +83,31 @@ contains
                                                                  pressure - pressure(1)))
     end do
   end function film_friction
+
+  !> Derivatives of that drag.
+  pure subroutine film_friction_rates(geometry, flow, pressure, gap, excess, by_pressure, by_gap)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow         !! of the gas
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
+    real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
+    real(wp) :: h, shapes(size(gap), size(gap))
+    integer :: point
+
+    shapes = film_shapes(size(gap))
+    by_pressure = 0.0_wp
+    by_gap = 0.0_wp
+    do point = 1, size(geometry%area)
+      associate (shape => shapes(:, point), along => geometry%gradient(1, :, point), &
+                 area => geometry%area(point))
+        h = dot_product(shape, gap) + excess(point)
+        by_pressure = by_pressure + 0.5_wp*area*h*along
+        by_gap = by_gap + area*(0.5_wp*dot_product(along, pressure - pressure(1)) &
+                                - 2.0_wp*flow%viscosity*flow%entraining_speed/h**2)*shape
+      end associate
+    end do
+  end subroutine film_friction_rates
 
   !> Outer product of two vectors.
   pure function outer(first, second) result(product)

@@ -8,7 +8,7 @@ module gfb_general_film
   use gfb_film_flow, only: film_flow_type, cell_peclet, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
-  public :: film_flow_type, general_residual, general_jacobian, general_friction, general_peclet, &
+  public :: film_flow_type, general_residual, general_jacobian, general_peclet, &
             peclet_slopes, reynolds_number
 
   !> A function of pressure and gap with its first and second derivatives.
@@ -25,10 +25,9 @@ module gfb_general_film
   end type point_type
 
   ! Fits to [NgPan1965]: a and b of the factors 12/(12 + a Re^b) of the flow along and across the
-  ! motion; that of the shear is 1 + a Re^b [Constantinescu1959].
+  ! motion.
   real(wp), parameter :: along_factor(2) = [0.0136_wp, 0.90_wp]
   real(wp), parameter :: across_factor(2) = [0.0043_wp, 0.96_wp]
-  real(wp), parameter :: shear_factor(2) = [0.0012_wp, 0.94_wp]
 
 contains
 
@@ -162,40 +161,6 @@ contains
         - (x%p*here%p_x + x%h*here%h_x)*here%p_x - (z%p*here%p_z + z%h*here%h_z)*here%p_z
     end associate
   end function strong_residual
-
-  !> Drag of the film on the shaft's surface, Couette and pressure parts.
-  !>
-  !> $$ D = \int \Bigl( \frac{2 \mu U}{h + 2 \lambda} (1 + 0.0012 Re^{0.94})
-  !>      + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr) d\Omega $$
-  !>
-  !> The factor with the Reynolds number only with turbulence.
-  pure function general_friction(geometry, flow, law, pressure, gap, excess) result(drag)
-    type(film_geometry_type), intent(in) :: geometry !! of the element
-    type(film_flow_type), intent(in) :: flow         !! speed of the film
-    type(gas_law_type), intent(in) :: law !! of the gas
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
-    real(wp) :: drag                    !! [N]
-    real(wp) :: shapes(size(gap), size(gap)), shear, p, h
-    type(gas_state_type) :: gas
-    integer :: i
-
-    shapes = film_shapes(size(gap))
-    drag = 0.0_wp
-    do i = 1, size(gap)
-      p = dot_product(shapes(:, i), pressure)
-      h = dot_product(shapes(:, i), gap) + excess(i)
-      gas = gas_state(law, p)
-      shear = 2.0_wp*gas%mu*flow%entraining_speed &
-        /(h + 2.0_wp*law%mean_free_path*law%ambient_pressure/p)
-      if (law%turbulent) then
-        shear = shear*(1.0_wp + shear_factor(1)*reynolds_number(flow, law, gas, h)**shear_factor(2))
-      end if
-      drag = drag + geometry%area(i)* &
-             (shear + 0.5_wp*h*dot_product(geometry%gradient(1, :, i), pressure - pressure(1)))
-    end do
-  end function general_friction
 
   !> Cell Peclet number, entrained over diffused flow: that of `cell_peclet` where the gas is plain.
   !>

@@ -1,9 +1,9 @@
 !> What one rank's part of a film says of itself beside its force: drag, cell Peclet numbers, gaps.
 module gfb_film_measures
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: most_film_nodes
-  use gfb_film_load, only: film_forces, film_force, film_friction
-  use gfb_general_film, only: film_flow_type, general_friction, general_peclet
+  use gfb_film_load, only: film_forces, film_force, film_friction, film_friction_rates
+  use gfb_general_drag, only: general_friction, general_friction_rates
+  use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
@@ -70,8 +70,7 @@ contains
     end if
   end function element_drag
 
-  !> This rank's shares of the derivatives of the drag by the nodes' pressures and gaps: differences
-  !> of each element's drag, which is linear in a pressure where the gas is plain.
+  !> This rank's shares of the derivatives of the drag by the nodes' pressures and gaps.
   pure subroutine film_drag_rates(film, pressure, gap, point, by_pressure, by_gap)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
@@ -79,31 +78,25 @@ contains
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(out) :: by_pressure(:) !! [N/Pa]
     real(wp), intent(out) :: by_gap(:)      !! [N/m]
-    real(wp), parameter :: part = 1.0e-5_wp !! of pressure and gap, that they are changed by
-    real(wp), dimension(size(film%element_nodes, 1)) :: p, h, less
-    real(wp) :: excess(most_film_nodes)
+    real(wp), dimension(size(film%element_nodes, 1)) :: excess, of_pressure, of_gap
     type(film_flow_type) :: flow
-    integer :: element, i
+    integer :: element
 
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
     flow = film%flow_at(point)
     do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element))
-        excess = film%excess(element, point)
-        p = pressure(nodes)
-        h = gap(nodes)
-        do i = 1, size(nodes)
-          less = 0.0_wp
-          less(i) = part*p(i)
-          by_pressure(nodes(i)) = by_pressure(nodes(i)) + film%copies* &
-            (element_drag(film, flow, element, p + less, h, excess) &
-             - element_drag(film, flow, element, p - less, h, excess))/(2.0_wp*less(i))
-          less(i) = part*h(i)
-          by_gap(nodes(i)) = by_gap(nodes(i)) + film%copies* &
-            (element_drag(film, flow, element, p, h + less, excess) &
-             - element_drag(film, flow, element, p, h - less, excess))/(2.0_wp*less(i))
-        end do
+      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
+        associate (p => pressure(nodes), h => gap(nodes), every => film%excess(element, point))
+          excess = every(:size(excess))
+          if (film%law%plain) then
+            call film_friction_rates(geometry, flow, p, h, excess, of_pressure, of_gap)
+          else
+            call general_friction_rates(geometry, flow, film%law, p, h, excess, of_pressure, of_gap)
+          end if
+        end associate
+        by_pressure(nodes) = by_pressure(nodes) + film%copies*of_pressure
+        by_gap(nodes) = by_gap(nodes) + film%copies*of_gap
       end associate
     end do
   end subroutine film_drag_rates
