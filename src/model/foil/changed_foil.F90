@@ -2,9 +2,9 @@
 !> Elastic forces of foils of shells or beams with other numbers on the same mesh of the film.
 !>
 !> What is linear in the unknowns is not assembled: elastic forces with another thickness, material or shape of the bumps
-!> are those of the elements, or of the super-elements, one by one.
+!> are those of the elements, or of the super-elements, one by one; these to first order, as derivatives need them.
 module gfb_changed_foil
-  use petscvec
+  use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: share_failure
@@ -17,9 +17,9 @@ module gfb_changed_foil
   use gfb_foil_mesh, only: bump_strip_mesh
   use gfb_foil_builder, only: strip_on_pad, shape_on_pad, section_of, plate_section
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: condense_piece, element_geometry, element_section
+  use gfb_foil_pieces, only: assemble_piece, element_geometry, element_section
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
-  use gfb_super_element, only: super_element_type, destroy_super_element
+  use gfb_super_element, only: super_element_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
   use gfb_meshed_foil, only: meshed_foil_type
@@ -32,9 +32,10 @@ module gfb_changed_foil
 
   real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
 
-  !> Super-elements of another bump foil, one a kind, for all pads: these are equal.
+  !> Substructures of another bump foil, one a kind, for all pads: these are equal.
   type, public :: changed_pieces_type
-    type(super_element_type), allocatable, private :: super(:)
+    logical, allocatable, private :: known(:) !! by kind
+    type(tMat), allocatable, private :: stiffness(:) !! of all their unknowns, by kind
   end type changed_pieces_type
 
 contains
@@ -119,7 +120,8 @@ contains
     PetscCallA(GFB_VecRestoreArray(foil%force, values, ierr))
   end subroutine add_beam
 
-  !> Forces of this rank's super-elements.
+  !> Forces of this rank's super-elements, to first order in what is changed: with the constraint modes T that
+  !> they have, \( d\tilde{K} = T^T dK T \).
   subroutine add_pieces(foil, mesh, section, pieces, error)
     type(shell_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
     type(quad_mesh_type), intent(in) :: mesh
@@ -131,7 +133,10 @@ contains
     type(foil_ranges_type) :: ranges
     integer :: i, first
 
-    if (.not. allocated(pieces%super)) allocate (pieces%super(size(foil%bumps%super)))
+    if (.not. allocated(pieces%known)) then
+      allocate (pieces%stiffness(size(foil%bumps%super)))
+      allocate (pieces%known(size(foil%bumps%super)), source=.false.)
+    end if
     ranges = ranges_of(foil%top, foil%bumps)
     associate (bumps => foil%bumps)
       allocate (number(0))
@@ -143,12 +148,13 @@ contains
       first = 0
       do i = 1, size(bumps%mine)
         associate (one => bumps%substructure(bumps%mine(i)))
-          associate (here => pieces%super(one%kind), n => size(bumps%super(one%kind)%retained))
-            if (.not. allocated(here%stiffness)) then
-              call condense_piece(mesh, section, bumps%free(:, one%nodes), one, .true., here, error)
+          associate (super => bumps%super(one%kind), n => size(bumps%super(one%kind)%retained))
+            if (.not. pieces%known(one%kind)) then
+              call assemble_piece(mesh, section, bumps%free(:, one%nodes), one, .false., pieces%stiffness(one%kind), error)
               if (allocated(error)) exit
+              pieces%known(one%kind) = .true.
             end if
-            force(first + 1:first + n) = matmul(here%stiffness, moved(first + 1:first + n))
+            call piece_forces(super, pieces%stiffness(one%kind), moved(first + 1:first + n), force(first + 1:first + n))
             first = first + n
           end associate
         end associate
@@ -158,16 +164,43 @@ contains
     end associate
   end subroutine add_pieces
 
+  !> Forces of a super-element with the stiffness of another, \( T^T K T q_B \).
+  subroutine piece_forces(super, stiffness, moved, force)
+    type(super_element_type), intent(in) :: super
+    Mat, intent(in) :: stiffness       !! of all unknowns of the other substructure
+    real(wp), intent(in) :: moved(:)   !! retained unknowns [m], [rad]
+    real(wp), intent(out) :: force(:)  !! on these [N], [N m]
+    real(wp) :: whole(size(super%retained) + size(super%interior))
+    Vec :: state, forces
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    call super%recover(moved, whole)
+    PetscCallA(MatCreateVecs(stiffness, state, forces, ierr))
+    PetscCallA(GFB_VecGetArray(state, values, ierr))
+    values = whole
+    PetscCallA(GFB_VecRestoreArray(state, values, ierr))
+    PetscCallA(MatMult(stiffness, state, forces, ierr))
+    PetscCallA(GFB_VecGetArrayRead(forces, values, ierr))
+    whole = values
+    PetscCallA(GFB_VecRestoreArrayRead(forces, values, ierr))
+    call super%condense_force(whole, force)
+    PetscCallA(VecDestroy(state, ierr))
+    PetscCallA(VecDestroy(forces, ierr))
+  end subroutine piece_forces
+
   !> Frees what PETSc holds.
   subroutine destroy_changed_pieces(pieces)
     type(changed_pieces_type), intent(inout) :: pieces !! is empty then
+    PetscErrorCode :: ierr
     integer :: i
 
-    if (.not. allocated(pieces%super)) return
-    do i = 1, size(pieces%super)
-      call destroy_super_element(pieces%super(i))
+    if (.not. allocated(pieces%known)) return
+    do i = 1, size(pieces%known)
+      if (.not. pieces%known(i)) cycle
+      PetscCallA(MatDestroy(pieces%stiffness(i), ierr))
     end do
-    deallocate (pieces%super)
+    deallocate (pieces%known, pieces%stiffness)
   end subroutine destroy_changed_pieces
 
   !> Forces of a structure's elements on this rank. Neighbours of the same shape share a stiffness.
