@@ -4,7 +4,7 @@
 !> What is linear in the unknowns is not assembled: elastic forces with another thickness, material or shape of the bumps
 !> are those of the elements, or of the super-elements, one by one; these to first order, as derivatives need them.
 module gfb_changed_foil
-  use petscmat
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: share_failure
@@ -12,13 +12,14 @@ module gfb_changed_foil
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_local_exchange, only: local_exchange_type, create_exchange
-  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_unknowns
+  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_foil_mesh, only: bump_strip_mesh
   use gfb_foil_builder, only: strip_on_pad, shape_on_pad, section_of, plate_section
   use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: assemble_piece, element_geometry, element_section
+  use gfb_foil_pieces, only: piece_numbers, element_geometry, element_section
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
+  use gfb_substructures, only: substructure_type, places_in
   use gfb_super_element, only: super_element_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_ranges, only: foil_ranges_type, ranges_of
@@ -28,14 +29,19 @@ module gfb_changed_foil
   use gfb_beam_foil, only: beam_foil_type, stiffness_behind, width_of, of_beam
   implicit none (type)
   private
-  public :: add_changed_force, destroy_changed_pieces
+  public :: add_changed_force
 
   real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
 
-  !> Substructures of another bump foil, one a kind, for all pads: these are equal.
+  !> Elements of a substructure.
+  type :: piece_elements_type
+    integer, allocatable :: number(:, :)       !! (20, elements) of their unknowns in it, from 1; 0: fixed
+    real(wp), allocatable :: stiffness(:, :, :) !! (20, 20, elements) [SI]
+  end type piece_elements_type
+
+  !> Substructures of another bump foil, by kind, for all pads: these are equal.
   type, public :: changed_pieces_type
-    logical, allocatable, private :: known(:) !! by kind
-    type(tMat), allocatable, private :: stiffness(:) !! of all their unknowns, by kind
+    type(piece_elements_type), allocatable, private :: kind(:)
   end type changed_pieces_type
 
 contains
@@ -44,7 +50,7 @@ contains
   !>
   !> Fails where an element is degenerate.
   subroutine add_changed_force(foil, scene, film, of_bumps, unknown, residual, pieces, error)
-    class(foil_model_type), intent(in) :: foil !! that can take other numbers
+    class(foil_model_type), intent(inout) :: foil !! that can take other numbers
     type(scene_type), intent(in) :: scene !! with a foil on the same mesh of the film
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     logical, intent(in) :: of_bumps !! of the bump foil, else of the top foil
@@ -123,7 +129,7 @@ contains
   !> Forces of this rank's super-elements, to first order in what is changed: with the constraint modes T that
   !> they have, \( d\tilde{K} = T^T dK T \).
   subroutine add_pieces(foil, mesh, section, pieces, error)
-    type(shell_foil_type), intent(in) :: foil !! with the unknowns in `state`; gets the forces in `force`
+    type(shell_foil_type), intent(inout) :: foil !! with the unknowns in `state`; gets the forces in `force`
     type(quad_mesh_type), intent(in) :: mesh
     type(shell_section_type), intent(in) :: section
     type(changed_pieces_type), intent(inout) :: pieces !! gets the kinds that this rank needs and has not yet
@@ -133,75 +139,79 @@ contains
     type(foil_ranges_type) :: ranges
     integer :: i, first
 
-    if (.not. allocated(pieces%known)) then
-      allocate (pieces%stiffness(size(foil%bumps%super)))
-      allocate (pieces%known(size(foil%bumps%super)), source=.false.)
-    end if
+    if (.not. allocated(pieces%kind)) allocate (pieces%kind(size(foil%bumps%super)))
     ranges = ranges_of(foil%top, foil%bumps)
-    associate (bumps => foil%bumps)
-      allocate (number(0))
-      do i = 1, size(bumps%mine)
-        number = [number, ranges%of_bumps(retained_unknowns(bumps, bumps%substructure(bumps%mine(i))))]
-      end do
-      allocate (force(size(number)))
-      call fetch(foil, number, moved)
-      first = 0
-      do i = 1, size(bumps%mine)
-        associate (one => bumps%substructure(bumps%mine(i)))
-          associate (super => bumps%super(one%kind), n => size(bumps%super(one%kind)%retained))
-            if (.not. pieces%known(one%kind)) then
-              call assemble_piece(mesh, section, bumps%free(:, one%nodes), one, .false., pieces%stiffness(one%kind), error)
-              if (allocated(error)) exit
-              pieces%known(one%kind) = .true.
-            end if
-            call piece_forces(super, pieces%stiffness(one%kind), moved(first + 1:first + n), force(first + 1:first + n))
-            first = first + n
-          end associate
+    allocate (number(0))
+    do i = 1, size(foil%bumps%mine)
+      number = [number, ranges%of_bumps(retained_unknowns(foil%bumps, foil%bumps%substructure(foil%bumps%mine(i))))]
+    end do
+    allocate (force(size(number)))
+    call fetch(foil, number, moved)
+    first = 0
+    do i = 1, size(foil%bumps%mine)
+      associate (one => foil%bumps%substructure(foil%bumps%mine(i)))
+        call form_elements(mesh, section, foil%bumps%free(:, one%nodes), one, pieces%kind(one%kind), error)
+        if (allocated(error)) exit
+        associate (super => foil%bumps%super(one%kind), n => size(foil%bumps%super(one%kind)%retained))
+          call super%keep_modes()
+          force(first + 1:first + n) = piece_force(super, pieces%kind(one%kind), moved(first + 1:first + n))
+          first = first + n
         end associate
-      end do
-      call share_failure(error)
-      if (.not. allocated(error)) call add_up(foil, number, force)
-    end associate
+      end associate
+    end do
+    call share_failure(error)
+    if (.not. allocated(error)) call add_up(foil, number, force)
   end subroutine add_pieces
 
-  !> Forces of a super-element with the stiffness of another, \( T^T K T q_B \).
-  subroutine piece_forces(super, stiffness, moved, force)
-    type(super_element_type), intent(in) :: super
-    Mat, intent(in) :: stiffness       !! of all unknowns of the other substructure
-    real(wp), intent(in) :: moved(:)   !! retained unknowns [m], [rad]
-    real(wp), intent(out) :: force(:)  !! on these [N], [N m]
-    real(wp) :: whole(size(super%retained) + size(super%interior))
-    Vec :: state, forces
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    call super%recover(moved, whole)
-    PetscCallA(MatCreateVecs(stiffness, state, forces, ierr))
-    PetscCallA(GFB_VecGetArray(state, values, ierr))
-    values = whole
-    PetscCallA(GFB_VecRestoreArray(state, values, ierr))
-    PetscCallA(MatMult(stiffness, state, forces, ierr))
-    PetscCallA(GFB_VecGetArrayRead(forces, values, ierr))
-    whole = values
-    PetscCallA(GFB_VecRestoreArrayRead(forces, values, ierr))
-    call super%condense_force(whole, force)
-    PetscCallA(VecDestroy(state, ierr))
-    PetscCallA(VecDestroy(forces, ierr))
-  end subroutine piece_forces
-
-  !> Frees what PETSc holds.
-  subroutine destroy_changed_pieces(pieces)
-    type(changed_pieces_type), intent(inout) :: pieces !! is empty then
-    PetscErrorCode :: ierr
+  !> The elements of a substructure, unless its kind is known.
+  subroutine form_elements(mesh, section, free, substructure, elements, error)
+    type(quad_mesh_type), intent(in) :: mesh
+    type(shell_section_type), intent(in) :: section
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure
+    type(piece_elements_type), intent(inout) :: elements !! of its kind
+    type(error_type), allocatable, intent(out) :: error
+    integer :: number(node_unknowns, size(substructure%nodes))
     integer :: i
 
-    if (.not. allocated(pieces%known)) return
-    do i = 1, size(pieces%known)
-      if (.not. pieces%known(i)) cycle
-      PetscCallA(MatDestroy(pieces%stiffness(i), ierr))
+    if (allocated(elements%number)) return
+    number = piece_numbers(free, substructure)
+    allocate (elements%number(shell_unknowns, size(substructure%elements)))
+    allocate (elements%stiffness(shell_unknowns, shell_unknowns, size(substructure%elements)))
+    do i = 1, size(substructure%elements)
+      associate (element => substructure%elements(i))
+        elements%number(:, i) = reshape(number(:, places_in(substructure, mesh%element_nodes(:, element))), [shell_unknowns])
+        call shell_stiffness(element_geometry(mesh, element), element_section(mesh, section, element), &
+                             elements%stiffness(:, :, i), error)
+      end associate
+      if (allocated(error)) return
     end do
-    deallocate (pieces%known, pieces%stiffness)
-  end subroutine destroy_changed_pieces
+  end subroutine form_elements
+
+  !> Forces \( T^T K T q_B \) of a super-element with the modes T and with other elements' stiffness K.
+  pure function piece_force(super, elements, moved) result(force)
+    type(super_element_type), intent(in) :: super
+    type(piece_elements_type), intent(in) :: elements
+    real(wp), intent(in) :: moved(:) !! retained unknowns q_B [m], [rad]
+    real(wp) :: force(size(moved))   !! on these [N], [N m]
+    real(wp), dimension(0:size(super%retained) + size(super%interior)) :: state, forces ! 0: fixed
+    real(wp) :: part(shell_unknowns)
+    integer :: i, k
+
+    state = 0.0_wp
+    state(super%retained) = moved
+    state(super%interior) = matmul(super%modes, moved)
+    forces = 0.0_wp
+    do i = 1, size(elements%number, 2)
+      associate (number => elements%number(:, i))
+        part = matmul(elements%stiffness(:, :, i), state(number))
+        do k = 1, shell_unknowns
+          forces(number(k)) = forces(number(k)) + part(k)
+        end do
+      end associate
+    end do
+    force = forces(super%retained) + matmul(forces(super%interior), super%modes)
+  end function piece_force
 
   !> Forces of a structure's elements on this rank. Neighbours of the same shape share a stiffness.
   subroutine add_elements(foil, structure, mesh, section, of_bumps, error)

@@ -15,7 +15,7 @@ module gfb_foil_pieces
   implicit none (type)
   private
   public :: number_slots, condense_piece, assemble_piece, retained_in_piece, piece_unknowns, &
-            element_geometry, element_section, add_symmetric_block, create_foil_matrix
+            piece_numbers, element_geometry, element_section, add_symmetric_block, create_foil_matrix
 
   integer, parameter, public :: element_row = 9*node_unknowns !! entries of a row: a node, its neighbours
 
@@ -84,21 +84,12 @@ contains
     type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     integer :: number(node_unknowns, size(substructure%nodes))
-    logical :: has(node_unknowns, size(substructure%nodes))
     real(wp) :: block(shell_unknowns, shell_unknowns)
     PetscErrorCode :: ierr
-    integer :: i, component, unknowns
+    integer :: i, unknowns
 
-    unknowns = 0
-    number = 0
-    has = piece_unknowns(free, substructure)
-    do i = 1, size(substructure%nodes)
-      do component = 1, node_unknowns
-        if (.not. has(component, i)) cycle
-        unknowns = unknowns + 1
-        number(component, i) = unknowns
-      end do
-    end do
+    number = piece_numbers(free, substructure)
+    unknowns = maxval(number)
     PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER_ARRAY, matrix, ierr))
     do i = 1, size(substructure%elements)
       associate (corner => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
@@ -134,6 +125,18 @@ contains
 
     has = free .or. spread(substructure%retained, 1, node_unknowns)
   end function piece_unknowns
+
+  !> Numbers of a substructure's unknowns, from 1, node by node; 0 where there is none.
+  pure function piece_numbers(free, substructure) result(number)
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
+    integer :: number(node_unknowns, size(substructure%nodes))
+    integer :: i
+
+    associate (has => piece_unknowns(free, substructure))
+      number = unpack([(i, i=1, count(has))], has, 0)
+    end associate
+  end function piece_numbers
 
   !> Where an element of a mesh is.
   pure function element_geometry(mesh, element) result(geometry)

@@ -22,13 +22,14 @@ module gfb_super_element
     integer, allocatable :: retained(:)       !! unknowns kept, numbers in the substructure
     integer, allocatable :: interior(:)       !! unknowns condensed
     real(wp), allocatable :: stiffness(:, :)  !! (retained, retained)
+    real(wp), allocatable :: modes(:, :)      !! (interior, retained) constraint modes, where they are kept
     logical, private :: created = .false.
     Mat, private :: block_ii, block_ib, block_bi, block_bb
     Mat :: schur                              !! the complement as PETSc keeps it
   contains
     procedure :: recover
-    procedure :: condense_force
     procedure :: constraint_modes
+    procedure :: keep_modes
     procedure :: interior_stiffness
   end type super_element_type
 
@@ -139,35 +140,6 @@ contains
     PetscCallA(VecDestroy(boundary, ierr))
   end subroutine recover
 
-  !> Forces on the retained unknowns that stand for forces on all, \( f_B - K_{BI} K_{II}^{-1} f_I \).
-  subroutine condense_force(self, all_forces, force)
-    class(super_element_type), intent(in) :: self !! the super-element
-    real(wp), intent(in) :: all_forces(:) !! on the unknowns of the substructure [N], [N m]
-    real(wp), intent(out) :: force(:)     !! on the retained ones [N], [N m]
-
-    KSP :: inner
-    Vec :: boundary, inside, moved
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
-
-    force = all_forces(self%retained)
-    if (size(self%interior) == 0) return
-    PetscCallA(MatCreateVecs(self%block_bi, inside, boundary, ierr))
-    PetscCallA(VecDuplicate(inside, moved, ierr))
-    PetscCallA(GFB_VecGetArray(inside, values, ierr))
-    values = all_forces(self%interior)
-    PetscCallA(GFB_VecRestoreArray(inside, values, ierr))
-    PetscCallA(MatSchurComplementGetKSP(self%schur, inner, ierr))
-    PetscCallA(KSPSolve(inner, inside, moved, ierr))
-    PetscCallA(MatMult(self%block_bi, moved, boundary, ierr))
-    PetscCallA(GFB_VecGetArrayRead(boundary, values, ierr))
-    force = force - values
-    PetscCallA(GFB_VecRestoreArrayRead(boundary, values, ierr))
-    PetscCallA(VecDestroy(moved, ierr))
-    PetscCallA(VecDestroy(inside, ierr))
-    PetscCallA(VecDestroy(boundary, ierr))
-  end subroutine condense_force
-
   !> Stiffness of the interior; a borrowed handle, not to be destroyed.
   subroutine interior_stiffness(self, matrix)
     class(super_element_type), intent(in) :: self !! the super-element
@@ -196,6 +168,13 @@ contains
     PetscCallA(MatDestroy(solution, ierr))
     PetscCallA(MatDestroy(coupling, ierr))
   end function constraint_modes
+
+  !> Finds the constraint modes unless they are there.
+  subroutine keep_modes(self)
+    class(super_element_type), intent(inout) :: self !! the super-element
+
+    if (.not. allocated(self%modes)) self%modes = self%constraint_modes()
+  end subroutine keep_modes
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_super_element(super)

@@ -17,7 +17,7 @@ module gfb_changed_bearing
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: build_like, take_numbers
   use gfb_changed_contacts, only: takes_numbers, add_contact_forces
-  use gfb_changed_foil, only: add_changed_force, changed_pieces_type, destroy_changed_pieces
+  use gfb_changed_foil, only: add_changed_force, changed_pieces_type
   use gfb_answer_gradient, only: extreme_nodes_type, measure
   implicit none (type)
   private
@@ -140,7 +140,7 @@ contains
   subroutine evaluate_foils(there, key, bearing, unknown, residual, error)
     type(scene_type), intent(in) :: there !! with the key changed
     type(swept_key_type), intent(in) :: key !! that is changed
-    type(bearing_system_type), intent(in) :: bearing !! with the numbers of that scene
+    type(bearing_system_type), intent(inout) :: bearing !! with the numbers of that scene
     real(wp), intent(in) :: unknown(:) !! in SI
     type(tVec), intent(in) :: residual !! scaled
     type(error_type), allocatable, intent(out) :: error
@@ -159,7 +159,6 @@ contains
       end associate
       if (allocated(error)) exit
     end do
-    call destroy_changed_pieces(pieces)
     if (allocated(error)) return
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call bearing%exchange%add(value/bearing%equation_scale(bearing%point), residual)
