@@ -73,8 +73,7 @@ contains
       if (.not. of_bumps) then
         call add_elements(foil, foil%top, foil%top%mesh, plate_section(scene), of_bumps, error)
       else if (foil%bumps%reduced) then
-        call add_pieces(foil, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), &
-                        pieces, error)
+        call add_pieces(foil, scene, film, pieces, error)
       else
         call add_elements(foil, foil%bumps, strip_on_pad(scene, film, window_of(foil)), section_of(scene%bump_foil), &
                           of_bumps, error)
@@ -128,53 +127,71 @@ contains
 
   !> Forces of this rank's super-elements, to first order in what is changed: with the constraint modes T that
   !> they have, \( d\tilde{K} = T^T dK T \).
-  subroutine add_pieces(foil, mesh, section, pieces, error)
+  subroutine add_pieces(foil, scene, film, pieces, error)
     type(shell_foil_type), intent(inout) :: foil !! with the unknowns in `state`; gets the forces in `force`
-    type(quad_mesh_type), intent(in) :: mesh
-    type(shell_section_type), intent(in) :: section
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
     type(changed_pieces_type), intent(inout) :: pieces !! gets the kinds that this rank needs and has not yet
     type(error_type), allocatable, intent(out) :: error
-    integer, allocatable :: number(:)
+    integer, allocatable :: number(:), alike(:)
     real(wp), allocatable :: moved(:), force(:)
+    type(quad_mesh_type), allocatable :: mesh
     type(foil_ranges_type) :: ranges
-    integer :: i, first
+    integer :: kind, i, first
 
     if (.not. allocated(pieces%kind)) allocate (pieces%kind(size(foil%bumps%super)))
     ranges = ranges_of(foil%top, foil%bumps)
     allocate (number(0))
-    do i = 1, size(foil%bumps%mine)
-      number = [number, ranges%of_bumps(retained_unknowns(foil%bumps, foil%bumps%substructure(foil%bumps%mine(i))))]
+    do kind = 1, size(pieces%kind)
+      alike = of_kind(foil%bumps, kind)
+      do i = 1, size(alike)
+        number = [number, ranges%of_bumps(retained_unknowns(foil%bumps, foil%bumps%substructure(alike(i))))]
+      end do
     end do
     allocate (force(size(number)))
     call fetch(foil, number, moved)
     first = 0
-    do i = 1, size(foil%bumps%mine)
-      associate (one => foil%bumps%substructure(foil%bumps%mine(i)))
-        call form_elements(mesh, section, foil%bumps%free(:, one%nodes), one, pieces%kind(one%kind), error)
-        if (allocated(error)) exit
-        associate (super => foil%bumps%super(one%kind), n => size(foil%bumps%super(one%kind)%retained))
-          call super%keep_modes()
-          force(first + 1:first + n) = piece_force(super, pieces%kind(one%kind), moved(first + 1:first + n))
-          first = first + n
+    do kind = 1, size(pieces%kind)
+      alike = of_kind(foil%bumps, kind)
+      if (size(alike) == 0) cycle
+      if (.not. allocated(pieces%kind(kind)%number)) then
+        if (.not. allocated(mesh)) mesh = strip_on_pad(scene, film, window_of(foil))
+        associate (one => foil%bumps%substructure(alike(1)))
+          call form_elements(mesh, section_of(scene%bump_foil), foil%bumps%free(:, one%nodes), one, pieces%kind(kind), error)
         end associate
+        if (allocated(error)) exit
+      end if
+      associate (super => foil%bumps%super(kind), n => size(alike)*size(foil%bumps%super(kind)%retained))
+        call super%keep_modes()
+        force(first + 1:first + n) = [piece_forces(super, pieces%kind(kind), &
+                                                   reshape(moved(first + 1:first + n), [size(super%retained), size(alike)]))]
+        first = first + n
       end associate
     end do
     call share_failure(error)
     if (.not. allocated(error)) call add_up(foil, number, force)
   end subroutine add_pieces
 
-  !> The elements of a substructure, unless its kind is known.
+  !> This rank's substructures of a kind.
+  pure function of_kind(structure, kind) result(alike)
+    type(foil_structure_type), intent(in) :: structure
+    integer, intent(in) :: kind
+    integer, allocatable :: alike(:)
+
+    alike = pack(structure%mine, structure%substructure(structure%mine)%kind == kind)
+  end function of_kind
+
+  !> The elements of a substructure.
   subroutine form_elements(mesh, section, free, substructure, elements, error)
     type(quad_mesh_type), intent(in) :: mesh
     type(shell_section_type), intent(in) :: section
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure
-    type(piece_elements_type), intent(inout) :: elements !! of its kind
+    type(piece_elements_type), intent(out) :: elements !! of its kind
     type(error_type), allocatable, intent(out) :: error
     integer :: number(node_unknowns, size(substructure%nodes))
     integer :: i
 
-    if (allocated(elements%number)) return
     number = piece_numbers(free, substructure)
     allocate (elements%number(shell_unknowns, size(substructure%elements)))
     allocate (elements%stiffness(shell_unknowns, shell_unknowns, size(substructure%elements)))
@@ -188,30 +205,31 @@ contains
     end do
   end subroutine form_elements
 
-  !> Forces \( T^T K T q_B \) of a super-element with the modes T and with other elements' stiffness K.
-  pure function piece_force(super, elements, moved) result(force)
+  !> Forces \( T^T K T q_B \) of super-elements of a kind with the modes T and with other elements' stiffness K.
+  pure function piece_forces(super, elements, moved) result(force)
     type(super_element_type), intent(in) :: super
     type(piece_elements_type), intent(in) :: elements
-    real(wp), intent(in) :: moved(:) !! retained unknowns q_B [m], [rad]
-    real(wp) :: force(size(moved))   !! on these [N], [N m]
-    real(wp), dimension(0:size(super%retained) + size(super%interior)) :: state, forces ! 0: fixed
-    real(wp) :: part(shell_unknowns)
+    real(wp), intent(in) :: moved(:, :) !! (retained unknowns, super-elements) q_B [m], [rad]
+    real(wp) :: force(size(moved, 1), size(moved, 2)) !! on these [N], [N m]
+    ! 0: fixed
+    real(wp), dimension(0:size(super%retained) + size(super%interior), size(moved, 2)) :: state, forces
+    real(wp) :: part(shell_unknowns, size(moved, 2))
     integer :: i, k
 
     state = 0.0_wp
-    state(super%retained) = moved
-    state(super%interior) = matmul(super%modes, moved)
+    state(super%retained, :) = moved
+    state(super%interior, :) = matmul(super%modes, moved)
     forces = 0.0_wp
     do i = 1, size(elements%number, 2)
       associate (number => elements%number(:, i))
-        part = matmul(elements%stiffness(:, :, i), state(number))
+        part = matmul(elements%stiffness(:, :, i), state(number, :))
         do k = 1, shell_unknowns
-          forces(number(k)) = forces(number(k)) + part(k)
+          forces(number(k), :) = forces(number(k), :) + part(k, :)
         end do
       end associate
     end do
-    force = forces(super%retained) + matmul(forces(super%interior), super%modes)
-  end function piece_force
+    force = forces(super%retained, :) + matmul(transpose(super%modes), forces(super%interior, :))
+  end function piece_forces
 
   !> Forces of a structure's elements on this rank. Neighbours of the same shape share a stiffness.
   subroutine add_elements(foil, structure, mesh, section, of_bumps, error)
