@@ -37,6 +37,7 @@ module gfb_changed_foil
   type :: piece_elements_type
     integer, allocatable :: number(:, :)       !! (20, elements) of their unknowns in it, from 1; 0: fixed
     real(wp), allocatable :: stiffness(:, :, :) !! (20, 20, elements) [SI]
+    real(wp), allocatable :: modes(:, :)        !! constraint modes of the foil's super-element, once they were found
   end type piece_elements_type
 
   !> Substructures of another bump foil, by kind, for all pads: these are equal.
@@ -162,7 +163,7 @@ contains
         if (allocated(error)) exit
       end if
       associate (super => foil%bumps%super(kind), n => size(alike)*size(foil%bumps%super(kind)%retained))
-        call super%keep_modes()
+        call share_modes(super, pieces%kind(kind)%modes)
         force(first + 1:first + n) = [piece_forces(super, pieces%kind(kind), &
                                                    reshape(moved(first + 1:first + n), [size(super%retained), size(alike)]))]
         first = first + n
@@ -204,6 +205,20 @@ contains
       if (allocated(error)) return
     end do
   end subroutine form_elements
+
+  !> A super-element takes its constraint modes from another pad's, or finds them for all.
+  subroutine share_modes(super, modes)
+    type(super_element_type), intent(inout) :: super
+    real(wp), allocatable, intent(inout) :: modes(:, :) !! of another pad; absent if not found yet
+
+    if (allocated(super%modes)) return
+    if (allocated(modes)) then
+      super%modes = modes
+    else
+      super%modes = super%constraint_modes()
+      modes = super%modes
+    end if
+  end subroutine share_modes
 
   !> Forces \( T^T K T q_B \) of super-elements of a kind with the modes T and with other elements' stiffness K.
   pure function piece_forces(super, elements, moved) result(force)

@@ -29,7 +29,6 @@ module gfb_super_element
   contains
     procedure :: recover
     procedure :: constraint_modes
-    procedure :: keep_modes
     procedure :: interior_stiffness
   end type super_element_type
 
@@ -168,13 +167,6 @@ contains
     PetscCallA(MatDestroy(solution, ierr))
     PetscCallA(MatDestroy(coupling, ierr))
   end function constraint_modes
-
-  !> Finds the constraint modes unless they are there.
-  subroutine keep_modes(self)
-    class(super_element_type), intent(inout) :: self !! the super-element
-
-    if (.not. allocated(self%modes)) self%modes = self%constraint_modes()
-  end subroutine keep_modes
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_super_element(super)

@@ -37,7 +37,7 @@ module gfb_sensitivity
 
   real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
   real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp] !! exact where all is linear
-  real(wp), parameter :: enough = 1.0e-12_wp    !! residual of an adjoint, over its right side [1]
+  real(wp), parameter :: enough = 1.0e-10_wp    !! residual of an adjoint, over its right side [1]
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
 
