@@ -25,6 +25,7 @@ module gfb_solver_case
     real(wp) :: step_tolerance = 1.0e-9_wp      !! of the scaled step [1]
     integer :: maximum_iterations = 40          !! Newton steps of one load step
     integer :: maximum_load_steps = 200
+    integer :: maximum_factorizations = 8000    !! of a search from nothing
     real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole path [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
     logical :: stability = .false.              !! count the foils' modes that grow
@@ -50,6 +51,10 @@ contains
                           'Newton steps of one load step at most', from_to(1.0_wp, most_iterations))
     call keys%integer_key('maximum_load_steps', solver%maximum_load_steps, &
                           'load steps at most', from_to(1.0_wp, most_iterations))
+    call keys%integer_key('maximum_factorizations', solver%maximum_factorizations, &
+                          'factorizations, of all meshes, after which a search from '// &
+                          'nothing gives up', &
+                          from_to(1.0_wp, most_iterations))
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
                        'smallest load step, over the whole path, before the path is given up', &
                        between(0.0_wp, 1.0_wp))

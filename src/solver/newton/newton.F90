@@ -28,10 +28,11 @@ module gfb_newton
   use gfb_secant_steps, only: secants_type, begin_secants, forget_secants, destroy_secants
   use gfb_backward_error, only: backward_error
   use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
+  use gfb_work_bound, only: work_bound_type, count_factorization, is_spent
   implicit none (type)
   private
   public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
-            forget_factors, destroy_newton, newton_report_type
+            forget_factors, destroy_newton, newton_report_type, work_bound_type
 
   real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing tells how steps shrink [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
@@ -45,6 +46,7 @@ module gfb_newton
     !> for any answer bends them, a path that follows a branch does not.
     integer :: straight_steps = huge(1)
     logical :: may_be_stopped = .true. !! by a signal, between two iterations
+    type(work_bound_type), pointer :: bound => null() !! of a search for an answer, where it has one
   end type newton_settings_type
 
   !> The solver and its memory. It is handed to SNES by address: keep it where it is.
@@ -194,6 +196,7 @@ contains
     call newton%system%linearise(newton%system%state)
     call forget_secants(newton%secants)
     newton%factorizations = newton%factorizations + 1
+    call count_factorization(newton%settings%bound)
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     before = newton%enlargements
@@ -246,6 +249,8 @@ contains
       words = 'converged at round-off'
     else if (stop_agreed() .and. reason <= 0) then
       words = stop_words()
+    else if (is_spent(newton%settings%bound) .and. reason <= 0) then
+      words = 'the search gave up'
     else if (reason <= 0 .and. newton%linear%unsolved /= '') then
       words = newton%linear%unsolved
     else
@@ -286,7 +291,10 @@ contains
     call decide_factors(newton%linear, snes, newton%system%slow_change, fill, ierr)
     CHKERRQ(ierr)
     if (.not. fill) return
-    if (newton%linear%fresh) newton%factorizations = newton%factorizations + 1
+    if (newton%linear%fresh) then
+      newton%factorizations = newton%factorizations + 1
+      call count_factorization(newton%settings%bound)
+    end if
     call forget_secants(newton%secants)
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%linearise(x)
@@ -315,6 +323,7 @@ contains
     ierr = 0
     call judge_iteration(newton, iteration, norm, reason)
     if (GFB_REASON(reason) /= GFB_REASON(SNES_CONVERGED_ITERATING)) return
+    if (is_spent(newton%settings%bound)) reason = SNES_DIVERGED_FUNCTION_COUNT
     if (.not. newton%settings%may_be_stopped) return
     if (stop_is_asked()) reason = SNES_DIVERGED_FUNCTION_COUNT
   end subroutine test_convergence

@@ -4,7 +4,7 @@ module gfb_continuation
   use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type, point_between
   use gfb_bearing_system, only: bearing_system_type
@@ -46,7 +46,7 @@ contains
     Vec :: here, before
     real(wp) :: step, smallest, at_before, trial
     integer :: most_steps, rescues
-    logical :: goes_on, just_cut, spent, closing
+    logical :: goes_on, just_cut, spent, closing, gave_up
     PetscErrorCode :: ierr
 
     PetscCallA(VecDuplicate(bearing%state, here, ierr))
@@ -62,6 +62,7 @@ contains
     most_steps = settings%maximum_steps
     rescues = 0
     spent = .false.
+    gave_up = .false.
     do while (report%fraction < 1.0_wp)
       if (report%steps + report%cuts >= most_steps) then
         ! A film that thins steadily gets its steps to touch down by.
@@ -84,7 +85,8 @@ contains
         call newton%log%detail('cut: '//solved%reason)
         call bearing%return_to(here)
         report%reason = solved%reason
-        if (stop_agreed() .or. (report%steps > 0 .and. report%cuts >= settings%most_cuts)) exit
+        gave_up = gives_up(newton%settings%bound)
+        if (gave_up .or. (report%steps > 0 .and. report%cuts >= settings%most_cuts)) exit
         step = 0.5_wp*step
         if (step < smallest) then
           report%reason = 'no step, however short, leads on ('//solved%reason//')'
@@ -114,7 +116,7 @@ contains
     report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
     if (report%converged) report%reason = 'converged'
     bearing%point = report%reached
-    if (.not. report%converged .and. .not. report%touched) call name_end(bearing, spent, report)
+    if (.not. (report%converged .or. report%touched .or. gave_up)) call name_end(bearing, spent, report)
     PetscCallA(VecDestroy(here, ierr))
     PetscCallA(VecDestroy(before, ierr))
   end subroutine follow_path

@@ -32,9 +32,11 @@ module gfb_path_report
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the reason is a smaller mesh's, not shown here
     logical :: names_cause = .false.          !! the reason has a cause that has no flag here
+    logical :: gave_up = .false.              !! the search had to end before anything was shown
   contains
     procedure :: has_cause => report_has_cause
     procedure :: tells_why
+    procedure :: tell_nothing
   end type path_report_type
 
 contains
@@ -45,6 +47,19 @@ contains
     logical :: has
     has = self%touched .or. self%folded .or. self%emptied
   end function report_has_cause
+
+  !> Takes back what it says of the bearing: a search that gave up has shown nothing.
+  pure subroutine tell_nothing(self)
+    class(path_report_type), intent(inout) :: self !! of a path that did not reach its end
+
+    self%touched = .false.
+    self%folded = .false.
+    self%emptied = .false.
+    self%drawn = .false.
+    self%names_cause = .false.
+    self%gave_up = .true.
+    self%reason = 'the search gave up'
+  end subroutine tell_nothing
 
   !> Whether its reason names a cause in the bearing, be it one that only a smaller mesh has shown.
   elemental function tells_why(self) result(tells)

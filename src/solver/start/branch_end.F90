@@ -3,7 +3,7 @@
 module gfb_branch_end
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -57,7 +57,7 @@ contains
     if (report%has_cause() .or. .not. bearing%floats .or. bearing%shaft_fixed) return
     if (.not. bearing%pad(1)%foil%has_contacts()) return
     if (.not. has_free_edge(bearing)) return
-    if (stop_agreed()) return
+    if (gives_up(newton%settings%bound)) return
     call newton%log%detail('the branch is lost: its free edge is fixed, and asked '//where)
     call last%keep(bearing)
     problem%scene => scene

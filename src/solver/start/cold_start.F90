@@ -7,7 +7,7 @@ module gfb_cold_start
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
@@ -72,7 +72,7 @@ contains
     call refused%keep(bearing)
     again = report%touched .or. .not. (report%drawn .or. report%has_cause())
     if (report%touched) again = norm2(report%reached%load) > light(1)*norm2(target%load)
-    if (again) again = .not. stop_agreed()
+    if (again) again = .not. gives_up(newton%settings%bound)
     if (again) then
       call log%line('no answer from there ('//report%reason//'); from '//text(100.0_wp*light(1), 2)//' % of the load:')
       way = target
@@ -85,7 +85,7 @@ contains
     again = .not. (refusal%drawn .or. refusal%has_cause() .or. report%has_cause())
     again = (again .or. (refusal%drawn .and. scene%model%foil == foil_shell)) .and. .not. report%converged
     if (again) again = has_free_edge(bearing)
-    if (again) again = .not. stop_agreed()
+    if (again) again = .not. gives_up(newton%settings%bound)
     if (again) then
       call log%line('no answer from there ('//report%reason//'); from '//text(fast(1), 2)//' times the speed:')
       way = target
@@ -257,7 +257,7 @@ contains
     if (helped) problem%carried_only = lies_between(plan, small_plan)
     call start_pressed(problem, report)
     between = problem%carried_only .and. .not. report%converged
-    if (between) between = .not. stop_agreed()
+    if (between) between = .not. gives_up(newton%settings%bound)
     if (between) then
       call log%line('no answer from that of '//text(small_plan%axial)//' rows ('//report%reason//'); half of '// &
                     text(plan%axial)//' first:')
@@ -288,7 +288,7 @@ contains
         report%of_smaller = .true.
         report%names_cause = problem%refusal%tells_why()
       end if
-      if (.not. (told .or. problem%refusal%of_smaller)) then
+      if (.not. (told .or. problem%refusal%of_smaller .or. problem%refusal%gave_up)) then
         report%reason = report%reason//', as the mesh of '//text(small_plan%circumferential)//' x '// &
           text(small_plan%axial)//' has it'
       end if

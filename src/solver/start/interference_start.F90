@@ -7,7 +7,7 @@
 module gfb_interference_start
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_report_type, solve_newton
   use gfb_continuation, only: path_report_type
@@ -37,6 +37,7 @@ contains
 
     gone = 0.0_wp
     step = first_step
+    stopped = .false.
     call last%keep(problem%bearing)
     allowed = problem%newton%settings%maximum_iterations
     problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
@@ -53,7 +54,7 @@ contains
         call last%put_back(problem%bearing)
         call set_interference(problem%bearing, gone*interference)
         step = 0.5_wp*min(step, trial - gone)
-        stopped = stop_agreed()
+        stopped = gives_up(problem%newton%settings%bound)
         if (step < smallest_step .or. stopped) exit
       end if
     end do
@@ -65,7 +66,7 @@ contains
       report%touched = problem%bearing%smallest_gap() < problem%settings%touch_down_gap
       report%converged = .not. report%touched
     end if
-    report%touched = report%touched .and. .not. report%converged
+    report%touched = report%touched .and. .not. (report%converged .or. stopped)
     if (report%converged) return
     if (report%touched) then
       report%reason = 'the shaft touches down where the interference is '//text(gone*interference, 4)//' m'

@@ -3,7 +3,7 @@
 module gfb_start_list
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
@@ -102,13 +102,17 @@ contains
         problem%others_left = any(starts(list(i + 1:))%soft%release /= never)
         call problem%newton%log%stage('start: '//trim(start%name))
         call start%try(problem, start%soft, report, ends)
+        stopped = gives_up(problem%newton%settings%bound)
+        if (stopped .and. .not. report%converged) then
+          ends = .false.
+          call report%tell_nothing()
+        end if
         if (start%counts) call keep_nearest(problem, report, nearest)
         problem%shown = ends .and. .not. (report%converged .or. start%counts)
         if (problem%shown) then
           nearest%report%reason = report%reason
           nearest%report%drawn = report%drawn
         end if
-        stopped = stop_agreed()
         if (report%converged .or. ends .or. stopped) exit
         if (i == size(list)) exit
         associate (next => starts(list(i + 1)))

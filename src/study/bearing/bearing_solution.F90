@@ -62,7 +62,7 @@ contains
   subroutine set_up(scene, context, sweep)
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    type(sweep_type), intent(inout) :: sweep
+    type(sweep_type), target, intent(inout) :: sweep
 
     sweep%scene = scene
     sweep%context = context
@@ -73,6 +73,7 @@ contains
       sweep%tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &
                                               solver%maximum_iterations)
     end associate
+    sweep%tolerances%bound => sweep%bound
     sweep%partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil /= foil_rigid
     allocate (sweep%record%history(0), sweep%record%judged(0))
   end subroutine set_up
@@ -90,6 +91,7 @@ contains
 
     call scene_of(sweep, 1, scene, error)
     if (allocated(error)) return
+    call sweep%bound%begin(scene%solver%maximum_factorizations)
     associate (log => sweep%context%log)
       operation = scene%operation
       next = 1
@@ -110,6 +112,7 @@ contains
       end if
     end associate
     if (allocated(error)) return
+    call end_search(sweep, report)
     call sweep%approach_limit(report)
     if (.not. report%converged) call sweep%explain(report, .false., reason)
     call sweep%begin(report%converged)
@@ -135,6 +138,7 @@ contains
       if (report%converged) exit
       lighter%load = lighter%load/2
       call sweep%context%log%line('no equilibrium to begin with ('//report%reason//'): from half of that load')
+      call sweep%bound%begin(scene%solver%maximum_factorizations)
       call restart_bearing(scene, plan, operating_point(lighter), sweep%tolerances, sweep%path, sweep%context%log, &
                            sweep%bearing, sweep%newton, report, error)
       if (allocated(error)) return
@@ -290,9 +294,24 @@ contains
     call scene_of(sweep, point, scene, error)
     if (allocated(error)) return
     if (sweep%scene%sweep%parameter /= sweep_keys) scene%operation = operation_at(scene%operation, scene%sweep, point)
+    call sweep%bound%begin(scene%solver%maximum_factorizations)
     call restart_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
                          sweep%context%log, sweep%bearing, sweep%newton, report, error)
     if (allocated(error)) return
     call come_from_thicker(start_bearing, scene, plan, scene%operation, sweep%path, sweep%bearing, sweep%newton, report, error)
+    if (.not. allocated(error)) call end_search(sweep, report)
   end subroutine start_anew
+
+  !> What follows a search from nothing is not bounded; one that gave up says so.
+  subroutine end_search(sweep, report)
+    type(sweep_type), intent(inout) :: sweep
+    type(path_report_type), intent(inout) :: report !! of the search
+    logical :: gave_up
+
+    gave_up = sweep%bound%is_reached() .and. .not. report%converged
+    call sweep%bound%lift()
+    if (.not. gave_up) return
+    call sweep%context%log%line('the search from nothing gave up '//sweep%bound%words())
+    if (.not. report%tells_why()) report%reason = report%reason//', '//sweep%bound%words()
+  end subroutine end_search
 end module gfb_bearing_solution

@@ -8,7 +8,7 @@ module gfb_branches_study
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_newton, only: newton_type, newton_settings_type, destroy_newton
+  use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
   use gfb_start_problem, only: start_problem_type, cold_start_type, never
@@ -33,6 +33,7 @@ module gfb_branches_study
     type(bearing_plan_type) :: plan
     type(bearing_system_type) :: bearing
     type(newton_type) :: newton
+    type(work_bound_type) :: bound !! of the first search
     type(branch_search_type) :: search
   contains
     procedure :: prepare => prepare_search
@@ -74,14 +75,17 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(path_settings_type) :: settings
+    type(newton_settings_type) :: tolerances
     type(path_report_type) :: report
 
     associate (solver => scene%solver)
       settings = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
-      call start_bearing(searched(scene), self%plan, operating_point(scene%operation), &
-                         newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &
-                                              solver%maximum_iterations), &
-                         settings, context%log, self%bearing, self%newton, report, error)
+      tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
+      tolerances%bound => self%bound
+      call self%bound%begin(solver%maximum_factorizations)
+      call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+                         self%bearing, self%newton, report, error)
+      call self%bound%lift()
     end associate
     if (allocated(error)) return
     self%search%lifts = [lowest_lift, highest_lift]*self%bearing%pad(1)%film%clearance

@@ -18,7 +18,7 @@ module gfb_key_path
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
   use gfb_start_problem, only: drop_bearing, count_spent
   use gfb_kept_state, only: kept_state_type
-  use gfb_signals, only: stop_agreed
+  use gfb_work_bound, only: gives_up
   use gfb_operation_case, only: operation_case_type
   use gfb_answer_transfer, only: transfer_answer
   use gfb_continuation, only: path_settings_type, path_report_type
@@ -171,7 +171,7 @@ contains
 
     again = .not. (report%converged .or. report%has_cause() .or. report%drawn .or. operation%asks_for_lift())
     if (again) again = bearing%floats .and. bearing%pad(1)%foil%has_contacts()
-    if (again) again = .not. stop_agreed()
+    if (again) again = .not. gives_up(newton%settings%bound)
     if (.not. again) return
     log = newton%log
     tolerances = newton%settings

@@ -10,7 +10,7 @@ module gfb_sweep
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point, operating_point_type
-  use gfb_newton, only: newton_type, newton_settings_type
+  use gfb_newton, only: newton_type, newton_settings_type, work_bound_type
   use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch, ask_beyond
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
@@ -34,6 +34,7 @@ module gfb_sweep
     type(run_context_type) :: context
     type(path_settings_type) :: path
     type(newton_settings_type) :: tolerances
+    type(work_bound_type) :: bound !! of a search from nothing
     type(bearing_system_type) :: bearing
     type(newton_type) :: newton
     type(bearing_record_type) :: record

@@ -11,11 +11,11 @@ import tempfile
 from gfb.results import read_history, read_summary
 from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
 
-ANSWER, NO_REASON, BOUND, BROKEN, INVALID = "answer", "no reason", "CPU bound", "broke off", "wrong input"
+ANSWER, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID = "answer", "no reason", "gave up", "CPU bound", "broke off", "wrong input"
 REFUSALS = {"touch-down": ("touches down",), "fold": ("ends in a fold",), "emptied": ("film is emptied",),
             "suction in part": ("as far as it was followed",), "suction": ("draws the free edge", "stays at no height below that at rest")}
 SUCTION = ("suction", "suction in part")
-OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, BOUND, BROKEN, INVALID)
+OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
 BY_SIGNAL = 128            # plus the signal's number: the status of a run that a signal has stopped
@@ -75,7 +75,8 @@ def outcome_of(status, log):
     if status != NOT_CONVERGED:
         return BROKEN
     reason = reason_in(log)
-    return next((name for name, sentences in REFUSALS.items() if any(words in reason for words in sentences)), NO_REASON)
+    nameless = GAVE_UP if "factorizations (maximum_factorizations" in reason else NO_REASON
+    return next((name for name, sentences in REFUSALS.items() if any(words in reason for words in sentences)), nameless)
 
 
 def try_case(gfb, groups, seconds):

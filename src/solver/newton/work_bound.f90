@@ -1,0 +1,75 @@
+!> How much a search for an answer may cost.
+module gfb_work_bound
+  use gfb_signals, only: stop_agreed
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: count_factorization, is_spent, gives_up
+
+  !> Factorizations that all solvers of a search share, one mesh after the other.
+  type, public :: work_bound_type
+    private
+    integer :: most = huge(1) !! that the search may take
+    integer :: spent = 0      !! so far
+  contains
+    procedure :: begin
+    procedure :: lift
+    procedure :: is_reached
+    procedure :: words
+  end type work_bound_type
+
+contains
+
+  !> Begins to count, as a search begins.
+  pure subroutine begin(self, most)
+    class(work_bound_type), intent(inout) :: self !! of the search
+    integer, intent(in) :: most !! factorizations it may take
+
+    self%most = most
+    self%spent = 0
+  end subroutine begin
+
+  !> Bounds nothing more, as a search has ended.
+  pure subroutine lift(self)
+    class(work_bound_type), intent(inout) :: self !! of the search
+    self%most = huge(1)
+  end subroutine lift
+
+  !> Whether all factorizations are spent.
+  pure function is_reached(self) result(reached)
+    class(work_bound_type), intent(in) :: self !! of the search
+    logical :: reached
+    reached = self%spent >= self%most
+  end function is_reached
+
+  !> What a search that gave up says.
+  function words(self)
+    class(work_bound_type), intent(in) :: self !! of the search
+    character(len=:), allocatable :: words
+    words = 'after '//text(self%spent)//' factorizations (maximum_factorizations in &solver)'
+  end function words
+
+  !> Counts a factorization.
+  subroutine count_factorization(bound)
+    type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
+    if (associated(bound)) bound%spent = bound%spent + 1
+  end subroutine count_factorization
+
+  !> Whether a search has spent all of them.
+  pure function is_spent(bound) result(spent)
+    type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
+    logical :: spent
+
+    spent = .false.
+    if (associated(bound)) spent = bound%is_reached()
+  end function is_spent
+
+  !> Whether a search has to end: a signal asks for it, or all factorizations are spent.
+  !>
+  !> No solve converges then, and one that does not tells nothing of the bearing.
+  function gives_up(bound) result(ends)
+    type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
+    logical :: ends
+    ends = stop_agreed() .or. is_spent(bound)
+  end function gives_up
+end module gfb_work_bound
