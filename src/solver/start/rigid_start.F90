@@ -1,6 +1,6 @@
 #include "gfb_petsc.h"
-!> The start of a bearing whose foil touches nothing but the film: the load at once, or at a fixed position
-!> from rest to speed and then with the shaft released.
+!> The starts of a bearing whose foil touches nothing but the film: the load at once, at a fixed position
+!> from rest to speed and then with the shaft released, or with the shaft laid on its foil first.
 module gfb_rigid_start
   use gfb_kinds, only: wp
   use gfb_text, only: text
@@ -8,18 +8,24 @@ module gfb_rigid_start
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_pad_contacts, only: set_upwind
+  use gfb_film_load, only: film_forces
   use gfb_newton, only: newton_type
-  use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings, clearance_of
   use gfb_kept_state, only: kept_state_type
   use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
   implicit none (type)
   private
-  public :: try_from_rest
+  public :: try_from_rest, try_laid_down
 
   real(wp), parameter :: eccentricity = 0.5_wp  !! where none is given, over the free clearance [1]
   integer, parameter :: hasty_iterations = 10   !! of the load at once, which takes 4 to 9 where it helps
   integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
+  real(wp), parameter :: aside = 0.25_wp*acos(-1.0_wp) !! attitude of a shaft that does not lie where the load presses it [rad]
+  real(wp), parameter :: behind_load = 0.1_wp   !! attitude of a shaft that is laid down; heavy loads leave 0 to 6 degrees [rad]
+  real(wp), parameter :: first_depth = 0.75_wp  !! eccentricity to begin with, over the clearance [1]
+  real(wp), parameter :: deeper = 1.3_wp        !! over the one before [1]
+  integer, parameter :: most_depths = 24        !! to 400 times the clearance
   real(wp), parameter :: coarse_peclet = 5.0_wp !! of a cell that is too large for Galerkin [1]
 
 contains
@@ -44,6 +50,50 @@ contains
       end if
     end associate
   end subroutine try_from_rest
+
+  !> Where the way to the load has ended with the shaft aside: lays it on its foil where the load presses it, deeper and deeper
+  !> until the film carries that much, and releases it.
+  !>
+  !> As a load grows from nothing the shaft leaves the centre across it. Where the film has its gap there, that branch ends,
+  !> and another one carries a shaft that came to speed on its foil.
+  recursive subroutine try_laid_down(problem, soft, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved, at the end of that way
+    type(soft_contacts_type), intent(in) :: soft  !! none
+    type(path_report_type), intent(out) :: report !! how it ended; shaft fixed: nothing has been shown
+    logical, intent(out) :: ends                  !! never
+    type(path_settings_type) :: quick, downwards
+    type(operating_point_type) :: next
+    real(wp) :: unknown(problem%bearing%local_size()), direction, force(film_forces), position(2)
+    integer :: depth
+
+    ends = .false.
+    report%shaft_fixed = .true.
+    report%reason = 'the shaft lies where the load presses it'
+    quick = trial_settings(problem%settings)
+    downwards = quick
+    downwards%touch_down_gap = 0.0_wp
+    associate (bearing => problem%bearing, newton => problem%newton, load => problem%target%load)
+      position = bearing%eccentricity()
+      if (-dot_product(position, load) > cos(aside)*norm2(position)*norm2(load)) return
+      direction = atan2(load(2), load(1)) + behind_load
+      bearing%point%eccentricity = -first_depth*clearance_of(bearing)*[cos(direction), sin(direction)]
+      unknown = 0.0_wp
+      unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
+      call bearing%set_unknowns(unknown)
+      call find_position(bearing, newton, problem%target, downwards, report)
+      if (.not. report%converged) return
+      do depth = 1, most_depths
+        force = bearing%reaction()
+        if (dot_product(force(1:2), load) >= norm2(load)**2) exit
+        next = bearing%point
+        next%eccentricity = deeper*next%eccentricity
+        call follow_path(bearing, newton, next, 0.5_wp, downwards, report)
+        if (.not. report%converged) exit ! a load may press it where a position does not lead
+      end do
+      call release_shaft(bearing, newton, problem%target, quick, report)
+      report%shaft_fixed = .not. (report%converged .or. report%has_cause())
+    end associate
+  end subroutine try_laid_down
 
   !> Newton's method at the target, from ambient pressure everywhere and the shaft where it is; where that fails the
   !> state is as it was.

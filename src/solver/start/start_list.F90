@@ -12,7 +12,7 @@ module gfb_start_list
   use gfb_kept_state, only: kept_state_type
   use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_position, try_smaller_refusal
-  use gfb_rigid_start, only: try_from_rest
+  use gfb_rigid_start, only: try_from_rest, try_laid_down
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
   use gfb_edge_heights, only: resting
@@ -46,7 +46,8 @@ contains
       cold_start_type("the smaller system's answer", has_smaller, try_smaller_answer), &
       cold_start_type("the smaller system's position, with the shaft fixed", floats_with_smaller, try_smaller_position), &
       cold_start_type("the end of the smaller system's search", is_refused, try_smaller_refusal), &
-      cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest), &
+      cold_start_type('the fixed shaft from rest to speed', has_no_contacts, try_from_rest, counts=.true.), &
+      cold_start_type('the shaft laid on its foil under the load', floats_on_film, try_laid_down, counts=.true.), &
       cold_start_type('soft contacts of several pads, released early under a load', floats_with_free_edges, &
                       try_several_edges, usual_contacts, .true.), &
       cold_start_type('the free edge fixed where it rests', floats_with_free_edge, try_free_edge), &
@@ -131,7 +132,7 @@ contains
       if (.not. (problem%shown .or. report%has_cause()) .and. allocated(problem%suspicion)) then
         report%reason = problem%suspicion
       else if (.not. (problem%shown .or. problem%on_the_way .or. report%has_cause()) .and. problem%bearing%floats) then
-        report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
+        if (size(list) > 1) report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
           report%reason
       end if
       call nearest%kept%put_back(problem%bearing)
@@ -290,6 +291,14 @@ contains
     logical :: applies
     applies = .not. has_contacts(problem)
   end function has_no_contacts
+
+  !> It does, and the shaft finds its own position under a load.
+  function floats_on_film(problem) result(applies)
+    type(start_problem_type), intent(in) :: problem
+    logical :: applies
+    applies = has_no_contacts(problem) .and. problem%bearing%floats .and. norm2(problem%target%load) > 0.0_wp .and. &
+      problem%target%speed > 0.0_wp
+  end function floats_on_film
 
   !> Top foil, bumps and sleeve touch each other.
   function has_contacts(problem) result(applies)
