@@ -223,7 +223,7 @@ contains
     type(scene_type), target :: small
     type(bearing_plan_type) :: small_plan, middle_plan
     type(start_problem_type) :: problem
-    logical :: has_smaller, helped, between, told
+    logical :: has_smaller, helped, between, told, again
 
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
@@ -273,7 +273,9 @@ contains
       call start_pressed(problem, report)
       call middle%destroy()
     end if
-    if (.not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())) then
+    again = .not. report%converged .and. plan%may_upwind .and. .not. (plan%upwind .or. bearing%pad(1)%foil%has_contacts())
+    if (again) again = .not. gives_up(newton%settings%bound)
+    if (again) then
       call set_upwind(bearing, .true.)
       call log%line('film: Galerkin finds no answer, SUPG is tried')
       call start_pressed(problem, report)

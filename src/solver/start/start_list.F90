@@ -132,7 +132,7 @@ contains
       if (.not. (problem%shown .or. report%has_cause()) .and. allocated(problem%suspicion)) then
         report%reason = problem%suspicion
       else if (.not. (problem%shown .or. problem%on_the_way .or. report%has_cause()) .and. problem%bearing%floats) then
-        if (size(list) > 1) report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
+        if (i > 1) report%reason = 'none of '//text(min(i, size(list)))//' starts led there; from the nearest state they reached: '// &
           report%reason
       end if
       call nearest%kept%put_back(problem%bearing)
