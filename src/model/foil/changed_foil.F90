@@ -106,9 +106,9 @@ contains
     integer, intent(in) :: number(:, :) !! (5, stations) the foil's own, 0: fixed
     logical, intent(in) :: bent !! elements bend between their ends
     PetscScalar, pointer :: state(:), values(:)
-    real(wp) :: moved(0:foil%owned), force(0:foil%owned)
+    real(wp) :: moved(0:foil%owned), force(0:foil%owned), element(2*size(of_beam))
     PetscErrorCode :: ierr
-    integer :: station
+    integer :: station, i
 
     if (foil%owned == 0) return
     PetscCallA(GFB_VecGetArrayRead(foil%state, state, ierr))
@@ -118,7 +118,10 @@ contains
     force = 0.0_wp
     do station = 1, mesh%stations - 1
       associate (own => [number(of_beam, station), number(of_beam, station + 1)])
-        force(own) = force(own) + width*matmul(stiffness_behind(mesh, section, station, bent), moved(own))
+        element = width*matmul(stiffness_behind(mesh, section, station, bent), moved(own))
+        do i = 1, size(own)
+          force(own(i)) = force(own(i)) + element(i) ! several may be fixed
+        end do
       end associate
     end do
     PetscCallA(GFB_VecGetArray(foil%force, values, ierr))
