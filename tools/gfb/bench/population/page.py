@@ -31,7 +31,7 @@ Written by `tools/bench population --set {name} --count {count} --seconds {secon
 
 Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound* (on a busy
 machine the system's limit may strike before that by the times given here). *no reason*: the run ends with status 2, but its
-sentence names nothing of the bearing. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
+sentence names nothing of the bearing; *gave up*: nor did its search find anything within `maximum_factorizations`. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
 the shaft; *in part*: at every height that was reached. *emptied*: the pressure falls to nothing on cells that are too large.
 Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
 those of answers of the same model. Times depend on the machine and on what else runs there. All members, one by one, with the
