@@ -28,7 +28,7 @@ module gfb_newton
   use gfb_secant_steps, only: secants_type, begin_secants, forget_secants, destroy_secants
   use gfb_backward_error, only: backward_error
   use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
-  use gfb_work_bound, only: work_bound_type, count_factorization, is_spent
+  use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, gave_up_words
   implicit none (type)
   private
   public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
@@ -250,7 +250,7 @@ contains
     else if (stop_agreed() .and. reason <= 0) then
       words = stop_words()
     else if (is_spent(newton%settings%bound) .and. reason <= 0) then
-      words = 'the search gave up'
+      words = gave_up_words
     else if (reason <= 0 .and. newton%linear%unsolved /= '') then
       words = newton%linear%unsolved
     else

@@ -6,6 +6,8 @@ module gfb_work_bound
   private
   public :: count_factorization, is_spent, gives_up
 
+  character(len=*), parameter, public :: gave_up_words = 'the search gave up' !! as a reason
+
   !> Factorizations that all solvers of a search share, one mesh after the other.
   type, public :: work_bound_type
     private

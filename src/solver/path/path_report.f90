@@ -2,6 +2,7 @@
 module gfb_path_report
   use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
+  use gfb_work_bound, only: gave_up_words
   implicit none (type, external)
   private
 
@@ -58,7 +59,7 @@ contains
     self%drawn = .false.
     self%names_cause = .false.
     self%gave_up = .true.
-    self%reason = 'the search gave up'
+    self%reason = gave_up_words
   end subroutine tell_nothing
 
   !> Whether its reason names a cause in the bearing, be it one that only a smaller mesh has shown.

@@ -13,7 +13,7 @@ module gfb_rigid_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings, clearance_of
   use gfb_kept_state, only: kept_state_type
-  use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
+  use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at
   implicit none (type)
   private
   public :: try_from_rest, try_laid_down
@@ -63,7 +63,7 @@ contains
     logical, intent(out) :: ends                  !! never
     type(path_settings_type) :: quick, downwards
     type(operating_point_type) :: next
-    real(wp) :: unknown(problem%bearing%local_size()), direction, force(film_forces), position(2)
+    real(wp) :: direction, force(film_forces), position(2)
     integer :: depth
 
     ends = .false.
@@ -76,10 +76,7 @@ contains
       position = bearing%eccentricity()
       if (-dot_product(position, load) > cos(aside)*norm2(position)*norm2(load)) return
       direction = atan2(load(2), load(1)) + behind_load
-      bearing%point%eccentricity = -first_depth*clearance_of(bearing)*[cos(direction), sin(direction)]
-      unknown = 0.0_wp
-      unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
-      call bearing%set_unknowns(unknown)
+      call place_shaft(bearing, -first_depth*clearance_of(bearing)*[cos(direction), sin(direction)])
       call find_position(bearing, newton, problem%target, downwards, report)
       if (.not. report%converged) return
       do depth = 1, most_depths

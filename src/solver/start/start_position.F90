@@ -13,7 +13,7 @@ module gfb_start_position
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
-  public :: guess_position, find_position, release_shaft, solve_at
+  public :: guess_position, place_shaft, find_position, release_shaft, solve_at
 
   real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
   real(wp), parameter :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
@@ -146,7 +146,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(operating_point_type), intent(in) :: target !! the operating point asked for
     real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
-    real(wp) :: direction, free, unknown(bearing%local_size())
+    real(wp) :: direction, free
 
     bearing%point%eccentricity = target%eccentricity
     if (.not. bearing%floats) return
@@ -160,10 +160,20 @@ contains
         bearing%point%eccentricity = resting_position(bearing, target)
       end if
     end if
-    unknown = 0.0_wp
-    unknown(bearing%first_shaft + 1:) = bearing%point%eccentricity
-    call bearing%set_unknowns(unknown)
+    call place_shaft(bearing, (bearing%point%eccentricity)) ! a copy: it is overwritten
   end subroutine guess_position
+
+  !> Puts a shaft that finds its own position somewhere to begin with.
+  subroutine place_shaft(bearing, position)
+    type(bearing_system_type), intent(inout) :: bearing !! gets the position, and all else zero
+    real(wp), intent(in) :: position(2) !! eccentricity [m]
+    real(wp) :: unknown(bearing%local_size())
+
+    bearing%point%eccentricity = position
+    unknown = 0.0_wp
+    unknown(bearing%first_shaft + 1:) = position
+    call bearing%set_unknowns(unknown)
+  end subroutine place_shaft
 
   !> Where the asperities of a shaft that does not turn carry its load on a rigid sleeve: the gap that
   !> halves, as often as it takes, between the clearance and none.
