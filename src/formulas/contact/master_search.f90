@@ -38,7 +38,7 @@ contains
     real(wp), intent(in), optional :: slack    !! by which coordinates may exceed one [1]
     type(cell_grid_type) :: grid
     real(wp) :: allowed
-    integer :: p
+    integer :: p, cell
 
     master = 0
     coordinates = 0.0_wp
@@ -48,11 +48,10 @@ contains
     grid = grid_over(position, element_nodes)
     call list_elements(grid, position, element_nodes, reach, allowed)
     do p = 1, size(master)
-      associate (cell => cell_of(grid, point(grid%axis, p)))
-        associate (near => grid%element(grid%first(cell):grid%first(cell + 1) - 1))
-          call find_master(point(:, p), position, element_nodes, near, reach, allowed, master(p), &
-                           coordinates(:, p))
-        end associate
+      cell = cell_of(grid, point(grid%axis, p))
+      associate (near => grid%element(grid%first(cell):grid%first(cell + 1) - 1))
+        call find_master(point(:, p), position, element_nodes, near, reach, allowed, master(p), &
+                         coordinates(:, p))
       end associate
     end do
   end subroutine find_masters

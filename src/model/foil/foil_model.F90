@@ -213,8 +213,8 @@ contains
   pure function own_part(self, unknown) result(part)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-    real(wp) :: part(self%local_unknowns())
-    part = unknown(self%first + 1:self%first + size(part))
+    real(wp), allocatable :: part(:)
+    part = unknown(self%first + 1:self%first + self%local_unknowns())
   end function own_part
 
   !> Deflection at the local film nodes, positive away from the shaft [m].
@@ -360,9 +360,10 @@ contains
     logical, intent(inout) :: closes          !! one of them closes
     real(wp), parameter :: together = 1.0e-6_wp !! relative
     real(wp) :: first(3)
-    integer :: i
+    integer :: i, last
 
-    associate (mine => rate(self%first + 1:self%first + self%local_unknowns()), now => self%own_part(here), &
+    last = self%first + self%local_unknowns()
+    associate (mine => rate(self%first + 1:last), now => self%own_part(here), &
                next => self%own_part(ahead))
       do i = 1, size(self%contacts%point)
         if (self%contacts%next_change(i, now, next) > (1.0_wp + together)*fraction) cycle

@@ -117,9 +117,10 @@ contains
     class(meshed_foil_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
-    real(wp) :: contact(self%local_unknowns())
+    real(wp), allocatable :: contact(:)
     PetscErrorCode :: ierr
 
+    allocate (contact(self%local_unknowns()), source=0.0_wp)
     if (allocated(self%initial_load)) then
       associate (mine => residual(self%first + 1:self%first + size(contact)))
         mine = mine - self%initial_load
@@ -127,7 +128,6 @@ contains
     end if
 
     PetscCallA(PetscLogEventBegin(self%events%contact, ierr))
-    contact = 0.0_wp
     call self%contacts%add_forces(self%own_part(unknown), contact)
     associate (mine => residual(self%first + 1:self%first + size(contact)))
       mine = mine - contact

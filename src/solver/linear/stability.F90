@@ -107,7 +107,7 @@ contains
     type(pad_type), intent(in) :: pad
     real(wp), intent(inout) :: value(:) !! one an unknown of the pad, zero before
     real(wp) :: area(size(pad%mesh%mesh_node))
-    integer :: element, node
+    integer :: element, node, last
 
     area = 0.0_wp
     associate (film => pad%film)
@@ -124,7 +124,8 @@ contains
           sum = sum + foil%rate(node)**2*area(node)
         end associate
       end do
-      associate (mine => value(foil%first + 1:foil%first + foil%local_unknowns()))
+      last = foil%first + foil%local_unknowns()
+      associate (mine => value(foil%first + 1:last))
         mine = mine*foil%unknown_scale**2/foil%equation_scale ! one of them is divided out again
       end associate
     end associate
