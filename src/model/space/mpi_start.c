@@ -21,6 +21,7 @@ static const char *const alone[][2] = {
 static const size_t alone_settings = sizeof alone/sizeof *alone;
 static int          is_alone       = 0;
 
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
 /* What begins so was set by a launcher; a setting that is there, by a user who wants something of Open MPI. */
 static int is_launched(void)
 {
@@ -35,6 +36,7 @@ static int is_launched(void)
     if (getenv(alone[i][0])) return 1;
   return 0;
 }
+#endif
 
 static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
 {
