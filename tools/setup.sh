@@ -112,22 +112,32 @@ need_venv() {
   say "installed in build/venv: $names"
 }
 
-# build_program PRESET TARGET: configures where needed, builds, and shows errors only.
+# build_program PRESET TARGET: configures where needed, builds, and shows errors only. The preset developer has the
+# folder of release, so that tools/run runs what tools/test has tested.
 build_program() {
-  local folder=$root/build/$1 log=$root/build/$1.log
+  local name=${1/developer/release}
+  local folder=$root/build/$name log=$root/build/$name.log
   command -v cmake >/dev/null || stop "cmake is missing. gfb needs $libraries"
   configure_if_needed "$1"
   if ! make_target "$folder" "$2" "$log"; then
     # A library that moved or went since, or a damaged build folder: once more from the start.
     if [[ $configured == no ]] && grep -qE '^ninja: error|could not load cache' -- "$log"; then
-      say "build/$1 no longer fits this machine: configuring again"
-      rm -f -- "$folder/configured.txt" "$folder/CMakeCache.txt"
-      configure_if_needed "$1"
-      make_target "$folder" "$2" "$log" && return
+      say "build/$name no longer fits this machine: configuring again"
+      build_again "$@" && return
+    elif [[ $1 == release && $configured == no ]] && grep -q 'warnings being treated as errors' -- "$log"; then
+      say 'a warning is an error here since tools/test: building again, where it is none'
+      build_again "$@" && return
     fi
     grep -vE '^\[[0-9]+/[0-9]+\] ' -- "$log" >&2 || true
     stop "the build failed; all its messages are in $log"
   fi
+}
+
+# build_again PRESET TARGET, in build_program: with a cache of its own.
+build_again() {
+  rm -f -- "$folder/configured.txt" "$folder/CMakeCache.txt"
+  configure_if_needed "$1"
+  make_target "$folder" "$2" "$log"
 }
 
 make_target() {
@@ -147,25 +157,27 @@ show_progress() {
 
 # A build folder belongs to one checkout and one set of libraries; another starts it afresh.
 configure_if_needed() {
-  local folder=$root/build/$1 log=$root/build/$1.configure.log python=$venv/bin/python wanted
+  local name=${1/developer/release} python=$venv/bin/python wanted
+  local folder=$root/build/$name log=$root/build/$name.configure.log
   [[ -x $python ]] || python=$(command -v /usr/bin/python3 || command -v python3) || python=''
   wanted=$(printf '%s\n' "root $root" "PKG_CONFIG_PATH ${PKG_CONFIG_PATH:-}" \
     "CMAKE_PREFIX_PATH ${CMAKE_PREFIX_PATH:-}" "compilers ${FC:-} ${CC:-} ${FFLAGS:-} ${CFLAGS:-}")
   configured=no
   if [[ ${packages_changed:-no} == no && -f $folder/build.ninja && -f $folder/configured.txt \
     && $(<"$folder/configured.txt") == "$wanted"$'\n'"python $python" \
-    && ! $root/CMakePresets.json -nt $folder/configured.txt ]]; then
+    && ! $root/CMakePresets.json -nt $folder/configured.txt ]] \
+    && { [[ $1 != developer ]] || grep -qx 'GFB_WARNINGS_ARE_ERRORS:BOOL=ON' -- "$folder/CMakeCache.txt"; }; then
     return
   fi
   if [[ -f $folder/configured.txt && $(<"$folder/configured.txt") != "$wanted"$'\n'* ]] \
     || { [[ -f $folder/CMakeCache.txt ]] \
     && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" -- "$folder/CMakeCache.txt"; }; then
-    say "build/$1 is of another place or other libraries: building afresh"
+    say "build/$name is of another place or other libraries: building afresh"
     rm -rf -- "$folder"
   fi
   [[ ${packages_changed:-no} == no ]] || rm -f -- "$folder/CMakeCache.txt"
   has_apt || say "this system has no apt; CMake looks for what gfb needs: $libraries"
-  say "configuring build/$1"
+  say "configuring build/$name"
   if ! (cd -- "$root" && help_find_hdf5 && cmake --preset "$1" -D "GFB_PYTHON=$python") >"$log" 2>&1 9>&-; then
     sed -n '/CMake Error/,$p' -- "$log" >&2
     if grep -qiE 'could not find|not found' -- "$log"; then

@@ -38,6 +38,9 @@ if [[ $1 == --preset ]]; then
   echo configure >>"$SCRATCH/calls"
   mkdir -p "build/$2" && touch "build/$2/build.ninja"
   echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >"build/$2/CMakeCache.txt"
+elif grep -q '^GFB_WARNINGS_ARE_ERRORS:BOOL=ON' "$2/CMakeCache.txt"; then
+  printf '[1/2] fine\nfilm.c: error: unused\ncc1: all warnings being treated as errors\n'
+  exit 1
 elif [[ -e $SCRATCH/broken ]]; then
   printf '[1/2] fine\nFAILED: film.o\nError: no such variable\n'
   exit 1
@@ -89,6 +92,10 @@ done
 call wc -l <"$scratch/calls"
 said=$(wc -l <"$scratch/calls")
 expect 0 1 'configured once for all calls'
+echo 'GFB_WARNINGS_ARE_ERRORS:BOOL=ON' >>"$copy/build/release/CMakeCache.txt"
+call "$run"
+expect 0 'results are in' 'a warning that tools/test takes for an error stops no run'
+expect 0 'building again, where it is none' 'and is told'
 mv -- "$copy" "$scratch/moved"
 call "$scratch/moved/tools/run"
 expect 0 'building afresh' 'a moved checkout is built afresh'

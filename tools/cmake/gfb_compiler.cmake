@@ -27,11 +27,14 @@ target_link_libraries(gfb_hdf5 INTERFACE ${HDF5_Fortran_LIBRARIES} MPI::MPI_Fort
 target_include_directories(gfb_hdf5 INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
 
 # Off, each for its reason; what they found was looked at one by one:
-set(gfb_warnings -Wall -Wextra -Werror
+set(gfb_warnings -Wall -Wextra
   -Wno-unused-dummy-argument # overridden procedures, PETSc's callbacks and tests take arguments that some do not need
   -Wno-uninitialized         # gfortran 12 means descriptors of allocatables that an assignment or a call allocates
   -Wno-maybe-uninitialized   # the same, and loops that run at least once; the debug build's signalling NaN finds real ones
   -Wno-c-binding-type)       # the kind of PetscInt and MPI_Fint, which the C shim takes, is known as a number only
+if(GFB_WARNINGS_ARE_ERRORS)
+  set(gfb_werror -Werror)
+endif()
 set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-99999999 -finit-derived
                      -ffpe-trap=invalid,zero,overflow -fbacktrace)
 
@@ -45,7 +48,8 @@ function(gfb_compile_options target)
   endif()
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:Fortran>:${gfb_warnings} -ffree-line-length-none>
-    $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Werror>
+    $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
+    ${gfb_werror}
     $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Debug>>:${gfb_debug_checks}>
     $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O2 -g1>
     "$<$<CONFIG:Sanitize>:${gfb_sanitizers};-O1;-g;-fno-omit-frame-pointer>")
