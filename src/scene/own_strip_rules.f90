@@ -12,11 +12,13 @@ module gfb_own_strip_rules
   use gfb_shape_rules, only: thin, thin_in_bump, low_in_pad
   use gfb_strip_load_case, only: load_plates
   use gfb_strip_sizes, only: sizes_mirror
+  use gfb_text, only: text
   implicit none (type, external)
   private
   public :: check_own_strips, strips_mirror
 
   character(len=*), parameter :: group = 'bump_foil'
+  real(wp), parameter :: most_bumps = 1.0e6_wp !! with sizes of their own
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
 contains
@@ -29,6 +31,12 @@ contains
     associate (foil => scene%bump_foil)
       if (scene%model%half_width == half_width_yes) call check_mirrors(keys, scene)
       if (.not. strips_differ(foil)) return
+      if (real(foil%bumps, wp)*real(foil%strips, wp) > most_bumps) then
+        call keys%complain(group, 'bumps', text(foil%bumps)//' bumps on '//text(foil%strips)// &
+                           ' strips with sizes of their own are more than '// &
+                           text(nint(most_bumps)))
+        return
+      end if
       call check_bumps(keys, foil)
       if (scene%bearing%radius > 0.0_wp) then
         call check_flatness(keys, foil, scene%bearing%radius)

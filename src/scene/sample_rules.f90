@@ -41,7 +41,8 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     type(scene_type) :: member
-    real(wp) :: lowest
+    real(wp), parameter :: most_heights = 50.0e6_wp !! of all members
+    real(wp) :: lowest, drawn_heights
     integer :: number
 
     associate (foil => scene%bump_foil)
@@ -51,6 +52,13 @@ contains
       if (.not. foil%random%deviation > 0.0_wp) return
       if (foil%random%seed > huge(0) - scene%sample%count) then
         call keys%complain('sample', 'count', 'leads to a seed that is too large')
+        return
+      end if
+      drawn_heights = real(scene%sample%count, wp)*real(foil%bumps, wp)* &
+                      real(foil%strips*scene%bearing%pads, wp)
+      if (drawn_heights > most_heights) then
+        call keys%complain('sample', 'count', 'needs '//text(drawn_heights, 3)//' heights of '// &
+                           'bumps, which must not be more than '//text(nint(most_heights)))
         return
       end if
       do number = 2, scene%sample%count

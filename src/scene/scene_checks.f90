@@ -5,6 +5,7 @@ module gfb_scene_checks
   use gfb_branch_rules, only: check_edge_lift, check_turn_folds, check_load_angles
   use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
+  use gfb_count_rules, only: check_counts
   use gfb_dynamics_case, only: check_dynamics
   use gfb_own_strip_rules, only: check_own_strips
   use gfb_pads_rules, only: check_pads
@@ -72,5 +73,6 @@ contains
     call check_periodic(keys, scene%periodic, scene%operation, scene%rotor, scene%model, &
                         scene%contact%may_rub)
     call check_shape(keys, scene)
+    call check_counts(keys, scene)
   end subroutine check_groups
 end module gfb_scene_checks

@@ -1,6 +1,6 @@
 !> What the groups of a scene ask of each other.
 module gfb_scene_rules
-  use gfb_kinds, only: wp, long
+  use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic, pad_angle, pad_turn, &
                               preload_angle
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
@@ -8,7 +8,7 @@ module gfb_scene_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_contact_case, only: contact_case_type
-  use gfb_mesh_case, only: mesh_case_type, most_in_all
+  use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_word, &
                             meshes_foils, half_width_yes, reduction_guyan
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
@@ -165,7 +165,7 @@ contains
                        '&bump_foil: '//join(missing(:n), ', '))
   end subroutine check_foundation
 
-  !> A bump foil that is meshed: its flats, its size.
+  !> A bump foil that is meshed: its flats, its strips.
   subroutine check_strip(keys, foil, mesh, modes, analysis, model)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
@@ -173,7 +173,6 @@ contains
     type(modes_case_type), intent(in) :: modes !! what `&modes` asks for
     integer, intent(in) :: analysis  !! 0 where it is not known
     type(model_case_type), intent(in) :: model !! what `&model` asks for
-    integer(long) :: elements
     integer :: edge !! bump at the fixed one
     logical :: strip, bearing
 
@@ -201,11 +200,6 @@ contains
     if (foil%strips > mesh%axial_elements) then
       call keys%complain('bump_foil', 'strips', 'must not be more than axial_elements = '// &
                          text(mesh%axial_elements)//' in &mesh: each strip has its share of them')
-    end if
-    elements = int(mesh%arc_elements + mesh%flat_elements, long)*mesh%axial_elements
-    if (strip .and. foil%bumps > most_in_all/elements) then
-      call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of '//text(elements)// &
-                         ' elements are more than '//text(most_in_all)//' elements')
     end if
   end subroutine check_strip
 

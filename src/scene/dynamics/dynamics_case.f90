@@ -6,7 +6,7 @@ module gfb_dynamics_case
                             foil_rigid, meshes_foils
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_contact_law, only: law_tanh_reset
-  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words
+  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words, most_foil_modes
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys, check_maxwell_keys
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
@@ -14,7 +14,7 @@ module gfb_dynamics_case
                             asks_limit, &
                             misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
-  use gfb_value_rules, only: positive, not_negative
+  use gfb_value_rules, only: from_to, positive, not_negative
   implicit none (type, external)
   private
   public :: dynamics_case_type, read_dynamics_case, check_dynamics, analysis_of_state, &
@@ -86,7 +86,8 @@ contains
     call keys%choice_key('foil_mass', dynamics%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the frequencies '// &
                          'ask for it, always, never')
-    call keys%integer_key('foil_modes', dynamics%foil_modes, foil_modes_words, not_negative)
+    call keys%integer_key('foil_modes', dynamics%foil_modes, foil_modes_words, &
+                          from_to(0.0_wp, most_foil_modes))
     call keys%real_list_key('vibration_amplitudes', dynamics%amplitudes, longest_list, 'm', &
                             'amplitudes of the shaft along x and along y at which stiffness '// &
                             'and damping are asked for too, contacts sliding to and fro', &

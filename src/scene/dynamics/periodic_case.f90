@@ -5,7 +5,7 @@ module gfb_periodic_case
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_scene_case, only: analysis_periodic, misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative, at_least
+  use gfb_value_rules, only: any_value, positive, not_negative, at_least, from_to
   implicit none (type, external)
   private
   public :: periodic_case_type, read_periodic_case
@@ -44,6 +44,7 @@ contains
     type(periodic_case_type), intent(out) :: periodic !! what `&periodic` asks for
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
     real(wp), parameter :: fewest_steps = 20.0_wp !! of a turn [1]
+    real(wp), parameter :: most_points = 1.0e6_wp
 
     periodic%present = analysis == analysis_periodic
     call keys%start_group('periodic', required=periodic%present, optional=.not. periodic%present, &
@@ -57,7 +58,8 @@ contains
     call keys%real_key('final_value', periodic%final_value, 'of the parameter', &
                        'value of the parameter at which the branch ends', not_negative, &
                        default=no_default)
-    call keys%integer_key('points', periodic%points, 'orbits of the branch, at most', positive)
+    call keys%integer_key('points', periodic%points, 'orbits of the branch, at most', &
+                          from_to(1.0_wp, most_points))
     call keys%real_key('step', periodic%step, '1', &
                        'longest step along the branch: in the shaft''s place over the '// &
                        'clearance '// &

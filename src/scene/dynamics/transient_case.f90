@@ -2,12 +2,12 @@
 module gfb_transient_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words
+  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words, most_foil_modes
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_transient, misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative
+  use gfb_value_rules, only: any_value, from_to, positive, not_negative
   implicit none (type, external)
   private
   public :: transient_case_type, read_transient_case, duration_of
@@ -78,7 +78,8 @@ contains
     call keys%choice_key('foil_mass', transient%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the shaft moves '// &
                          'fast enough for it to count, always, never')
-    call keys%integer_key('foil_modes', transient%foil_modes, foil_modes_words, not_negative)
+    call keys%integer_key('foil_modes', transient%foil_modes, foil_modes_words, &
+                          from_to(0.0_wp, most_foil_modes))
     call keys%integer_key('output_every', transient%output_every, &
                           'steps from one line of the history to the next', positive)
     call keys%real_key('field_interval', transient%field_interval, 's', &

@@ -12,6 +12,8 @@ module gfb_height_deviation_keys
   character(len=*), parameter :: group = 'bump_foil'
   character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
 
+  real(wp), parameter :: most_heights = 1.0e6_wp !! drawn for a scene
+
   !> How the heights deviate.
   type :: height_deviation_type
     real(wp) :: deviation = 0.0_wp !! standard deviation; 0: none was asked for [m]
@@ -76,6 +78,12 @@ contains
     if (gaps .and. random) then
       call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
                          'from the heights; give one of them')
+    else if (right .and. real(bumps, wp)*real(strips, wp) > most_heights) then
+      call keys%complain(group, 'height_deviation', text(bumps)//' bumps on '//text(strips)// &
+                         ' strips of all pads have more than '//text(nint(most_heights))// &
+                         ' heights')
+      law%deviation = 0.0_wp ! none is drawn
+      return
     else if (right .and. bumps > 0) then
       key = 'height_deviation'
       call draw_gaps(law, bumps, strips, gap)

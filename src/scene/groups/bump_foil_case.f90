@@ -10,14 +10,13 @@ module gfb_bump_foil_case
   use gfb_strip_sizes, only: strip_sizes_type, read_strip_sizes, refuse_strip_sizes, &
                              gives_strips, sizes_differ
   use gfb_text, only: text
-  use gfb_value_rules, only: at_least, between, not_negative, positive
+  use gfb_value_rules, only: between, from_to, not_negative, positive
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, &
             gap_of_corner
   public :: solid_width, has_sizes, one_bump, one_strip, strips_differ
-  public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses
-  public :: draw_gaps, largest_gap
+  public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, draw_gaps, largest_gap
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -27,6 +26,7 @@ module gfb_bump_foil_case
   !> In the order of `gfb_fixed_lines`.
   character(len=*), parameter :: line_words(*) = [character(len=9) :: 'corner', 'flat', 'half_flat']
 
+  real(wp), parameter :: most_bumps = 1.0e6_wp, most_strips = 1.0e5_wp !! of a foil
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
   !> The bump strip. A number that is not given is zero.
@@ -88,7 +88,7 @@ contains
     call length_key('half_length', foil%half_length, "half the chord of a bump's arc", &
                     'bump_half_length')
     call length_key('height', foil%height, 'height of a bump', 'bump_height')
-    call keys%integer_key('bumps', foil%bumps, 'number of bumps', at_least(1.0_wp), &
+    call keys%integer_key('bumps', foil%bumps, 'number of bumps', from_to(1.0_wp, most_bumps), &
                           as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
@@ -144,7 +144,7 @@ contains
 
     call keys%integer_key('strips', foil%strips, 'strips side by side along the axis, '// &
                           'cut apart; the width is that of all with the cuts', &
-                          at_least(1.0_wp))
+                          from_to(1.0_wp, most_strips))
     right = keys%last_key_is_right()
     if (foil%present .and. foil%strips <= 1) then
       call keys%useless_key('cut_width', meaning, why)

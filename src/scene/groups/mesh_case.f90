@@ -1,6 +1,6 @@
 !> `&mesh`: number of elements.
 module gfb_mesh_case
-  use gfb_kinds, only: wp, long
+  use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
@@ -13,8 +13,7 @@ module gfb_mesh_case
 
   integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
   integer, parameter :: elements_around = 240   !! of a pad without bumps
-  integer, parameter :: most_a_side = 100000
-  integer(long), parameter, public :: most_in_all = 50000000_long !! elements of a mesh
+  integer, parameter, public :: most_a_side = 100000
 
   !> Number of elements.
   type :: mesh_case_type
@@ -77,11 +76,6 @@ contains
     if (mesh%align_crests .and. .not. can_align .and. model%foil > 0) then
       call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch, "// &
                          "half_length and height in &bump_foil; 'beam' will do, too")
-    end if
-    if (int(mesh%circumferential_elements, long)*mesh%axial_elements*model%film_order**2 > &
-        most_in_all) then
-      call keys%complain('mesh', 'axial_elements', text(mesh%circumferential_elements)//' x '// &
-                         text(mesh%axial_elements)//' elements are more than '//text(most_in_all))
     end if
     call keys%finish_group()
   end subroutine read_mesh_case
