@@ -132,7 +132,7 @@ contains
     class(inner_motion_type), intent(inout) :: self !! the modes
     real(wp), intent(in) :: weight(0:2) !! as in `prepare` [1/s]
     Vec, intent(in) :: way !! from the state without any force to where the step led, scaled
-    real(wp) :: newest(size(self%free))
+    real(wp), allocatable :: newest(:)
 
     if (.not. self%present) return
     newest = modal_amplitude(self%factor, self%eigenvalue, self%free, self%driven_by(way))
@@ -162,7 +162,7 @@ contains
     class(inner_motion_type), intent(in) :: self !! the modes
     Vec, intent(in) :: way      !! as in `carry`
     Vec, intent(in) :: residual !! of the bearing, scaled
-    real(wp) :: acceleration(size(self%free))
+    real(wp), allocatable :: acceleration(:)
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
 

@@ -55,7 +55,7 @@ contains
 
     if (.not. allocated(self%groups)) then
       allocate (self%group_names(0), self%groups(0))
-      allocate (self%key_groups(first_room), self%key_names(first_room), self%keys(first_room))
+      call set_room(self, first_room)
     end if
     name%line = line
     name%missing = required .and. line == 0
@@ -108,9 +108,11 @@ contains
     allocate (groups(places), names(places), keys(places))
     groups = ''
     names = ''
-    groups(:self%count) = self%key_groups(:self%count)
-    names(:self%count) = self%key_names(:self%count)
-    keys(:self%count) = self%keys(:self%count)
+    if (self%count > 0) then
+      groups(:self%count) = self%key_groups(:self%count)
+      names(:self%count) = self%key_names(:self%count)
+      keys(:self%count) = self%keys(:self%count)
+    end if
     call move_alloc(groups, self%key_groups)
     call move_alloc(names, self%key_names)
     call move_alloc(keys, self%keys)
