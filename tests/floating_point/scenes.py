@@ -33,6 +33,12 @@ PRESSED = merged(PLATES, bump_foil={"fixed_edge": "leading"}, contact={"friction
 VIBRATING = {"scene": {"analysis": "modes"}, "modes": {"count": 4}, "mesh": LINES,
          "bump_foil": {**PRESSED["bump_foil"], "density": 8440.0}}
 ROUGH = {"roughness": 1.0e-6, "pressure": 5.0e7, "friction": 0.12}
+# A rotor on few elements, over time and about an equilibrium.
+COARSE = {"circumferential_elements": 24, "axial_elements": 4}
+ROTOR = merged(SPRINGS, operation={"load": (-60.0, 0.0)}, rotor={"mass": 1.5}, mesh=COARSE)
+HEAVY = merged(SHELL, model={"foil": "beam"}, top_foil={"density": 8440.0}, bump_foil={"density": 8440.0},
+               operation={"speed_rpm": 60000.0}, rotor={"mass": 0.1})
+FREQUENCIES = {"frequency_ratios": (0.5, 1.0)}
 
 # Why answers differ, and how far they may.
 FILM, FOILS, MODES, PATH, FOLDS = "film", "foils", "modes", "path", "folds"
@@ -119,4 +125,41 @@ SCENES = [
     Scene("modes of a top foil", {"scene": VIBRATING["scene"], "modes": {"part": "top_foil", "count": 3},
                                   "bearing": SHELL["bearing"], "top_foil": {**SHEET, "density": 8440.0},
                                   "mesh": {"circumferential_elements": 16, "axial_elements": 4}}, MODES),
+    Scene("springs, load capacity", merged(MEAN, scene={"analysis": "load_capacity"}, operation={"load": (-50.0, 0.0)}, mesh=COARSE,
+                                           capacity={"smallest_gap": 5.0e-6}), FOILS, memory=True),
+    Scene("springs, lift-off speed", merged(MEAN, scene={"analysis": "lift_off"}, operation={"load": (-20.0, 0.0)}, mesh=COARSE,
+                                            shaft_contact=ROUGH), FOILS, memory=True),
+    Scene("springs, misalignment allowance", merged(
+        MEAN, scene={"analysis": "misalignment_allowance"}, operation={"load": (-50.0, 0.0)}, mesh=COARSE,
+        capacity={"smallest_gap": 5.0e-6}), FOILS),
+    Scene("beams, two pads, small vibrations", merged(
+        HEAVY, scene={"analysis": "linear_dynamics"}, pads={"count": 2, "preload": 0.2}, bump_foil={"bumps": 3}, dynamics=FREQUENCIES),
+          FOILS, ranks=(1, 4), memory=True),
+    Scene("shells with their mass, small vibrations", merged(
+        HEAVY, scene={"analysis": "linear_dynamics"}, model={"foil": "shell"}, dynamics={**FREQUENCIES, "foil_mass": "on"}),
+          FOILS, memory=True),
+    Scene("beams, vibration amplitudes", merged(HEAVY, scene={"analysis": "linear_dynamics"}, dynamics={
+        "frequency_ratios": 0.5, "foil_mass": "off", "vibration_amplitudes": (1.0e-8, 1.0e-7)}), FOILS, memory=True),
+    Scene("beams with their mass, rotor over time", merged(HEAVY, scene={"analysis": "transient"}, output={"restart_every": 1}, transient={
+        "turns": 0.1, "unbalance": 2.0e-8, "steps_per_turn": 24, "foil_mass": "on"}), FOILS, ranks=(1, 4), memory=True),
+    Scene("shells, rotor over time", merged(HEAVY, scene={"analysis": "transient"}, model={"foil": "shell"}, transient={
+        "turns": 0.1, "unbalance": 2.0e-8, "steps_per_turn": 24, "foil_mass": "on"}), FOILS, memory=True),
+    Scene("springs, rotor that tilts over time", merged(ROTOR, scene={"analysis": "transient"}, rotor={
+        "transverse_inertia": 5.0e-3, "polar_inertia": 1.0e-3, "bearing_distance": 0.2}, transient={
+            "turns": 0.5, "couple_unbalance": 1.0e-7, "steps_per_turn": 30, "foundation_damping": 3.0e5,
+            "maxwell_stiffness": 3.0e9, "maxwell_time": 1.0e-4}), FOILS, memory=True),
+    Scene("springs, forced orbits", merged(ROTOR, scene={"analysis": "periodic"}, model={"foundation_pressure": "axial_mean"},
+                                           rotor={"mass": 0.3}, periodic={
+        "unbalance": 1.0e-6, "parameter": "unbalance", "final_value": 1.5e-6, "points": 2, "steps_per_turn": 20,
+        "foundation_damping": 3.0e5}), PATH, memory=True),
+    Scene("springs, limit cycles", merged(ROTOR, scene={"analysis": "periodic"}, model={"foundation_pressure": "axial_mean"},
+                                          operation={"speed_rpm": 12700.0, "load": (-19.62, 0.0)}, rotor={"mass": 2.0}, periodic={
+        "motion": "free", "parameter": "speed_rpm", "final_value": 13250.0, "points": 2, "steps_per_turn": 20,
+        "foundation_damping": 3.0e5}), PATH, memory=True),
+    Scene("beams, sample", merged(SHELL, model={"foil": "beam"}, bump_foil={"height_deviation": 0.5e-6, "seed": 5}, sample={"count": 2}),
+          FOILS, memory=True),
+    Scene("springs, sensitivities", merged(SPRINGS, operation=LOAD, mesh=COARSE, sensitivity={
+        "quantity": ("eccentricity_x", "friction_torque"), "parameters": ("gas%viscosity", "bearing%clearance")}), FOILS, memory=True),
+    Scene("shells, sensitivities", merged(SHELL, sensitivity={
+        "quantity": ("eccentricity_x", "minimum_gap"), "parameters": ("top_foil%thickness", "bump_foil%height")}), FOILS, memory=True),
 ]
