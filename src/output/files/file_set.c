@@ -270,6 +270,35 @@ void gfb_clear_folder(const char *folder)
   }
 }
 
+/* Whether a name without its stem is that of a surface's file: .SURFACE.vtkhdf or .SURFACE.steps.vtkhdf. A case whose name goes
+   on after a dot has other files. */
+static int is_surface(const char *rest)
+{
+  size_t surface;
+
+  if (*rest++ != '.') return 0;
+  surface = strcspn(rest, ".");
+  rest += surface;
+  return surface > 0 && (strcmp(rest, ".vtkhdf") == 0 || strcmp(rest, ".steps.vtkhdf") == 0);
+}
+
+void gfb_remove_surfaces(const char *stem)
+{
+  char           folder[PATH_MAX], path[PATH_MAX];
+  const char    *name = strrchr(stem, '/');
+  struct dirent *entry;
+  DIR           *all;
+
+  name = name ? name + 1 : stem;
+  if (snprintf(folder, sizeof folder, "%.*s", (int)(name - stem), stem) >= (int)sizeof folder) return;
+  if (!(all = opendir(*folder ? folder : "."))) return;
+  while ((entry = readdir(all))) {
+    if (strncmp(entry->d_name, name, strlen(name)) != 0 || !is_surface(entry->d_name + strlen(name))) continue;
+    if (snprintf(path, sizeof path, "%s%s", folder, entry->d_name) < (int)sizeof path) unlink(path);
+  }
+  closedir(all);
+}
+
 /* --- one run a case --- */
 
 /* Locks a case of a folder; -1: another process has it. Where a file system knows no locks, none is there. */

@@ -1,16 +1,24 @@
 !> What earlier runs of a case have left beside the results of a new one.
 module gfb_older_results
+  use, intrinsic :: iso_c_binding, only: c_char, c_null_char
   use gfb_c_library, only: remove_file
   implicit none (type, external)
   private
   public :: remove_unanswered, has_answer
 
   character(len=*), parameter :: unanswered = '.unconverged'
-  character(len=*), parameter :: endings(*) = [character(len=23) :: &
-                                               '.h5', '.csv', '.used.nml', '.film.vtkhdf', &
-                                               '.top_foil.vtkhdf', '.bump_foil.vtkhdf', &
-                                               '.film.steps.vtkhdf', '.top_foil.steps.vtkhdf', &
-                                               '.bump_foil.steps.vtkhdf', '.summary']
+  !> What is no surface; the summary, by which the others are known, is the last.
+  character(len=*), parameter :: endings(*) = [character(len=9) :: &
+                                               '.h5', '.csv', '.used.nml', '.summary']
+
+  interface
+    !> Removes the files of all surfaces, whatever their names, of the results that a stem names.
+    subroutine c_remove_surfaces(stem) bind(c, name='gfb_remove_surfaces')
+      import :: c_char
+      implicit none (type, external)
+      character(kind=c_char), intent(in) :: stem(*)
+    end subroutine c_remove_surfaces
+  end interface
 
 contains
 
@@ -23,7 +31,8 @@ contains
 
     removed = says(stem//unanswered, 'converged = false')
     if (.not. removed) return
-    do i = 1, size(endings) ! the summary, by which the others are known, is the last
+    call c_remove_surfaces(stem//unanswered//c_null_char)
+    do i = 1, size(endings)
       call remove_file(stem//unanswered//trim(endings(i)))
     end do
   end subroutine remove_unanswered
