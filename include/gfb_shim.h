@@ -15,8 +15,12 @@ void gfb_start_alone(void);
 /* To be called when MPI has started: takes back what was set in the environment, and what the end means. */
 void gfb_started(void);
 
-/* Makes what a library cannot do, such as factors that do not fit, end the program with a sentence and status 3. */
+/* Makes what a library cannot do, such as factors that do not fit, end the program with a sentence and status 3; to be called
+   before PETSc starts. */
 PetscErrorCode gfb_end_with_sentences(void);
+
+/* From now on, or no longer, what PETSc complains about may be a mistake of the program's, which it shows with its calls. */
+void gfb_computing(int now);
 
 /* A DMPlex of quadrilaterals, of which every rank gives some cells (numbers of their vertices among all, from 0)
    and the places of some vertices (in the order of the ranks); hands out its Fortran handle. */

@@ -1,6 +1,6 @@
 !> gfb: bump-type gas foil bearings.
 program gfb
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, status_machine
   use gfb_c_library, only: exit_with_status
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: limit_time, stop_agreed, stop_status
@@ -19,7 +19,7 @@ program gfb
   type(error_type), allocatable :: error
   character(len=:), allocatable :: words
   integer :: status
-  logical :: converged
+  logical :: converged, well
 
   call read_command_line(line, error)
   call start_job(line%groups, job)
@@ -47,7 +47,8 @@ program gfb
     call log%complaint(error%message)
     status = error%status
   end if
-  call stop_petsc()
+  call stop_petsc(well)
   call stop_job(job)
+  if (.not. well .and. status == 0) status = status_machine
   call exit_with_status(status)
 end program gfb

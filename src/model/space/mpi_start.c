@@ -1,7 +1,9 @@
 /* MPI's start: without Open MPI's helper where a process is alone, and with a sentence and a status where it fails. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
 #include "gfb_shim.h"
+#include <errno.h>
 #include <ftw.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,9 +84,15 @@ static void say_not_started(void)
 
 static void end_of_start(void)
 {
+  int begun, ended = 0;
+
   if (starting != getpid()) return;
   starting = 0;
-  say_not_started();
+  MPI_Initialized(&begun);
+  if (begun) MPI_Finalized(&ended);
+  if (ended) return; /* PETSc has done what it was asked for, such as -help intro */
+  if (begun) fprintf(stderr, "gfb: PETSc could not start: what it was told, by PETSC_OPTIONS or a file .petscrc, does not serve\n");
+  else say_not_started();
   remove_session();
   _Exit(status_machine);
 }
@@ -99,6 +107,12 @@ void _exit(int status)
 
 void gfb_watch_start(void)
 {
+  char here[PATH_MAX];
+
+  if (!getcwd(here, sizeof here) && errno == ENOENT) {
+    fprintf(stderr, "gfb: the folder in which it was started is not there any more\n");
+    exit(status_machine);
+  }
   if (!starting) atexit(end_of_start);
   starting = getpid();
 }

@@ -33,6 +33,12 @@ module gfb_petsc_session
       import :: c_int
       integer(c_int) :: status !! PETSc's error code, 0 for none
     end function gfb_end_with_sentences
+
+    !> Whether PETSc's complaints may be mistakes of the program's: not while PETSc starts or ends.
+    subroutine gfb_computing(now) bind(c)
+      import :: c_int
+      integer(c_int), value :: now
+    end subroutine gfb_computing
   end interface
 
 contains
@@ -43,10 +49,11 @@ contains
     PetscErrorCode :: ierr
 
     call gfb_start_alone()
+    if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
     call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
     if (ierr /= 0) error stop 'PETSc could not be started'
     call gfb_started()
-    if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
+    call gfb_computing(1_c_int)
     ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-options_left', given, ierr))
     if (.not. given) then
@@ -59,11 +66,14 @@ contains
   end subroutine start_petsc
 
   !> Ends SLEPc, PETSc and MPI.
-  subroutine stop_petsc()
+  subroutine stop_petsc(well)
+    logical, intent(out), optional :: well !! they have done what options told them to do at the end
     PetscErrorCode :: ierr
 
+    call gfb_computing(0_c_int)
     ierr = 0 ! SLEPc 3.18 reads it before it sets it
     call SlepcFinalize(ierr)
+    if (present(well)) well = ierr == 0
   end subroutine stop_petsc
 
   !> This process' rank, from 0.

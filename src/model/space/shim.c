@@ -5,30 +5,65 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* PETSc's own handler aborts with the error's number as status. */
-static PetscErrorCode end_with_sentence(MPI_Comm communicator, int line, const char *function, const char *file,
-                                        PetscErrorCode code, PetscErrorType kind, const char *message, void *context)
-{
-  const int status_machine = 3;
-  int       ranks, initialized;
+static const int status_machine = 3;
 
+/* Otherwise PETSc starts or ends, where all that fails is what it was told to do. */
+static int computing = 0;
+
+void gfb_computing(int now)
+{
+  computing = now;
+}
+
+static int begins(const char *function, const char *name)
+{
+  return function && strncmp(function, name, strlen(name)) == 0;
+}
+
+/* Whether PETSc got no memory; its older versions give a line for the code then. */
+static int is_memory(PetscErrorCode code, const char *function)
+{
+  return code == PETSC_ERR_MEM || begins(function, "PetscMalloc") || begins(function, "PetscRealloc");
+}
+
+/* Whether an error is a failure of the machine's, or of an option that the user gave PETSc, and no mistake of the program's. */
+static int is_outside(PetscErrorCode code, const char *function)
+{
+  if (is_memory(code, function)) return 1;
   switch (code) {
   case PETSC_ERR_LIB:
-  case PETSC_ERR_MEM:
   case PETSC_ERR_NOT_CONVERGED:
   case PETSC_ERR_CONV_FAILED:
   case PETSC_ERR_MAT_LU_ZRPVT:
   case PETSC_ERR_MAT_CH_ZRPVT:
   case PETSC_ERR_INT_OVERFLOW:
-    break;
+  case PETSC_ERR_FILE_OPEN:
+  case PETSC_ERR_FILE_READ:
+  case PETSC_ERR_FILE_WRITE:
+  case PETSC_ERR_ARG_UNKNOWN_TYPE:
+  case PETSC_ERR_MISSING_FACTOR:
+    return 1;
   default:
-    return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
+    return !computing || begins(function, "PetscOptions");
   }
+}
+
+/* PETSc's own handler aborts with the error's number as status. */
+static PetscErrorCode end_with_sentence(MPI_Comm communicator, int line, const char *function, const char *file,
+                                        PetscErrorCode code, PetscErrorType kind, const char *message, void *context)
+{
+  const char *options = getenv("PETSC_OPTIONS");
+  int         ranks, initialized;
+
+  if (!is_outside(code, function)) return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
   if (kind != PETSC_ERROR_INITIAL) return code;
   fflush(stdout);
-  fprintf(stderr, "a library failed, in %s: %s\n", function ? function : "a library",
-          message && *message ? message : (code == PETSC_ERR_MEM ? "no memory" : "no reason was given"));
+  fprintf(stderr, "a library failed, in %s: %s", function ? function : "a library",
+          is_memory(code, function) ? "no memory" : message && *message ? message : "no reason was given");
+  if (options && *options) fprintf(stderr, "; PETSC_OPTIONS is '%s'", options);
+  fprintf(stderr, "\n");
   fflush(stderr);
+  gfb_started(); /* that was the sentence */
   MPI_Initialized(&initialized);
   if (initialized && MPI_Comm_size(MPI_COMM_WORLD, &ranks) == MPI_SUCCESS && ranks > 1) MPI_Abort(MPI_COMM_WORLD, status_machine);
   exit(status_machine);
