@@ -7,8 +7,8 @@ module gfb_signals
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: catch_signals, limit_time, received_signal, agree_on_signal, agreed_signal, &
-            stop_agreed, stop_status, stop_words
+  public :: catch_signals, limit_time, hold_clock, received_signal, agree_on_signal, &
+            agreed_signal, stop_agreed, stop_status, stop_words
 
   !> Signals by their numbers on Linux, and their names.
   integer, parameter :: number(6) = [1, 2, 10, 14, 15, 24]
@@ -20,7 +20,8 @@ module gfb_signals
   integer, parameter :: status_time_limit = 124   !! as that of timeout(1)
 
   interface
-    !> Notes signals from now on; a second one ends the process at once.
+    !> Notes signals from now on; a second one ends the process at once. After SIGINT, SIGTERM or
+    !> SIGHUP a process that does not come to ask for `received_signal` is ended by a clock.
     subroutine catch_signals() bind(c, name='gfb_catch_signals')
       implicit none (type, external)
     end subroutine catch_signals
@@ -30,6 +31,12 @@ module gfb_signals
       implicit none (type, external)
       integer(c_int), value :: seconds
     end subroutine c_limit_time
+
+    subroutine c_hold_clock(on) bind(c, name='gfb_hold_clock')
+      import :: c_int
+      implicit none (type, external)
+      integer(c_int), value :: on
+    end subroutine c_hold_clock
 
     function c_received_signal() result(signal) bind(c, name='gfb_received_signal')
       import :: c_int
@@ -58,6 +65,13 @@ contains
 
     call c_limit_time(int(seconds, c_int))
   end subroutine limit_time
+
+  !> No clock ends the process while it writes results: where it is begun and ended.
+  subroutine hold_clock(on)
+    logical, intent(in) :: on !! it is begun
+
+    call c_hold_clock(merge(1_c_int, 0_c_int, on))
+  end subroutine hold_clock
 
   !> The signal that this rank has received, 0 for none.
   function received_signal() result(signal)

@@ -20,6 +20,8 @@ SWEEP = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups=
 SHORT = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
     "sweep": {"parameter": "load", "values": tuple(10.0 + i % 30 for i in range(24))}})
 ONE = case_text(BEARING, mesh=(512, 160), number=2.0, load=(-20.0, 0.0))
+HANG = case_text(BEARING, mesh=(24, 4), number=2.0, load=(-20.0, 0.0))
+PATIENCE = 20  # with the time of the other checks: gfb waits for 10 s
 STATUS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129, signal.SIGXCPU: 152, signal.SIGUSR1: 138}
 
 
@@ -152,12 +154,44 @@ def check_time_limit(checks, folder):
         checks.that(f"--time-limit '{wrong}' is refused", done.returncode == 1 and "--time-limit" in done.stderr)
 
 
+def begin_hanging(folder):
+    """A run whose library does not come back from its first factors, and that has been asked to end; None without a compiler."""
+    (folder/"hang.c").write_text("#include <unistd.h>\nvoid *klu_analyze(void) { for (;;) pause(); }\n", encoding="utf-8")
+    made = subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", "hang.so", "hang.c"], cwd=folder, check=False)
+    if made.returncode != 0:
+        return None
+    (folder/"hang.nml").write_text(HANG, encoding="utf-8")
+    process = subprocess.Popen([GFB, "hang.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, encoding="utf-8",
+                               env={**os.environ, "LD_PRELOAD": str(folder/"hang.so")})
+    wait_for(process, "start: ")
+    time.sleep(0.5)
+    process.send_signal(signal.SIGTERM)
+    return process
+
+
+def check_hanging(checks, process, folder):
+    """One signal is enough where a library hangs; a clock waits for it meanwhile, beside the other checks."""
+    try:
+        _, complaint = process.communicate(timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        complaint = "it hangs on"
+    checks.that(f"a library that hangs: status {process.returncode}", process.returncode == 143)
+    checks.that(f"a library that hangs: {complaint.strip()}", "does not come to an end" in complaint)
+    checks.that("a library that hangs: no results", not list(folder.glob("hang*.summary")))
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        hanging = begin_hanging(folder)
         for check in (check_sweep, check_resumed, check_first_answer, check_quiet_end, check_time_limit):
             check(checks, folder)
+        if hanging:
+            check_hanging(checks, hanging, folder)
     checks.close()
 
 

@@ -6,6 +6,7 @@ module gfb_result_set
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
   use gfb_quantity, only: quantity_type
+  use gfb_signals, only: hold_clock
   use gfb_petsc_session, only: this_rank, rank_count, share_failure
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
@@ -47,6 +48,7 @@ contains
     type(unfinished_file_type), allocatable :: files(:)
     integer :: i, played
 
+    call hold_clock(.true.)
     stem = folder//'/'//scene%name
     if (.not. converged) stem = stem//'.unconverged'
     names = stem//'.summary, .h5'
@@ -82,6 +84,7 @@ contains
     end if
     if (this_rank() == 0) call keep_all(stem, files, summary, table, scene, error)
     call share_failure(error)
+    call hold_clock(.false.)
     if (allocated(error)) return
     call log%line('')
     call log%tell('results: '//names//', .used.nml')
