@@ -2,6 +2,7 @@
 program gfb
   use gfb_errors, only: error_type, status_machine
   use gfb_c_library, only: exit_with_status
+  use gfb_machine_memory, only: look_for_room
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: limit_time, stop_agreed, stop_status
   use gfb_job_groups, only: job_type, start_job, stop_job
@@ -22,6 +23,7 @@ program gfb
   logical :: converged, well
 
   call read_command_line(line, error)
+  call look_for_room()
   call start_job(line%groups, job)
   call start_petsc()
   if (line%time_limit > 0) call limit_time(line%time_limit)

@@ -3,11 +3,25 @@ module gfb_machine_memory
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: available_memory, unknown_memory, named_number, group_path
+  public :: available_memory, unknown_memory, named_number, group_path, look_for_room, &
+            start_blas
 
   real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing tells
   real(wp), parameter :: kilobyte = 1024.0_wp          !! the kernel's kB [B]
   integer, parameter :: longest_line = 500
+
+  interface
+    !> Ends the program with a sentence and status 3 where a limit does not leave what its start takes.
+    subroutine look_for_room() bind(c, name='gfb_look_for_room')
+      implicit none (type, external)
+    end subroutine look_for_room
+
+    !> Lets BLAS take its working memory; where there is none for it, the program ends with a
+    !> sentence and status 3. OpenBLAS would ask for it for ever.
+    subroutine start_blas() bind(c, name='gfb_start_blas')
+      implicit none (type, external)
+    end subroutine start_blas
+  end interface
 
 contains
 

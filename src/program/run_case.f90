@@ -3,6 +3,7 @@ module gfb_run_case
   use gfb_errors, only: error_type
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: rank_count
+  use gfb_machine_memory, only: start_blas
   use gfb_scene, only: scene_type
   use gfb_read_input, only: read_input
   use gfb_text, only: text
@@ -31,13 +32,14 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     logical, intent(out) :: converged !! there is an answer
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene
     type(run_context_type) :: context
     class(study_type), allocatable :: study
     type(quantity_type), allocatable :: summary(:)
     logical :: only_look
 
     converged = .true.
+    allocate (scene)
     context = line%context(log)
     call read_input(line%case_file, line%strict, scene, error)
     only_look = line%check .or. line%shares >= 0
@@ -70,6 +72,7 @@ contains
       call context%log%line('options given to PETSc: '//context%petsc_options)
     end if
     if (scene%warnings /= '') call context%log%warned(scene%warnings)
+    call start_blas()
     context%reduction = ''
     if (allocated(scene%model%reduction_reason)) then
       context%reduction = 'bumps '//scene%model%reduction_reason

@@ -4,6 +4,7 @@ module gfb_run_groups
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: agree_on_signal, agreed_signal
+  use gfb_machine_memory, only: start_blas
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_job_groups, only: job_type
@@ -58,6 +59,7 @@ contains
       end do
       return
     end if
+    call start_blas()
     if (context%petsc_options /= '') then
       call log%line('options given to PETSc: '//context%petsc_options)
     end if

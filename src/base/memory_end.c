@@ -1,0 +1,75 @@
+/* The end of a run for want of memory, told in a sentence: Fortran's allocations, and the wait for BLAS' working memory. */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+static const int status_machine = 3;
+
+/* What the start of MPI and PETSc takes of a limit of addresses [bytes]; where they do not get it, they end in many ways. */
+static const size_t room_to_start = 96u << 20;
+
+/* BLAS needs microseconds of the processor for what is asked of it here [us]. */
+static const int patience = 200000;
+
+static const char no_memory[] = "gfb: no memory: the run needs more than this machine, or a limit on it (ulimit -v), gives\n";
+
+/* May be called by a handler of signals. */
+static void end_without_memory(int signal_number)
+{
+  (void)signal_number;
+  (void)!write(STDERR_FILENO, no_memory, strlen(no_memory));
+  _exit(status_machine);
+}
+
+/* These two take the place of libgfortran's for what the compiler has made: the ends of an ALLOCATE, an assignment or a temporary
+   array that gets no memory. libgfortran's own end with status 1. */
+_Noreturn void _gfortran_os_error_at(const char *where, const char *format, ...);
+_Noreturn void _gfortran_os_error(const char *words);
+
+void _gfortran_os_error_at(const char *where, const char *format, ...)
+{
+  (void)where, (void)format;
+  fflush(NULL);
+  end_without_memory(0);
+  for (;;) {}
+}
+
+void _gfortran_os_error(const char *words)
+{
+  _gfortran_os_error_at("", "%s", words);
+}
+
+void gfb_look_for_room(void)
+{
+  void *room = mmap(NULL, room_to_start, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+
+  if (room == MAP_FAILED) end_without_memory(0);
+  munmap(room, room_to_start);
+}
+
+extern void dsyrk_(const char *half, const char *transposed, const int *order, const int *inner, const double *factor,
+                   const double *a, const int *rows, const double *kept, double *c, const int *rows_of_c);
+
+/* BLAS takes its working memory at its first product, and keeps it. Where OpenBLAS gets none, it asks again for ever: so this is
+   asked for where its want can be told. */
+void gfb_start_blas(void)
+{
+  enum { order = 8 };
+  const double     one = 1.0, none = 0.0;
+  const int        n = order;
+  double           a[order*order] = {0.0}, c[order*order] = {0.0};
+  struct itimerval wait = {{0, 0}, {0, patience}}, before;
+  struct sigaction action, former;
+
+  memset(&action, 0, sizeof action);
+  sigemptyset(&action.sa_mask);
+  action.sa_handler = end_without_memory;
+  sigaction(SIGPROF, &action, &former);
+  setitimer(ITIMER_PROF, &wait, &before);
+  dsyrk_("L", "N", &n, &n, &one, a, &n, &none, c, &n);
+  setitimer(ITIMER_PROF, &before, NULL);
+  sigaction(SIGPROF, &former, NULL);
+}
