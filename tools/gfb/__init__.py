@@ -17,9 +17,18 @@ _HOMES = {"Case": "gfb.case", "CaseError": "gfb.case", "Result": "gfb.door", "Ru
           "study": "gfb.door", "read": "gfb.reading"}
 
 
+def missing(what: str, error: ModuleNotFoundError) -> ImportError:
+    """The same error in words that say what needs the package, and where it is to be had."""
+    from gfb.tool import missing_words
+    return ImportError(f"{what}: {missing_words(error)}", name=error.name)
+
+
 def __getattr__(name: str) -> object:
     if name == "run":
         return importlib.import_module("gfb.run")
     if name in _HOMES:
-        return getattr(importlib.import_module(_HOMES[name]), name)
+        try:
+            return getattr(importlib.import_module(_HOMES[name]), name)
+        except ModuleNotFoundError as error:
+            raise missing(f"gfb.{name}", error) from None
     raise AttributeError(f"module 'gfb' has no attribute '{name}'")

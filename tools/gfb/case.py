@@ -17,6 +17,9 @@ from gfb.tool import ROOT
 Value = Union[str, bool, int, float, Sequence[float], Sequence[str]]
 TOKENS = re.compile(r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\"|![^\n]*|[&/=,]|[^\s&/=,!'\"]+")
 
+MOST_VALUES = 1_000_000  # of all keys; the program takes 10,000 of one
+SHOWN = 40               # letters of a word that is wrong
+
 
 class CaseError(ValueError):
     """A case file that is wrong; its text is the program's: file, line, group, key, rule."""
@@ -54,8 +57,9 @@ class Case:
 
     @classmethod
     def parse(cls, text: str) -> Case:
-        """The text of a case file. What is wrong in it is told by `check`."""
-        case, group, key = cls(), "", ""
+        """The text of a case file. What is wrong in it is told by `check`; what is no value of a namelist is a CaseError."""
+        case, group, key, found = cls(), "", "", 0
+        lists: dict[tuple[str, str], list[Value]] = {}
         words = [word for word in TOKENS.findall(text) if not word.startswith("!")]
         for i, word in enumerate(words):
             following = words[i + 1] if i + 1 < len(words) else ""
@@ -67,13 +71,15 @@ class Case:
             elif group and following == "=":
                 key = word.lower()
                 case.groups[group][key] = ()
+                lists[group, key] = []
             elif group and key and word not in "&=,":
-                before = case.groups[group][key]
-                case.groups[group][key] = (*before, *python_values(word))  # type: ignore[misc]
-        for keys in case.groups.values():
-            for name, values in keys.items():
-                if isinstance(values, tuple) and len(values) == 1:
-                    keys[name] = values[0]
+                times, value = python_value(word)
+                found += times
+                if found > MOST_VALUES:
+                    raise CaseError(f"&{group}: {key}: more than {MOST_VALUES:,} values in one case")
+                lists[group, key] += times*[value]
+        for (group, key), values in lists.items():
+            case.groups[group][key] = values[0] if len(values) == 1 else tuple(values)  # type: ignore[assignment]
         return case
 
     def copy(self) -> Case:
@@ -129,15 +135,15 @@ def split(name: str) -> tuple[str, str]:
     return group.lower(), key.lower()
 
 
-def python_values(word: str) -> list[Value]:
-    """A value of a case file, which may be repeated (3*1.0)."""
+def python_value(word: str) -> tuple[int, Value]:
+    """A value of a case file, and how often it stands there (3*1.0)."""
+    repeat = re.fullmatch(r"(\d{1,9})\*(.+)", word, re.DOTALL)
+    times, word = (int(repeat[1]), repeat[2]) if repeat else (1, word)
     if word[0] in "'\"":
-        return [word[1:-1].replace(word[0]*2, word[0])]
-    repeat = re.fullmatch(r"(\d+)\*(.+)", word)
-    if repeat:
-        return int(repeat[1])*python_values(repeat[2])
+        return times, word[1:-1].replace(word[0]*2, word[0])
     if word.lower().strip(".") in ("true", "t", "false", "f"):
-        return [word.lower().strip(".").startswith("t")]
-    if re.fullmatch(r"[+-]?\d+", word):
-        return [int(word)]
-    return [float(re.sub("[dD]", "e", word))]
+        return times, word.lower().strip(".").startswith("t")
+    try:
+        return times, int(word) if re.fullmatch(r"[+-]?\d+", word) else float(re.sub("[dD]", "e", word))
+    except ValueError:
+        raise CaseError(f"'{word[:SHOWN]}' is no value of a namelist") from None

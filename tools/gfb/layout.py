@@ -7,7 +7,7 @@ import tempfile
 import h5py
 
 from gfb.case import Case
-from gfb.results import text_of
+from gfb.results import open_results, text_of
 from gfb.run import run_case
 
 NAMED = ("summary", "history", "provenance")  # groups whose names are those of `gfb --results`
@@ -56,7 +56,7 @@ def datasets(path):
             name, unit = re.sub("/.*/", "/<quantity>/", name), "its own"
         found.append(("/" + re.sub(r"_\d+(?=/|$)", "_<n>", name), (unit, meaning, item.ndim)))
 
-    with h5py.File(path, "r") as file:
+    with open_results(path) as file:
         file.visititems(add)
     return found
 

@@ -11,6 +11,8 @@ import zlib
 import h5py
 import numpy
 
+from gfb import guard
+
 # Names of the summary that say what the answer cost, not what it is.
 COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_finest", "wall_time", "peak_memory"}
 
@@ -18,6 +20,7 @@ COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_fines
 # What gfb writes behind the bytes of an HDF5 file: their checksum and their number.
 SEAL = re.compile(rb"gfb crc32 ([0-9a-f]{8}) ([0-9a-f]{16})\n$")
 SEAL_LENGTH = 36
+PIECE = 2**20  # bytes of a file that are looked at together
 PLAIN = b"gfb crc32 ******** ****************\n"  # what of it is always there
 # What reading a file of another kind ends in.
 BROKEN = (OSError, KeyError, IndexError, ValueError, TypeError, RuntimeError, AttributeError, ArithmeticError, MemoryError)
@@ -40,18 +43,40 @@ def reading(path):
 
 
 def open_results(path):
-    """An HDF5 file of gfb for reading; OSError where its bytes do not fit its checksum. One without checksum, of an
-    older version or another program, is read as it is."""
-    content = pathlib.Path(path).read_bytes()
-    seal = SEAL.search(content[-SEAL_LENGTH:])
-    if seal:
-        body = memoryview(content)[:-SEAL_LENGTH]
-        if (int(seal[1], 16), int(seal[2], 16)) != (zlib.crc32(body), len(body)):
-            raise OSError("damaged: its contents do not fit its checksum")
-    elif is_broken_seal(content[-SEAL_LENGTH:]):
-        raise OSError("damaged: its checksum is cut or changed")
-    del content
-    return h5py.File(path, "r")
+    """An HDF5 file of gfb for reading; OSError where its bytes do not fit its checksum, and where guard.look_through refuses it.
+    One without checksum, of an older version or another program, is read as it is."""
+    path = pathlib.Path(path)
+    if path.exists() and not path.is_file():
+        raise Unreadable(f"{path}: no file, but a folder or a device")
+    size = compare_seal(path)
+    file = h5py.File(path, "r")
+    try:
+        with reading(path):
+            guard.look_through(file, size)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+def compare_seal(path):
+    """Bytes of a file, which must fit its checksum where it has one."""
+    with open(path, "rb") as content:
+        length = content.seek(0, 2)
+        content.seek(max(0, length - SEAL_LENGTH))
+        tail = content.read()
+        seal = SEAL.search(tail)
+        if seal:
+            content.seek(0)
+            check, left = 0, length - SEAL_LENGTH
+            while left > 0:
+                piece = content.read(min(left, PIECE))
+                check, left = zlib.crc32(piece, check), left - (len(piece) or left)
+            if (int(seal[1], 16), int(seal[2], 16)) != (check, length - SEAL_LENGTH):
+                raise OSError("damaged: its contents do not fit its checksum")
+        elif is_broken_seal(tail):
+            raise OSError("damaged: its checksum is cut or changed")
+    return length
 
 
 def is_broken_seal(tail):

@@ -10,6 +10,7 @@ import sys
 import time
 import types
 
+import gfb
 from gfb.namelist import namelist_value
 from gfb.results import Answer, read_petsc_log, read_summary
 from gfb.tool import ROOT, stop
@@ -136,7 +137,10 @@ class _Callable(types.ModuleType):
     """This module, which as `gfb.run(case)` is the function of gfb.door, too."""
 
     def __call__(self, *values, **options):
-        from gfb import door  # its packages only where they are needed
+        try:
+            from gfb import door  # its packages only where they are needed
+        except ModuleNotFoundError as error:
+            raise gfb.missing("gfb.run", error) from None
         return door.run(*values, **options)
 
 

@@ -30,11 +30,31 @@ def run(main):
         return main()
     except KeyboardInterrupt:
         return 130
+    except ModuleNotFoundError as error:
+        return stop(missing_words(error))
+    except MemoryError:
+        return stop("there is not enough memory", 3)
     except OSError as error:
         from gfb.results import Unreadable  # not before the packages are there
         if isinstance(error, Unreadable):
             return stop(str(error))
         return stop(f"{error.filename}: {error.strerror}" if error.filename else " ".join(str(error).split()), 3)
+
+
+def missing_words(error):
+    """What is to be done about a Python package that is not there."""
+    return f"the Python package {error.name} is missing: pip install {error.name}, or apt-get install python3-{error.name}"
+
+
+def draw_into_files():
+    """Chooses what of matplotlib makes files, whatever MPLBACKEND says; stops where it says what matplotlib cannot be imported with."""
+    try:
+        import matplotlib  # not every tool draws
+    except ModuleNotFoundError as error:
+        stop(missing_words(error))
+    except ValueError as error:
+        stop(f"MPLBACKEND={os.environ.get('MPLBACKEND', '')}: {' '.join(str(error).split())}")
+    matplotlib.use("Agg")
 
 
 class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):

@@ -9,7 +9,7 @@ import pathlib
 from gfb.bench import (accuracy, assembly, bearing, bearing_mesh, condensation, dynamics, faults, film, linear_solvers, measured, population,
                        profile, scaling, strip, transient, work_precision)
 from gfb.run import find_gfb
-from gfb.tool import stop
+from gfb.tool import draw_into_files, stop
 
 COMMANDS = {"film": film, "accuracy": accuracy, "assembly": assembly, "condensation": condensation, "dynamics": dynamics, "faults": faults,
             "strip": strip, "bearing": bearing, "bearing-mesh": bearing_mesh, "linear-solvers": linear_solvers, "measured": measured,
@@ -28,6 +28,7 @@ def main():
                          help="folder of table and picture; default: %(default)s")
         module.add_options(one)
     options = parser.parse_args()
+    draw_into_files()  # not after minutes of computing
     options.gfb = find_gfb(options.gfb)
     try:
         options.output.mkdir(parents=True, exist_ok=True)

@@ -8,9 +8,8 @@ minutes).
 import pathlib
 import tempfile
 
-import h5py
-
 from gfb.bench.bearing import CASE
+from gfb.results import open_results
 from gfb.run import run_case
 from gfb.tables import markdown_table, plain_table
 
@@ -79,7 +78,7 @@ def measure(options, model, folder):
         moving = run_case(options.gfb, {
             **groups, "scene": {"analysis": "transient"}, "rotor": {"mass": MASS},
             "transient": {"turns": turns, "steps_per_turn": STEPS, "unbalance": unbalance}}, folder, "moving", may_stop=True)
-        with h5py.File(f"{moving.stem}.h5") as file:
+        with open_results(f"{moving.stem}.h5") as file:
             taken = {name: file[f"transient/{name}"][-1] - file[f"transient/{name}"][0]
                      for name in ("turns", "steps", "newton_iterations", "factorizations")}
         cpu = (moving.cpu - static.cpu)/taken["turns"]

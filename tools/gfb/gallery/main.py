@@ -6,15 +6,14 @@ Runs the cases it needs (ten minutes and more for all pages; some shells take 1 
 import argparse
 import pathlib
 
-import matplotlib
+from gfb.tool import MEASURED, ROOT, draw_into_files, stop
 
-matplotlib.use("Agg")
+draw_into_files()
 
 from gfb.gallery import contact, field, film, frame, orbit, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
 from gfb.gallery.page import Page, write_index  # noqa: E402
 from gfb.gallery.runs import Runs  # noqa: E402
 from gfb.run import find_gfb  # noqa: E402
-from gfb.tool import MEASURED, ROOT, stop  # noqa: E402
 
 PAGES = {  # name: what makes the page; frame, contact: pictures of docs/manual/frame.md and equations.md
     "frame": frame.draw_frame,

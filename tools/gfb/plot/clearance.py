@@ -10,6 +10,7 @@ from gfb.plot.scene import number
 MICRO = 1.0e6
 TURN = 2.0*math.pi
 DIRECTIONS = 1441  # of the limit that is drawn
+MOST_PADS = 1000   # more are none of gfb
 OPEN = 1.5         # of the clearance: where nothing is nearer the limit is not drawn
 SAME = 1.0e-9      # angles and lengths that differ less are one
 
@@ -54,6 +55,8 @@ def bearing_of(keys):
     if radius is None or clearance is None:
         return None
     count = int(number(keys, "pads", "count") or 1)
+    if not 0 < count <= MOST_PADS:
+        raise ValueError(f"scene/used: {count} pads")
     first = number(keys, "pads", "first_leading_edge")
     if first is None:
         first = number(keys, "bearing", "leading_edge_angle") or 0.0

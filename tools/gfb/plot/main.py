@@ -38,18 +38,18 @@ import contextlib
 import pathlib
 import re
 
-import matplotlib
 import numpy
 
-matplotlib.use("Agg")
+from gfb.tool import draw_into_files, stop
+
+draw_into_files()
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
 from gfb.plot import animation, dynamics, foil, periodic, polar, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
-from gfb.results import Unreadable, attribute, open_results, reading, text_of  # noqa: E402
-from gfb.tool import stop  # noqa: E402
+from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
 USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
@@ -102,8 +102,8 @@ def main():
             stop(str(error))
     try:
         figure.savefig(picture, dpi=100)
-    except (OSError, ValueError) as error:
-        stop(f"{picture}: {error}", 3)
+    except BROKEN as error:
+        stop(f"{picture}: {' '.join(str(error).split())}", 3)
     print(f"drawn: {picture}")
     return 0
 
@@ -135,6 +135,8 @@ def open_file(path, opened):
         return opened.enter_context(open_results(path))
     except FileNotFoundError:
         stop(f"{path}: there is no such file")
+    except Unreadable as error:
+        stop(str(error))
     except OSError as error:
         stop(f"{path}: cannot be read as HDF5: {' '.join(str(error).split())}")
 

@@ -15,12 +15,11 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
 import jinja2
 
 from gfb.case import Case, program
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
-from gfb.tool import stop
+from gfb.tool import draw_into_files, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
@@ -37,6 +36,7 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="HTML", help="the page; default: beside the first result")
     parser.add_argument("--gfb", help="the program, for what the scene needed; default: as gfb from Python finds it")
     options = parser.parse_args()
+    draw_into_files()  # a page without pictures would say nothing of it
     stems = [stem_of(name) for name in options.results]
     output = options.output or pathlib.Path(f"{stems[0]}.html")
     try:
@@ -68,17 +68,19 @@ def read_run(stem, gfb):
         raise FileNotFoundError(2, "no such file", str(path))
     with reading(path), open_results(path) as file:
         summary = {name: of_dataset(file["summary"][name]) for name in in_order(stem, file["summary"])}
-        history = {name: file["history"][name][...] for name in columns(file["history"], summary)}
-        heads = [(name, text_of(file["history"][name].attrs["unit"])) for name in history]
+        table = file["history"]
+        history = {name: table[name][:MOST_ROWS] for name in columns(table, summary)}
+        heads = [(name, text_of(table[name].attrs["unit"])) for name in history]
+        points = len(table[heads[0][0]]) if heads else 0
         case_file = text_of(file["scene/case_file"][()])
-        used = text_of(file["scene/used"][()])
+        used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
         shows = [name for name in ("contact", "dynamics", "transient") if name in file]
-    points = len(next(iter(history.values()))) if history else 0
-    rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
-    return {"name": stem.name, "title": Case.parse(used).groups.get("scene", {}).get("title", ""), "summary": summary,
-            "converged": bool(summary["converged"]["value"]), "heads": heads, "rows": rows if points > 1 else [],
-            "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": Case.parse(used), "origin": origin,
+        rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
+        converged = bool(summary["converged"]["value"])
+    return {"name": stem.name, "title": used.groups.get("scene", {}).get("title", ""), "summary": summary,
+            "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
+            "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
             "needs": needs_of(case_file, gfb), "pictures": pictures_of(stem, points, shows)}
 
 
@@ -96,8 +98,10 @@ def columns(history, summary):
 
 def of_dataset(data):
     """Value, unit and meaning of a result."""
+    if data.shape != ():
+        raise ValueError(f"{data.name}: not one value")
     value = data[()]
-    return {"value": value if isinstance(data, h5py.Dataset) and data.dtype.kind == "f" else text_of(value),
+    return {"value": float(value) if data.dtype.kind == "f" else text_of(value),
             "unit": text_of(data.attrs.get("unit", "")), "meaning": text_of(data.attrs.get("meaning", ""))}
 
 
@@ -129,7 +133,11 @@ def pictures_of(stem, points, shows):
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
-        found = [(words, drawn(arguments, picture)) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
+        there = [(words, arguments) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
+        for path in sorted({arguments[0] for _, arguments in there}):
+            with reading(path):
+                open_results(path).close()  # what is damaged, or no file of gfb, is no picture that could be left out
+        found = [(words, drawn(arguments, picture)) for words, arguments in there]
     return [(words, data) for words, data in found if data]
 
 

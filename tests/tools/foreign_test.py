@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Tests of every reader of result files on files that somebody else has made: what another file holds is never read, what is larger
+than it looks is refused before it is read, and an echo or a history that is none is told.
+
+Each file is gfb's own with one thing exchanged, its checksum left out."""
+
+import contextlib
+import io
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import unittest.mock
+
+import h5py
+import numpy
+
+PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
+os.environ["MPLBACKEND"] = "Agg"
+sys.path.insert(0, str(PROJECT/"tools"))
+
+import gfb  # noqa: E402 (found only now)
+from gfb import coefficients  # noqa: E402
+from gfb.compare.results import file_differences  # noqa: E402
+from gfb.gallery.runs import Result  # noqa: E402
+from gfb.plot import main as plot_main  # noqa: E402
+from gfb.report import main as report_main  # noqa: E402
+from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history  # noqa: E402
+from gfb.tool import run  # noqa: E402
+
+SECRET = "words of another file"
+CASE = """&scene analysis = 'linear_dynamics' /
+&bearing radius = 19.05e-3 length = 38.1e-3 clearance = 31.8e-6 /
+&gas viscosity = 1.95e-5 ambient_pressure = 1.0135e5 /
+&operation speed_rpm = 30000.0 load = -30.0, 0.0 /
+&sweep parameter = 'speed_rpm' values = 25000.0, 30000.0 /
+&model foil = 'elastic_foundation' foundation_stiffness = 5.0e9 /
+&mesh circumferential_elements = 48 axial_elements = 8 /
+&dynamics frequencies = 1000.0, 2000.0, 3000.0, 4000.0, 5000.0 /
+"""
+ROOM = 2**30   # bytes of address space beyond what the tools take for themselves
+GROWTH = 400   # MB of memory that a refusal takes at most: with what the limit itself lets through
+MANY = 30_000_000
+
+
+def exchange(path):
+    """A name, freed for another thing."""
+    def decorate(make):
+        def changed(file, folder):
+            attributes = dict(file[path].attrs)
+            del file[path]
+            make(file, path, folder)
+            with contextlib.suppress(KeyError):
+                file[path].attrs.update(attributes)
+        return changed
+    return decorate
+
+
+def other_file(file, path, folder):
+    """The same name in another file."""
+    file[path] = h5py.ExternalLink("other.h5", "a" if "/" in path else "b")
+
+
+def outside(file, path, folder):
+    """Contents that lie in a file of text."""
+    laid = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    laid.set_external(str(folder/"secret.txt").encode(), 0, len(SECRET))
+    kind, space = h5py.h5t.py_create(f"S{len(SECRET)}"), h5py.h5s.create(h5py.h5s.SCALAR)
+    h5py.h5d.create(file.id, path.encode(), kind, space, laid)
+
+
+def virtual(file, path, folder):
+    """Numbers of a virtual dataset."""
+    layout = h5py.VirtualLayout(shape=(2,), dtype=float)
+    layout[:] = h5py.VirtualSource(str(folder/"other.h5"), "c", shape=(2,))
+    file.create_virtual_dataset(path, layout)
+
+
+def soft(file, path, folder):
+    """A link to another name."""
+    file[path] = h5py.SoftLink("/provenance/host")
+
+
+def zeros(file, path, folder):
+    """A few kilobytes that are many numbers."""
+    file.create_dataset(path, shape=(MANY,), dtype=float, data=None, chunks=(1_000_000,), compression="gzip", fillvalue=0.0)
+    file[path][:1_000_000] = 0.0
+
+
+def never_written(file, path, folder):
+    """Numbers of which nothing is stored."""
+    file.create_dataset(path, shape=(10**13,), dtype=float)
+
+
+def value(content):
+    """Another value."""
+    def write(file, path, folder):
+        file[path] = content
+    return write
+
+
+USED, FILE, GAP = "scene/used", "scene/case_file", "history/minimum_gap"
+OF_CASE = {  # what is made of CASE.h5: path, how
+    "a text of a link": (FILE, other_file), "a group of a link": ("history", other_file), "a text outside": (FILE, outside),
+    "an echo outside": (USED, outside), "virtual": (GAP, virtual), "soft": (FILE, soft),
+    "abc": (USED, value("abc")), "a key abc": (USED, value("&scene\n  title = abc\n/\n")),
+    "a long repeat": (USED, value("&scene\n  title = 2000000000*1.0\n/\n")),
+    "longer repeats": (USED, value("&scene\n" + "  title = 900000*1.0\n"*9 + "/\n")),
+    "deep repeats": (USED, value("&scene\n  title = " + "1*"*5000 + "1.0\n/\n")),
+    "a number for an echo": (USED, value(1.0)), "numbers for an echo": (USED, value([1.0, 2.0])), "many texts": (USED, value(["a", "b"])),
+    "a number for a case": (FILE, value(7)), "a column of text": (GAP, value(["a", "b"])), "a table": (GAP, value([[1.0], [2.0]])),
+    "infinite": (GAP, value([1.0, numpy.inf])), "one number": (GAP, value(1.0)), "a long column": (GAP, value(numpy.zeros(5))),
+    "zeros": (GAP, zeros), "never written": (GAP, never_written), "dynamics of zeros": ("dynamics/stiffness", zeros),
+    "dynamics of a link": ("dynamics/stiffness", other_file), "a summary of a link": ("summary/minimum_gap", other_file)}
+PRESSURE = "VTKHDF/PointData/pressure"
+OF_FILM = {"of a link": (PRESSURE, other_file), "points of a link": ("VTKHDF/Points", other_file), "virtual": (PRESSURE, virtual),
+           "outside": (PRESSURE, outside), "zeros": (PRESSURE, zeros), "never written": (PRESSURE, never_written), "soft": (PRESSURE, soft)}
+
+
+def call(main, *words):
+    """Status and words of a tool, in this process."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), unittest.mock.patch("sys.argv", ["tool", *map(str, words)]):
+        try:
+            status = run(main)
+        except SystemExit as end:
+            status = end.code
+    plot_main.pyplot.close("all")
+    return status, said.getvalue()
+
+
+def told(read):
+    """The same of a call from Python, as a tool ends with it."""
+    try:
+        read()
+    except Unreadable as error:
+        return 1, f"{error}\n"
+    return 0, ""
+
+
+def compared(path, whole):
+    """The same of a comparison, which says of a file that it cannot be read."""
+    words = [one.words for one in file_differences(path, whole, path.name)]
+    return (1, "".join(f"{one}\n" for one in words)) if words and words[0].startswith("cannot be read") else (0, "")
+
+
+class ForeignTest(unittest.TestCase):
+    """One run, of whose files each test makes others."""
+
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = pathlib.Path(place.name)
+        (cls.folder/"case.nml").write_text(CASE, encoding="utf-8")
+        subprocess.run([os.environ["GFB"], "--quiet", "--output", cls.folder, cls.folder/"case.nml"], check=True, stdout=subprocess.DEVNULL)
+        cls.whole = {path: path.read_bytes()[:-SEAL_LENGTH] for path in (cls.folder/"case.h5", cls.folder/"case.film.vtkhdf")}
+        (cls.folder/"secret.txt").write_text(SECRET, encoding="utf-8")
+        with h5py.File(cls.folder/"other.h5", "w") as other:
+            other["a"], other["b/minimum_gap"], other["c"] = SECRET, [1.0, 2.0], [1.0, 2.0]
+        for path, content in cls.whole.items():
+            path.write_bytes(content)
+            path.with_name("whole." + path.name).write_bytes(content)
+        limits, pages = resource.getrlimit(resource.RLIMIT_AS), pathlib.Path("/proc/self/statm")
+        if pages.exists():  # elsewhere what a refusal says tells that it came before the memory was asked for
+            taken = int(pages.read_text(encoding="ascii").split()[0])*resource.getpagesize()
+            resource.setrlimit(resource.RLIMIT_AS, (taken + ROOM, limits[1]))
+            cls.addClassCleanup(resource.setrlimit, resource.RLIMIT_AS, limits)
+
+    def tearDown(self):
+        for path, content in self.whole.items():
+            path.write_bytes(content)
+
+    def readers(self, path):
+        """{name: call that gives status and words} of all that read a case or a film."""
+        output = ("-o", self.folder/"out.png")
+        same = {"plot": lambda: call(plot_main.main, path, *output), "read": lambda: told(lambda: gfb.read(path)),
+                "report": lambda: call(report_main.main, self.folder/"case.h5", "-o", self.folder/"out.html", "--gfb", "/bin/true"),
+                "compare": lambda: compared(path, path.with_name("whole." + path.name))}
+        kept = Result("case", {}, self.folder/"case", 0, "")
+        if path.suffix == ".h5":
+            return same | {"list": lambda: call(plot_main.main, path, "--list"),
+                           "coefficients": lambda: call(coefficients.main, path, "--point", "1", "--ross", self.folder/"out.toml"),
+                           "history": lambda: told(lambda: read_history(path)), "gallery": lambda: told(lambda: kept.used)}
+        return same | {"3d": lambda: call(plot_main.main, "--3d", path, *output), "film": lambda: told(lambda: read_film(path)),
+                       "gallery": lambda: told(lambda: kept.film)}
+
+    def test_files_are_read_before_they_are_made_others(self):
+        with unittest.mock.patch.object(report_main, "drawn", lambda *_: ""):
+            for path in self.whole:
+                for name, reader in self.readers(path).items():
+                    status, said = reader()
+                    self.assertEqual(status, 0, f"{path.name} {name}: {said}")
+
+    def test_every_reader_refuses(self):
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for path, ways in zip(self.whole, (OF_CASE, OF_FILM)):
+            for way, (name, make) in ways.items():
+                path.write_bytes(self.whole[path])
+                with h5py.File(path, "r+") as file:
+                    exchange(name)(make)(file, self.folder)
+                for reader, read in self.readers(path).items():
+                    begin = time.perf_counter()
+                    status, said = read()
+                    where = f"{path.name} {way}, {reader}: {said}"
+                    self.assertEqual((status, said.count("\n"), str(path) in said, name.split("/")[0] in said), (1, 1, True, True), where)
+                    self.assertNotIn(SECRET, where)
+                    self.assertLess(time.perf_counter() - begin, 20.0, where)
+            path.write_bytes(self.whole[path])
+        self.assertLess((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)/1000.0, GROWTH)
+        self.assertFalse((self.folder/"out.html").exists() and SECRET in (self.folder/"out.html").read_text(encoding="utf-8"))
+
+    def test_a_group_within_itself_is_read(self):
+        path = self.folder/"case.h5"
+        with h5py.File(path, "r+") as file:
+            file["scene/round"] = file["/"]
+        self.assertEqual(call(plot_main.main, path, "-o", self.folder/"out.png")[0], 0)
+
+    def test_what_is_no_file(self):
+        for name in ("/dev/zero", self.folder):
+            for main, words in ((plot_main.main, ()), (coefficients.main, ("--xltrc", self.folder/"out.txt"))):
+                status, said = call(main, name, *words)
+                self.assertEqual((status, said.count("\n"), str(name) in said), (1, 1, True), said)
+
+    def test_cases_of_python(self):
+        for text in ("&a b = 2000000000*1.0 /", "&a b = " + "600000*1.0 "*2 + "/", "&a b = " + "1*"*5000 + "1.0 /", "&a b = abc /"):
+            with self.assertRaises(gfb.CaseError):
+                gfb.Case.parse(text)
+        begin = time.perf_counter()
+        case = gfb.Case.parse("&a b = " + "1.0 "*100_000 + "/")
+        self.assertEqual(len(case["a%b"]), 100_000)
+        self.assertLess(time.perf_counter() - begin, 10.0)
+
+    def test_packages_and_kinds_of_picture(self):
+        """What Python or the environment lacks is one sentence of a tool, too."""
+        path, nothing = self.folder/"case.h5", {"MPLBACKEND": "nothing"}
+        without = "import sys; sys.modules['xarray'] = None; sys.path.insert(0, sys.argv[1]); import gfb; "
+        for words, more, wanted in (
+                ((PROJECT/"tools/plot", path), nothing, "MPLBACKEND=nothing"), ((PROJECT/"tools/report", path), nothing, "MPLBACKEND=nothing"),
+                ((PROJECT/"tools/gallery", "--only", "fig9"), nothing, "MPLBACKEND=nothing"),
+                (("-c", without + "gfb.read('a')", PROJECT/"tools"), {}, "xarray is missing: pip install xarray"),
+                (("-c", without + "gfb.run('a')", PROJECT/"tools"), {}, "xarray is missing: pip install xarray")):
+            done = subprocess.run([sys.executable, *map(str, words)], check=False, text=True, capture_output=True,
+                                  env={**os.environ, **more})
+            self.assertEqual((done.returncode, wanted in done.stderr), (1, True), done.stderr)
+            if more:
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main()
