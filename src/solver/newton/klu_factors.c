@@ -13,16 +13,22 @@ PetscErrorCode gfb_klu_sign(intptr_t handle, int *sign);
 #ifdef GFB_KLU
 #include <klu.h>
 
-_Static_assert(sizeof(PetscInt) == sizeof(int), "KLU takes PETSc's integers as they are");
+/* KLU for PETSc's integers, which it takes as they are. */
+#ifdef PETSC_USE_64BIT_INDICES
+#define KLU(name) klu_l_##name
+#else
+#define KLU(name) klu_##name
+#endif
+_Static_assert(sizeof(PetscInt) == sizeof *((KLU(symbolic) *)0)->Q, "KLU takes PETSc's integers as they are");
 
 static const char   label[] = "KLU";
 static const double threshold = 0.01; /* of a pivot on the diagonal, over the largest in its column: as MUMPS has it */
 static const double most_growth = 10.0; /* of factors by earlier pivots, over that of factors by pivots of their own */
 
 typedef struct {
-  klu_common       common;
-  klu_symbolic    *symbolic; /* of the pattern that matrix and state name */
-  klu_numeric     *numeric;
+  KLU(common)      common;
+  KLU(symbolic)   *symbolic; /* of the pattern that matrix and state name */
+  KLU(numeric)    *numeric;
   double           growth; /* largest entry of the matrix over that of its upper factor, when pivots were chosen */
   PetscObjectId    matrix;
   PetscObjectState state;
@@ -31,28 +37,28 @@ typedef struct {
 static PetscErrorCode forget(Factors *factors)
 {
   PetscFunctionBeginUser;
-  klu_free_numeric(&factors->numeric, &factors->common);
-  klu_free_symbolic(&factors->symbolic, &factors->common);
+  KLU(free_numeric)(&factors->numeric, &factors->common);
+  KLU(free_symbolic)(&factors->symbolic, &factors->common);
   PetscFunctionReturn(0);
 }
 
 /* Factors by the pivots of those before, which spares the search for them. Without factors, or where these would lose digits,
    none are left. */
-static void refactor(Factors *factors, int row[], int column[], double value[])
+static void refactor(Factors *factors, PetscInt row[], PetscInt column[], double value[])
 {
   if (!factors->numeric) return;
-  if (klu_refactor(row, column, value, factors->symbolic, factors->numeric, &factors->common)
-      && klu_rgrowth(row, column, value, factors->symbolic, factors->numeric, &factors->common)
+  if (KLU(refactor)(row, column, value, factors->symbolic, factors->numeric, &factors->common)
+      && KLU(rgrowth)(row, column, value, factors->symbolic, factors->numeric, &factors->common)
       && factors->common.rgrowth * most_growth >= factors->growth) return;
-  klu_free_numeric(&factors->numeric, &factors->common);
+  KLU(free_numeric)(&factors->numeric, &factors->common);
 }
 
 /* Factors by pivots of the matrix's own. */
-static void find_factors(Factors *factors, int row[], int column[], double value[])
+static void find_factors(Factors *factors, PetscInt row[], PetscInt column[], double value[])
 {
-  factors->numeric = klu_factor(row, column, value, factors->symbolic, &factors->common);
+  factors->numeric = KLU(factor)(row, column, value, factors->symbolic, &factors->common);
   if (!factors->numeric) return;
-  klu_rgrowth(row, column, value, factors->symbolic, factors->numeric, &factors->common);
+  KLU(rgrowth)(row, column, value, factors->symbolic, factors->numeric, &factors->common);
   factors->growth = factors->common.rgrowth;
 }
 
@@ -79,10 +85,10 @@ static PetscErrorCode factor(PC pc)
   PetscCall(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
   PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "KLU takes matrices of one rank");
   PetscCall(MatSeqAIJGetArrayRead(matrix, &value));
-  if (!factors->symbolic) factors->symbolic = klu_analyze(order, (int *)row, (int *)column, &factors->common);
+  if (!factors->symbolic) factors->symbolic = KLU(analyze)(order, (PetscInt *)row, (PetscInt *)column, &factors->common);
   if (factors->symbolic) {
-    refactor(factors, (int *)row, (int *)column, (double *)value);
-    if (!factors->numeric) find_factors(factors, (int *)row, (int *)column, (double *)value);
+    refactor(factors, (PetscInt *)row, (PetscInt *)column, (double *)value);
+    if (!factors->numeric) find_factors(factors, (PetscInt *)row, (PetscInt *)column, (double *)value);
   }
   PetscCall(MatSeqAIJRestoreArrayRead(matrix, &value));
   PetscCall(MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
@@ -103,8 +109,8 @@ static PetscErrorCode solve_by(PC pc, Vec right, Vec solution, PetscBool transpo
   PetscCall(VecGetLocalSize(right, &order));
   PetscCall(VecCopy(right, solution));
   PetscCall(VecGetArray(solution, &value));
-  if (transposed) klu_solve(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
-  else klu_tsolve(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
+  if (transposed) KLU(solve)(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
+  else KLU(tsolve)(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
   PetscCall(VecRestoreArray(solution, &value));
   PetscFunctionReturn(0);
 }
@@ -138,7 +144,7 @@ PetscErrorCode gfb_use_klu(intptr_t handle, int *has)
   PetscFunctionBeginUser;
   *has = 1;
   PetscCall(PetscNew(&factors));
-  klu_defaults(&factors->common);
+  KLU(defaults)(&factors->common);
   factors->common.tol = threshold;
   /* Rows and columns are scaled already. Scaled once more by its largest entry, the shaft's dense row of unknowns becomes a
      pivot early, and fills all that follow. */
@@ -180,13 +186,13 @@ PetscErrorCode gfb_forget_klu(intptr_t handle)
 }
 
 /* Whether it takes an odd number of exchanges to put a permutation in order; `seen` is overwritten. */
-static PetscBool is_odd(const int permutation[], int order, PetscBool seen[])
+static PetscBool is_odd(const PetscInt permutation[], PetscInt order, PetscBool seen[])
 {
   PetscBool odd = PETSC_FALSE;
 
-  for (int i = 0; i < order; i++) seen[i] = PETSC_FALSE;
-  for (int i = 0; i < order; i++) {
-    for (int j = i; !seen[j]; j = permutation[j]) {
+  for (PetscInt i = 0; i < order; i++) seen[i] = PETSC_FALSE;
+  for (PetscInt i = 0; i < order; i++) {
+    for (PetscInt j = i; !seen[j]; j = permutation[j]) {
       seen[j] = PETSC_TRUE;
       if (permutation[j] != i) odd = !odd;
     }
@@ -203,12 +209,12 @@ PetscErrorCode gfb_klu_sign(intptr_t handle, int *sign)
   *sign = 0;
   PetscCall(get_factors((PC)handle, &factors));
   if (!factors || !factors->numeric) PetscFunctionReturn(0);
-  const int   order = factors->symbolic->n;
-  const double *pivot = factors->numeric->Udiag;
+  const PetscInt order = factors->symbolic->n;
+  const double  *pivot = factors->numeric->Udiag;
   PetscCall(PetscMalloc1(order, &seen));
   odd = is_odd(factors->numeric->Pnum, order, seen) != is_odd(factors->symbolic->Q, order, seen) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscFree(seen));
-  for (int i = 0; i < order; i++) {
+  for (PetscInt i = 0; i < order; i++) {
     if (pivot[i] < 0.0) odd = !odd;
   }
   *sign = odd ? -1 : 1;
