@@ -19,13 +19,12 @@ module gfb_rotor_pencil
   use petscksp
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks, this_rank
+  use gfb_petsc_session, only: this_rank
   use gfb_shaft_motion, only: shaft_coordinates
-  use gfb_film_measures, only: square_integrals
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
-  use gfb_complex_factors, only: solve_complex, keep_entries
+  use gfb_pencil_share, only: share_type, entries_of, solve_film, add_momentum, put_rates, take_film, put_film, mean_square
   use gfb_rotor_entries, only: rotor_scale_type, take_rotor, put_rotor
   use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, inverse, cylindrical
   implicit none (type)
@@ -45,21 +44,15 @@ module gfb_rotor_pencil
     real(wp) :: share = 0.0_wp          !! of the rotor in the mode, 0 .. 1 [1]
   end type pencil_mode_type
 
-  !> A u of its own.
-  type :: share_type
-    type(bearing_system_type), pointer :: bearing => null()
+  !> A share with the response that it is of.
+  type, extends(share_type) :: linked_share_type
     type(dynamic_response_type), pointer :: response => null()
-    integer :: part = 1                 !! of the response
-    integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; those of u
-    logical :: has_mass = .false.       !! rates of u over the shift stand behind it
-    type(tVec) :: work
-    type(tVec) :: column(planar)        !! u that it takes to hold the rotor's coordinates still
-    type(tMat) :: rate                  !! E
-  end type share_type
+    integer :: part = 1 !! of the response
+  end type linked_share_type
 
   !> What the product needs.
   type :: pencil_type
-    type(share_type), allocatable :: share(:)
+    type(linked_share_type), allocatable :: share(:)
     real(wp) :: motion(shaft_coordinates, planar) = 0.0_wp !! T
     real(wp) :: shift = 0.0_wp                !! sigma [1/s]
     type(rotor_scale_type) :: scale
@@ -128,20 +121,13 @@ contains
     if (allocated(response%opposite)) response%opposite%equations%inertia%skips_modes = skips
   end subroutine skip_inner_modes
 
-  !> Entries of a vector on this rank that belong to a share.
-  elemental function entries_of(share) result(entries)
-    type(share_type), intent(in) :: share
-    integer :: entries
-    entries = share%entries*merge(2, 1, share%has_mass)
-  end function entries_of
-
   !> E, and the film's answers to motions of the rotor at the shift.
   subroutine create_share(pencil, bearing, response, number, share)
     type(pencil_type), intent(in) :: pencil
     type(bearing_system_type), target, intent(in) :: bearing
     type(dynamic_response_type), target, intent(inout) :: response
     integer, intent(in) :: number !! of the response's part
-    type(share_type), intent(inout) :: share
+    type(linked_share_type), intent(inout) :: share
     PetscInt :: entries
     PetscErrorCode :: ierr
     integer :: i, k
@@ -149,9 +135,15 @@ contains
     share%bearing => bearing
     share%response => response
     share%part = number
+    share%factors => response%part(number)%factors
+    share%kept => response%part(number)%kept
+    share%one = response%one
+    share%other = response%other
+    share%steady = response%equations%steady
     PetscCallA(VecGetLocalSize(bearing%state, entries, ierr))
     share%entries = int(entries)
     share%has_mass = response%equations%inertia%present
+    if (share%has_mass) share%mass = response%equations%inertia%mass
     PetscCallA(VecDuplicate(bearing%state, share%work, ierr))
     PetscCallA(MatDuplicate(response%equations%squeeze, MAT_COPY_VALUES, share%rate, ierr))
     if (dissipates(response%equations)) then
@@ -171,24 +163,6 @@ contains
       call solve_film(share, response%one, share%column(i))
     end do
   end subroutine create_share
-
-  !> Solves with J + sigma E of a part.
-  subroutine solve_film(share, right, answer)
-    type(share_type), intent(in) :: share
-    Vec, intent(in) :: right, answer !! scaled
-    Vec :: imaginary_part
-    PetscErrorCode :: ierr
-    logical :: solved
-
-    associate (part => share%response%part(share%part))
-      call keep_entries(right, part%kept)
-      PetscCallA(VecDuplicate(right, imaginary_part, ierr))
-      PetscCallA(VecSet(imaginary_part, 0.0_wp, ierr))
-      PetscCallA(VecCopy(right, answer, ierr))
-      call solve_complex(part%factors, answer, imaginary_part, solved)
-      PetscCallA(VecDestroy(imaginary_part, ierr))
-    end associate
-  end subroutine solve_film
 
   !> Krylov-Schur's method for the eigenvalues of the product with the largest modulus.
   subroutine solve_pencil(pencil, modes)
@@ -283,67 +257,6 @@ contains
     ierr = 0
   end subroutine apply_pencil
 
-  !> Adds m (w + sigma u).
-  subroutine add_momentum(share, shift, x, film, sum)
-    type(share_type), intent(in) :: share
-    real(wp), intent(in) :: shift
-    Vec, intent(in) :: x, film, sum !! a vector, its u, and what is added to
-    PetscErrorCode :: ierr
-
-    call take_film(share, x, share%work, share%entries)
-    PetscCallA(VecAXPY(share%work, 1.0_wp, film, ierr))
-    PetscCallA(VecScale(share%work, shift, ierr))
-    PetscCallA(MatMultAdd(share%response%equations%inertia%mass, share%work, sum, sum, ierr))
-  end subroutine add_momentum
-
-  !> The rates of a product: sigma times its u less the u that it is of.
-  subroutine put_rates(share, shift, x, film, y)
-    type(share_type), intent(in) :: share
-    real(wp), intent(in) :: shift
-    Vec, intent(in) :: x, film, y !! a vector, the product's u, and the product
-    PetscErrorCode :: ierr
-
-    call take_film(share, x, share%work)
-    PetscCallA(VecAYPX(share%work, -1.0_wp/shift, film, ierr))
-    call put_film(share, share%work, y, share%entries)
-  end subroutine put_rates
-
-  !> A part's film and foil out of a vector.
-  subroutine take_film(share, x, film, behind)
-    type(share_type), intent(in) :: share
-    Vec, intent(in) :: x, film
-    integer, intent(in), optional :: behind !! entries of u: its rates
-    PetscScalar, pointer :: values(:), own(:)
-    PetscErrorCode :: ierr
-    integer :: first
-
-    first = share%first
-    if (present(behind)) first = first + behind
-    PetscCallA(GFB_VecGetArrayRead(x, values, ierr))
-    PetscCallA(GFB_VecGetArray(film, own, ierr))
-    own = values(first + 1:first + share%entries)
-    PetscCallA(GFB_VecRestoreArray(film, own, ierr))
-    PetscCallA(GFB_VecRestoreArrayRead(x, values, ierr))
-  end subroutine take_film
-
-  !> The reverse.
-  subroutine put_film(share, film, x, behind)
-    type(share_type), intent(in) :: share
-    Vec, intent(in) :: film, x
-    integer, intent(in), optional :: behind !! entries of u: its rates
-    PetscScalar, pointer :: values(:), own(:)
-    PetscErrorCode :: ierr
-    integer :: first
-
-    first = share%first
-    if (present(behind)) first = first + behind
-    PetscCallA(GFB_VecGetArray(x, values, ierr))
-    PetscCallA(GFB_VecGetArrayRead(film, own, ierr))
-    values(first + 1:first + share%entries) = own
-    PetscCallA(GFB_VecRestoreArrayRead(film, own, ierr))
-    PetscCallA(GFB_VecRestoreArray(x, values, ierr))
-  end subroutine put_film
-
   !> The rotor's motion in a mode, and its share: its displacement in the bearing over the clearance, squared,
   !> against the mean square of the pressure over ambient pressure.
   subroutine weigh(pencil, real_part, imaginary_part, mode)
@@ -365,22 +278,6 @@ contains
     end do
     mode%share = of_rotor/max(tiny(1.0_wp), of_rotor + of_film)
   end subroutine weigh
-
-  !> Mean of the squared pressure of a part's films over their area, over ambient pressure.
-  function mean_square(share, x) result(mean)
-    type(share_type), intent(in) :: share
-    Vec, intent(in) :: x
-    real(wp) :: mean, sums(2), value(share%bearing%local_size())
-    integer :: i
-
-    call take_film(share, x, share%response%one)
-    call share%bearing%get_unknowns(value, share%response%one)
-    associate (pad => share%bearing%pad)
-      sums = sum_over_ranks(sum(reshape([(square_integrals(pad(i)%film, value(pad(i)%first + 1:pad(i)%last)), i=1, size(pad))], &
-                                        [2, size(pad)]), 2))
-      mean = sums(1)/sums(2)/pad(1)%film%ambient_pressure**2
-    end associate
-  end function mean_square
 
   !> Frees what PETSc holds.
   subroutine destroy_pencil(pencil)
