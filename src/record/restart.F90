@@ -208,9 +208,12 @@ contains
   subroutine check_restart_file(file, error)
     type(stored_file_type), intent(in) :: file !! from which all was read
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=:), allocatable :: problem
 
     if (any_rank(file%failed)) then
-      call fail(error, file%path//': the file is damaged; run without --restart to start from the '// &
+      problem = 'the file is damaged'
+      if (file%refused /= '') problem = file%refused
+      call fail(error, file%path//': '//problem//'; run without --restart to start from the '// &
                 'beginning', status_machine)
     end if
   end subroutine check_restart_file

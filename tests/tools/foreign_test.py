@@ -29,7 +29,7 @@ from gfb.compare.results import file_differences  # noqa: E402
 from gfb.gallery.runs import Result  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.report import main as report_main  # noqa: E402
-from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history  # noqa: E402
+from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history, seal  # noqa: E402
 from gfb.tool import run  # noqa: E402
 
 SECRET = "words of another file"
@@ -119,6 +119,17 @@ OF_CASE = {  # what is made of CASE.h5: path, how
 PRESSURE = "VTKHDF/PointData/pressure"
 OF_FILM = {"of a link": (PRESSURE, other_file), "points of a link": ("VTKHDF/Points", other_file), "virtual": (PRESSURE, virtual),
            "outside": (PRESSURE, outside), "zeros": (PRESSURE, zeros), "never written": (PRESSURE, never_written), "soft": (PRESSURE, soft)}
+
+
+OF_RESTART = {  # what is made of CASE.restart.h5: path, how, words of the program
+    "an echo of a link": (USED, other_file, "lie in another file"), "an echo outside": (USED, outside, "lie in another file"),
+    "many texts": (USED, value(["a", "b"]), "not one entry"), "many numbers": ("provenance/ranks", value(numpy.ones(100)), "not one entry"),
+    "a state of a link": ("bearing/state", other_file, "lie in another file"), "virtual": ("bearing/state", virtual, "lie in another file"),
+    "zeros": ("bearing/state", zeros, "more entries than the file has bytes"),
+    "never written": ("bearing/state", never_written, "more entries than the file has bytes")}
+HEAVY = CASE.partition("&sweep")[0].replace("linear_dynamics", "equilibrium") + """&sweep parameter = 'load' values = 30.0, 1.0e9 /
+&model foil = 'rigid' / &mesh circumferential_elements = 48 axial_elements = 8 / &output restart_every = 1 fields = 'none' /
+"""
 
 
 def call(main, *words):
@@ -213,6 +224,24 @@ class ForeignTest(unittest.TestCase):
             path.write_bytes(self.whole[path])
         self.assertLess((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)/1000.0, GROWTH)
         self.assertFalse((self.folder/"out.html").exists() and SECRET in (self.folder/"out.html").read_text(encoding="utf-8"))
+
+    def test_the_program_refuses_to_go_on_from_it(self):
+        """A run that found no answer leaves the file of its last point."""
+        case = self.folder/"heavy.nml"
+        case.write_text(HEAVY, encoding="utf-8")
+        words, path = [os.environ["GFB"], "--quiet", "--output", self.folder, case], self.folder/"heavy.restart.h5"
+        self.assertEqual(subprocess.run(words, check=False, capture_output=True).returncode, 2)
+        whole = path.read_bytes()[:-SEAL_LENGTH]
+        for way, (name, make, sentence) in OF_RESTART.items():
+            path.write_bytes(whole)
+            with h5py.File(path, "r+") as file:
+                exchange(name)(make)(file, self.folder)
+            seal(path)  # the program reads no other one
+            done = subprocess.run([*words, "--restart"], check=False, text=True, capture_output=True)
+            where = f"{way}: {done.stderr}"
+            self.assertEqual((done.returncode, str(path) in done.stderr, name in done.stderr, sentence in done.stderr),
+                             (3, True, True, True), where)
+            self.assertNotIn(SECRET, where)
 
     def test_a_group_within_itself_is_read(self):
         path = self.folder/"case.h5"

@@ -11,10 +11,12 @@ module gfb_stored_file
   private
   public :: open_stored_file, close_stored_file
 
-  !> An open file. What cannot be read from it leaves `failed` behind, and zeros.
+  !> An open file. What cannot be read from it leaves `failed` behind, and zeros; of contents that
+  !> lie in another file, or are more than this one can hold, `refused` says which they are.
   type, public :: stored_file_type
     character(len=:), allocatable :: path
     logical :: failed = .false. !! something could not be read on this rank
+    character(len=:), allocatable :: refused !! what was not read on purpose, and why, or empty
     integer(hid_t), private :: file = -1
   contains
     procedure :: has
@@ -24,6 +26,8 @@ module gfb_stored_file
     procedure :: numbers
     procedure :: block => block_of_rank
     procedure, private :: entries_of
+    procedure, private :: open_dataset
+    procedure, private :: refuse
   end type stored_file_type
 
 contains
@@ -40,6 +44,7 @@ contains
     integer :: status
 
     file%path = path
+    file%refused = ''
     call compare_seal(path, communicator, first_rank, error)
     if (allocated(error)) return
     call h5open_f(status)
@@ -95,11 +100,8 @@ contains
     integer :: status, ignored
 
     words = ''
-    call h5dopen_f(self%file, path, dataset, status)
-    if (status /= 0) then
-      self%failed = .true.
-      return
-    end if
+    call self%open_dataset(path, .true., dataset, status)
+    if (status /= 0) return
     call read_text(dataset, words, status)
     if (status /= 0) self%failed = .true.
     call h5dclose_f(dataset, ignored)
@@ -116,14 +118,13 @@ contains
     integer :: status, ignored
 
     number = 0.0_wp
-    call h5dopen_f(self%file, path, dataset, status)
-    if (status == 0) then
-      address = c_loc(value)
-      call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status)
-      if (status == 0) number = value
-      call h5dclose_f(dataset, ignored)
-    end if
+    call self%open_dataset(path, .true., dataset, status)
+    if (status /= 0) return
+    address = c_loc(value)
+    call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status)
+    if (status == 0) number = value
     if (status /= 0) self%failed = .true.
+    call h5dclose_f(dataset, ignored)
   end function scalar
 
   !> One whole number.
@@ -155,18 +156,19 @@ contains
     integer :: status, rank
 
     entries = 0
-    call h5dopen_f(self%file, path, dataset, status)
-    if (status /= 0) then
-      self%failed = .true.
-      return
-    end if
+    call self%open_dataset(path, .false., dataset, status)
+    if (status /= 0) return
     call h5dget_space_f(dataset, space, status)
     call h5sget_simple_extent_ndims_f(space, rank, status)
     if (status == 0 .and. rank == 1) then
       call h5sget_simple_extent_dims_f(space, extent, most, status)
-      entries = int(extent(1))
-    else
+    end if
+    if (status < 0 .or. rank /= 1) then ! the number of dimensions comes back as the status
       self%failed = .true.
+    else if (extent(1) > huge(entries)) then
+      call self%refuse(path, 'more numbers than can be counted')
+    else
+      entries = int(extent(1))
     end if
     call h5sclose_f(space, status)
     call h5dclose_f(dataset, status)
@@ -195,11 +197,8 @@ contains
       part(1) = entries
       start(1) = offset
     end if
-    call h5dopen_f(self%file, path, dataset, status)
-    if (status /= 0) then
-      self%failed = .true.
-      return
-    end if
+    call self%open_dataset(path, .false., dataset, status)
+    if (status /= 0) return
     call h5dget_space_f(dataset, space, status)
     if (.not. has_shape(space, rank, components)) then
       self%failed = .true.
@@ -222,6 +221,74 @@ contains
     call h5sclose_f(space, ignored)
     call h5dclose_f(dataset, ignored)
   end function block_of_rank
+
+  !> Opens a dataset, to be closed, whose contents lie in this file; else leaves `failed` behind,
+  !> and a status that is not 0.
+  !>
+  !> HDF5 follows a link into another file, and reads what another file holds, without a word.
+  subroutine open_dataset(self, path, single, dataset, status)
+    class(stored_file_type), intent(inout) :: self !! the file
+    character(len=*), intent(in) :: path !! of the file, or of what is in it
+    logical, intent(in) :: single !! it has one entry
+    integer(hid_t), intent(out) :: dataset !! of the HDF5 library
+    integer, intent(out) :: status !! 0, or something went wrong
+    integer(hid_t) :: space, laid
+    integer(hsize_t) :: entries, bytes
+    integer :: ignored, others, layout
+    character(len=:), allocatable :: home, there
+
+    call h5dopen_f(self%file, path, dataset, status)
+    if (status /= 0) then
+      self%failed = .true.
+      return
+    end if
+    call h5dget_create_plist_f(dataset, laid, status)
+    call h5pget_external_count_f(laid, others, status)
+    call h5pget_layout_f(laid, layout, status)
+    call h5pclose_f(laid, ignored)
+    call h5dget_space_f(dataset, space, status)
+    call h5sget_simple_extent_npoints_f(space, entries, status)
+    call h5sclose_f(space, ignored)
+    call h5fget_filesize_f(self%file, bytes, status)
+    home = name_of(self%file)
+    there = name_of(dataset)
+    if (status /= 0) then
+      self%failed = .true.
+    else if (others > 0 .or. layout == H5D_VIRTUAL_F .or. there /= home) then
+      call self%refuse(path, 'its contents lie in another file, which is not read')
+    else if (single .and. entries /= 1) then
+      call self%refuse(path, 'not one entry')
+    else if (entries > bytes) then
+      call self%refuse(path, 'more entries than the file has bytes')
+    else
+      return
+    end if
+    status = 1
+    call h5dclose_f(dataset, ignored)
+  end subroutine open_dataset
+
+  !> Notes what is not read on purpose: the first of several.
+  subroutine refuse(self, path, why)
+    class(stored_file_type), intent(inout) :: self !! the file
+    character(len=*), intent(in) :: path, why !! of what is in the file; a sentence
+
+    self%failed = .true.
+    if (self%refused == '') self%refused = path//': '//why
+  end subroutine refuse
+
+  !> The file in which an object lies, as it was opened.
+  function name_of(object) result(name)
+    integer(hid_t), intent(in) :: object !! of the HDF5 library
+    character(len=:), allocatable :: name
+    character(len=1) :: short
+    integer(size_t) :: length
+    integer :: status
+
+    call h5fget_name_f(object, short, length, status)
+    allocate (character(len=max(1, int(length) + 1)) :: name)
+    call h5fget_name_f(object, name, length, status)
+    name = name(:int(length))
+  end function name_of
 
   !> Whether a dataset is a list, or has so many components.
   function has_shape(space, rank, components) result(fits)
