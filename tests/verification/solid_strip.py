@@ -11,21 +11,26 @@ COMPLIANCE = 1.0e-11  # of a contact, a metre wide [m2/N]
 LENT = 3.0e3  # stiffness lent to every unknown in a step, of which the last answer is the rest [N/m2]
 
 
+def slopes(a, b):
+    """Derivatives (2, 8) of an eight-node element's shape functions at a place in [-1, 1] x [-1, 1]."""
+    rate = numpy.zeros((2, 8))
+    for i, (x, y) in enumerate([[-1, -1], [1, -1], [1, 1], [-1, 1]]):
+        rate[0, i] = 0.25*x*(1 + b*y)*(2*a*x + b*y)
+        rate[1, i] = 0.25*y*(1 + a*x)*(2*b*y + a*x)
+    rate[:, 4] = -a*(1 - b), -0.5*(1 - a*a)
+    rate[:, 5] = 0.5*(1 - b*b), -b*(1 + a)
+    rate[:, 6] = -a*(1 + b), 0.5*(1 - a*a)
+    rate[:, 7] = -0.5*(1 - b*b), -b*(1 - a)
+    return rate
+
+
 def element_stiffness(points, matrix):
     """Stiffness of eight-node elements: points (elements, 8, 2), per metre of width."""
     total = numpy.zeros((len(points), 16, 16))
-    corner = numpy.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], float)
     abscissae, weights = numpy.polynomial.legendre.leggauss(3)
     for a, weight_a in zip(abscissae, weights):
         for b, weight_b in zip(abscissae, weights):
-            rate = numpy.zeros((2, 8))
-            for i, (x, y) in enumerate(corner):
-                rate[0, i] = 0.25*x*(1 + b*y)*(2*a*x + b*y)
-                rate[1, i] = 0.25*y*(1 + a*x)*(2*b*y + a*x)
-            rate[:, 4] = -a*(1 - b), -0.5*(1 - a*a)
-            rate[:, 5] = 0.5*(1 - b*b), -b*(1 + a)
-            rate[:, 6] = -a*(1 + b), 0.5*(1 - a*a)
-            rate[:, 7] = -0.5*(1 - b*b), -b*(1 - a)
+            rate = slopes(a, b)
             jacobian = numpy.einsum("ka,eai->eki", rate, points)
             slope = numpy.linalg.solve(jacobian, numpy.broadcast_to(rate, (len(points), 2, 8)))
             strain = numpy.zeros((len(points), 3, 16))
