@@ -10,11 +10,20 @@
 !> Source: [Gu2020] eqs. 9 and 10, with friction as a vector and the stiffness per length of contact
 !> line. \( g \) is tanh, or min(x, 1) for the law `coulomb`: an elastic stick up to the sliding
 !> limit, whose return mapping is the slip carried along (see `carried_slip`).
+!>
+!> In these laws the friction of a contact that sticks follows the normal force. A contact in motion
+!> keeps its friction while it sticks, whatever the normal force does within the limit: with the
+!> normal force \( f_0 \) that its stiffness is of,
+!>
+!> $$ t = -\mu \min\left(f_0 \frac{|s|}{u_{max}}, f_n\right) \frac{s}{|s|} $$
+!>
+!> Source: penalty regularisation of Coulomb's law with its return mapping, [SimoLaursen1992].
 module gfb_contact_law
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state
+  public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state, &
+            keep_friction, slip_of_friction
 
   integer, parameter, public :: law_tanh_drag = 1  !! tanh; what slid is dragged along
   integer, parameter, public :: law_tanh_reset = 2 !! tanh; the shift is reset where sliding turns
@@ -38,6 +47,8 @@ module gfb_contact_law
     integer :: friction_law = law_tanh_drag
     real(wp) :: adhesion = 0.0_wp         !! stiffness against opening over k, of a homotopy [1]
     logical :: one_way = .false.          !! along the first tangent alone, as planar models rub
+    !> f_0, the normal force that the stiffness of sticking is of; 0: that which presses [N]
+    real(wp) :: stick_pressing = 0.0_wp
   end type contact_law_type
 
 contains
@@ -74,6 +85,10 @@ contains
     real(wp), intent(out) :: by_pressing(2) !! [1]
     real(wp) :: distance, direction(2), level, slope, secant
 
+    if (law%stick_pressing > 0.0_wp) then
+      call kept_friction(law, slip, pressing, force, by_slip, by_pressing)
+      return
+    end if
     distance = norm2(slip)
     call mobilised(law, distance/law%stick_length, level, slope, secant)
     by_pressing = -law%friction*secant*slip/law%stick_length
@@ -88,6 +103,33 @@ contains
     by_slip = -law%friction*pressing/law%stick_length*by_slip
     if (law%one_way) by_slip(2, :) = 0.0_wp
   end subroutine friction_force
+
+  !> Friction that does not follow the normal force while the contact sticks, and its derivatives.
+  pure subroutine kept_friction(law, slip, pressing, force, by_slip, by_pressing)
+    type(contact_law_type), intent(in) :: law !! with its `stick_pressing`
+    real(wp), intent(in) :: slip(2)         !! [m]
+    real(wp), intent(in) :: pressing        !! normal force, not negative [N]
+    real(wp), intent(out) :: force(2)       !! [N]
+    real(wp), intent(out) :: by_slip(2, 2)  !! [N/m]
+    real(wp), intent(out) :: by_pressing(2) !! [1]
+    real(wp) :: stiffness, size, direction(2)
+
+    stiffness = law%friction*law%stick_pressing/law%stick_length
+    force = -stiffness*slip
+    by_slip = -stiffness*reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+    by_pressing = 0.0_wp
+    size = norm2(force)
+    associate (limit => law%friction*pressing)
+      ! What has slid begins to stick where it stopped, at the limit to round-off.
+      if (size > limit*(1.0_wp + rounding)) then
+        direction = force/size
+        force = limit*direction
+        by_slip = limit/size*(by_slip + stiffness*spread(direction, 2, 2)*spread(direction, 1, 2))
+        by_pressing = law%friction*direction
+      end if
+    end associate
+    if (law%one_way) by_slip(2, :) = 0.0_wp
+  end subroutine kept_friction
 
   !> Share of the sliding limit that is mobilised, g(x), with g'(x) and g(x)/x.
   pure subroutine mobilised(law, ratio, level, slope, secant)
@@ -145,14 +187,54 @@ contains
       return
     end if
     distance = norm2(slip)
-    if (distance > drag_length(law)) carried = slip*(drag_length(law)/distance)
+    associate (longest => drag_length(law, pressing))
+      if (distance > longest) carried = slip*(longest/distance)
+    end associate
   end function carried_slip
 
-  !> Slip from which on a contact slides [m].
-  elemental function drag_length(law) result(length)
+  !> What a contact in motion has after a step: the slip of its friction, and the normal force that
+  !> its stiffness is of from then on.
+  !>
+  !> That is the present one where it has slid, and the largest one since while it sticks: so what
+  !> sticks is a spring, and none that is softer than its normal force makes it. An open contact
+  !> forgets.
+  pure subroutine keep_friction(law, slip, pressing, kept, stick_pressing)
     type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
+    real(wp), intent(in) :: slip(2)  !! at the end of the step [m]
+    real(wp), intent(in) :: pressing !! normal force [N]
+    real(wp), intent(out) :: kept(2) !! that slip as the stiffness has it from then on [m]
+    real(wp), intent(out) :: stick_pressing !! f_0 from then on [N]
+    real(wp) :: force(2), by_slip(2, 2), by_pressing(2)
+
+    kept = 0.0_wp
+    stick_pressing = 0.0_wp
+    if (.not. pressing > 0.0_wp .or. .not. law%friction > 0.0_wp) return
+    call friction_force(law, slip, pressing, force, by_slip, by_pressing)
+    stick_pressing = pressing
+    if (contact_state(law, norm2(slip), pressing) == state_stick) then
+      stick_pressing = max(pressing, law%stick_pressing)
+    end if
+    kept = slip_of_friction(law, force, stick_pressing)
+  end subroutine keep_friction
+
+  !> The slip at which a contact that sticks has a friction.
+  pure function slip_of_friction(law, force, stick_pressing) result(slip)
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
+    real(wp), intent(in) :: force(2)          !! within the limit [N]
+    real(wp), intent(in) :: stick_pressing    !! f_0, positive [N]
+    real(wp) :: slip(2)                       !! [m]
+
+    slip = -force*law%stick_length/(law%friction*stick_pressing)
+  end function slip_of_friction
+
+  !> Slip from which on a contact slides [m].
+  elemental function drag_length(law, pressing) result(length)
+    type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
+    real(wp), intent(in) :: pressing          !! normal force [N]
     real(wp) :: length
+
     length = merge(1.0_wp, dragged, law%friction_law == law_coulomb)*law%stick_length
+    if (law%stick_pressing > 0.0_wp) length = law%stick_length*pressing/law%stick_pressing
   end function drag_length
 
   !> Whether a contact is open, sticks or slips.
@@ -164,7 +246,8 @@ contains
 
     if (.not. pressing > 0.0_wp) then
       state = state_open
-    else if (distance <= drag_length(law)*(1.0_wp + rounding) .and. law%friction > 0.0_wp) then
+    else if (distance <= drag_length(law, pressing)*(1.0_wp + rounding) .and. &
+             law%friction > 0.0_wp) then
       state = state_stick
     else
       state = state_slip

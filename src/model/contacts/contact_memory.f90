@@ -18,6 +18,7 @@ contains
     call memory%visit('shift', point%shift)
     call memory%visit('old_slip', point%old_slip)
     call memory%visit('old_force', point%old_force)
+    call memory%visit('stick_pressing', point%stick_pressing)
     call memory%visit('place', point%place)
     call memory%visit('anchor', point%anchor)
     call memory%visit('force', point%force)

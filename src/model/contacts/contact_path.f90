@@ -68,7 +68,8 @@ contains
         change(normal) = stiffness - contacts%floor_normal*point%length
       end if
       if (law%friction > 0.0_wp) then
-        call friction_force(law, point%place(:2), 0.0_wp, rubbing, by_slip, by_pressing)
+        call friction_force(law, point%place(:2), max(point%force(normal), 0.0_wp), rubbing, &
+                            by_slip, by_pressing)
         change(:2) = stiffness*by_pressing
       end if
       contacts%closed(number) = .not. contacts%closed(number)

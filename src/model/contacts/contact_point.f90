@@ -32,6 +32,8 @@ module gfb_contact_point
     real(wp) :: derivative(spatial, spatial) = 0.0_wp !! of the force by the approach there [N/m]
     real(wp) :: old_slip(2) = 0.0_wp           !! tangential displacement at the last commit [m]
     real(wp) :: old_force(2) = 0.0_wp          !! friction then [N]
+    !> in motion: the normal force that the stiffness of sticking is of [N]
+    real(wp) :: stick_pressing = 0.0_wp
   end type contact_point_type
 
 contains

@@ -8,7 +8,7 @@
 module gfb_contact_set
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &
-                             next_place, contact_state
+                             next_place, contact_state, keep_friction
   use gfb_contact_point, only: contact_point_type, spatial, moved_apart, add_at_contact, unknowns_of, &
                                block_of
   implicit none (type, external)
@@ -32,6 +32,8 @@ module gfb_contact_set
     real(wp) :: adhesion = 0.0_wp              !! stiffness against opening over that, of a homotopy
     logical :: glued = .false.                 !! closed whatever happens, free to slide: a first guess
     logical :: settled = .true.                !! every contact is linearised where it is
+    logical :: sticks_in_motion = .false.      !! what `keeps_friction` becomes where the foils begin to move
+    logical :: keeps_friction = .false.        !! what sticks keeps its friction whatever presses, to Coulomb's limit
     logical, allocatable :: closed(:)          !! along a step; before it as the contacts are linearised
   contains
     procedure :: approach
@@ -64,6 +66,7 @@ contains
     law%stick_length = law%stick_length*self%softening
     law%normal_stiffness = law%normal_stiffness*self%hardness
     law%adhesion = self%adhesion
+    law%stick_pressing = point%stick_pressing
   end function law_of
 
   !> Slip and penetration of a contact, (s_1, s_2, delta) [m].
@@ -144,6 +147,7 @@ contains
         point%shift = like%shift
         point%old_slip = like%old_slip
         point%old_force = like%old_force
+        point%stick_pressing = like%stick_pressing
         point%place = like%place
         point%anchor = like%anchor
       end associate
@@ -263,7 +267,7 @@ contains
   pure subroutine commit(self, displacement)
     class(contact_set_type), intent(inout) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
-    real(wp) :: now(spatial), pressing, total(2)
+    real(wp) :: now(spatial), pressing, total(2), kept(2), before
     integer :: i
 
     do i = 1, size(self%point)
@@ -271,7 +275,14 @@ contains
       associate (point => self%point(i))
         pressing = merge(point%pressing, point%force(3), point%pressed)
         total = now(:2) + point%shift
-        point%shift = total - carried_slip(self%law(point%law), now(:2), total - point%old_slip, pressing)
+        if (self%keeps_friction) then
+          before = point%stick_pressing
+          call keep_friction(self%law_of(point), now(:2), pressing, kept, point%stick_pressing)
+          if (before*point%stick_pressing > 0.0_wp) point%place(:2) = point%place(:2)*(before/point%stick_pressing)
+        else
+          kept = carried_slip(self%law(point%law), now(:2), total - point%old_slip, pressing)
+        end if
+        point%shift = total - kept
         ! The linearisation point stays, for the step's slip; the next step begins at the anchor.
         point%anchor = [total - point%shift, point%place(3)]
         point%old_slip = total
@@ -318,13 +329,16 @@ contains
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
     integer :: state
+    type(contact_law_type) :: law
     real(wp) :: pressing
 
     associate (point => self%point(i))
       pressing = merge(point%pressing, point%force(3), point%pressed)
       ! What an unloaded foil keeps is round-off.
       if (.not. point%pressed .and. point%place(3) <= touching*self%secant_penetration) pressing = 0.0_wp
-      state = contact_state(self%law(point%law), norm2(point%place(:2)), pressing)
+      law = self%law(point%law)
+      law%stick_pressing = point%stick_pressing
+      state = contact_state(law, norm2(point%place(:2)), pressing)
     end associate
   end function state_of
 end module gfb_contact_set

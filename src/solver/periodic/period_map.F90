@@ -15,7 +15,7 @@ module gfb_period_map
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
-  use gfb_contact_slips, only: slips_of, put_slips
+  use gfb_contact_slips, only: slips_of, put_slips, slip_entries
   use gfb_spring_history, only: begin_springs
   use gfb_spring_entries, only: remembered_by, pack_springs, unpack_springs
   use gfb_march_state, only: pad_history_type
@@ -72,7 +72,7 @@ contains
     map%owned = int(owned)
     map%rubs = rubs(bearing)
     map%slips = 0
-    if (map%rubs) map%slips = 2*contacts_of(bearing)
+    if (map%rubs) map%slips = slip_entries*contacts_of(bearing)
     map%remembered = remembered_by(map%settings, bearing)
     map%springs = 2*map%owned*size(map%remembered)
     map%local = 2*map%owned + map%slips + map%springs
@@ -270,8 +270,8 @@ contains
     first = 2*map%owned
     do k = 1, size(bearing%pad)
       associate (contacts => bearing%pad(k)%foil%contacts)
-        x(first + 1:first + 2*size(contacts%point)) = map%share/map%length*slips_of(contacts)
-        first = first + 2*size(contacts%point)
+        x(first + 1:first + slip_entries*size(contacts%point)) = map%share/map%length*slips_of(contacts)
+        first = first + slip_entries*size(contacts%point)
       end associate
     end do
   end subroutine pack_point
@@ -300,7 +300,7 @@ contains
     if (map%slips == 0) return
     first = 2*map%owned
     do k = 1, size(bearing%pad)
-      associate (pad => bearing%pad(k), many => 2*size(bearing%pad(k)%foil%contacts%point))
+      associate (pad => bearing%pad(k), many => slip_entries*size(bearing%pad(k)%foil%contacts%point))
         call put_slips(x(first + 1:first + many)*map%length/map%share, &
                        pad%foil%own_part(unknown(pad%first + 1:pad%last, 1)), pad%foil%contacts)
         first = first + many
