@@ -41,7 +41,7 @@ contains
     call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
     call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
     call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, &
-                        scene%contact%may_rub, scene%contact%friction_law, scene%sweep, &
+                        scene%contact%may_rub, scene%contact%law_in_motion(), scene%sweep, &
                         scene%accuracy%present)
     call check_pads(keys, scene%bearing, scene%operation)
     call check_foil_mass(keys, scene%dynamics, scene%transient, scene%model, scene%top_foil, &

@@ -1,7 +1,7 @@
 !> The laws of a scene's contacts: stiffness, friction, and what they lend to the matrix.
 module gfb_contact_laws
   use gfb_kinds, only: wp
-  use gfb_contact_case, only: contact_case_type, direction_motion, surface_face
+  use gfb_contact_case, only: contact_case_type, direction_motion, surface_face, motion_coulomb
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_strip_load_case, only: bump_stiffness
   use gfb_contact_law, only: contact_law_type
@@ -27,6 +27,7 @@ contains
     type(contact_set_type), intent(inout) :: contacts !! this rank's
 
     contacts%law = contact_laws(contact)
+    contacts%sticks_in_motion = contact%friction_law_in_motion == motion_coulomb
     contacts%at_faces = contact%contact_surface == surface_face
     contacts%secant_penetration = first_penetration*displacement
     contacts%floor_normal = normal_floor*bump_stiffness(foil)*foil%pitch

@@ -1,7 +1,7 @@
 !> Contacts under a vibration of finite amplitude: what each of them answers, by itself.
 module gfb_vibrating_contacts
   use gfb_kinds, only: wp
-  use gfb_contact_law, only: contact_law_type
+  use gfb_contact_law, only: contact_law_type, law_coulomb
   use gfb_vibrating_friction, only: friction_stiffness
   use gfb_contact_set, only: contact_set_type
   implicit none (type, external)
@@ -31,6 +31,7 @@ contains
     do i = 1, size(contacts%point)
       associate (point => contacts%point(i))
         law = contacts%law_of(point)
+        if (contacts%sticks_in_motion) law%friction_law = law_coulomb
         pressing = merge(point%pressing, point%force(3), point%pressed)
         if (.not. (law%friction > 0.0_wp .and. pressing > 0.0_wp)) cycle
         origin = contacts%approach(i, still)

@@ -131,7 +131,7 @@ contains
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(model_case_type), intent(in) :: model !! what `&model` asks for
     logical, intent(in) :: may_rub !! a friction coefficient of `&contact` is positive
-    integer, intent(in) :: friction_law !! of `&contact`, `law_tanh_drag`, ...
+    integer, intent(in) :: friction_law !! of motions: `law_tanh_drag`, ...
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
     logical, intent(in) :: refines !! the scene asks for an accuracy
 
@@ -192,7 +192,8 @@ contains
                          '&contact')
     else if (friction_law == law_tanh_reset) then
       call keys%complain(group, name, "needs another friction_law than 'tanh_reset' in "// &
-                         '&contact: that one never shakes down')
+                         "&contact, or friction_law_in_motion = 'coulomb': that one never "// &
+                         'shakes down')
     end if
   end subroutine check_amplitudes
 

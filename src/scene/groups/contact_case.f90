@@ -5,7 +5,7 @@ module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_contact_law, only: law_tanh_drag
+  use gfb_contact_law, only: law_tanh_drag, law_coulomb
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
@@ -19,6 +19,9 @@ module gfb_contact_case
   integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
+  integer, parameter, public :: motion_coulomb = 1    !! what sticks keeps its friction; the default
+  integer, parameter, public :: motion_as_at_rest = 2 !! by `friction_law`
+
   !> mid-surfaces touch, as [Gu2020] has it; the default
   integer, parameter, public :: surface_mid = 1
   integer, parameter, public :: surface_face = 2 !! faces touch, half a thickness off
@@ -29,6 +32,7 @@ module gfb_contact_case
   !> In the order of the laws' numbers in `gfb_contact_law`.
   character(len=*), parameter :: law_words(*) = [character(len=10) :: 'tanh_drag', 'tanh_reset', &
                                                  'coulomb']
+  character(len=*), parameter :: motion_words(*) = [character(len=10) :: 'coulomb', 'as_at_rest']
 
   real(wp), parameter :: bumps_stiffness = 1.0e4_wp   !! contact's over that of a bump
   real(wp), parameter :: stick_part = 1.0_wp/5.0e3_wp !! of a strip's typical deflection
@@ -46,11 +50,22 @@ module gfb_contact_case
     real(wp) :: stick_length = 0.0_wp         !! tangential displacement at which slip begins [m]
     logical :: may_rub = .false.              !! a coefficient is positive, or complained about
     integer :: friction_law = law_tanh_drag
+    integer :: friction_law_in_motion = motion_coulomb
     integer :: friction_direction = direction_tangent_plane
     integer :: contact_surface = surface_mid
+  contains
+    procedure :: law_in_motion
   end type contact_case_type
 
 contains
+
+  !> The law of vibrations with an amplitude, and of motions in time.
+  elemental function law_in_motion(self) result(law)
+    class(contact_case_type), intent(in) :: self !! what `&contact` asks for
+    integer :: law
+
+    law = merge(law_coulomb, self%friction_law, self%friction_law_in_motion == motion_coulomb)
+  end function law_in_motion
 
   !> Reads the group; a strip that touches nothing need not have it.
   subroutine read_contact_case(keys, contact, load, foil, clearance, analysis, model)
@@ -97,6 +112,10 @@ contains
                          'smoothed law whose stick point is dragged along by the slip, the '// &
                          'same with a new start at each reversal, or elastic sticking up '// &
                          'to Coulomb''s limit')
+    call keys%choice_key('friction_law_in_motion', contact%friction_law_in_motion, motion_words, &
+                         'law of foils that move, over time and with vibration_amplitudes: '// &
+                         'elastic sticking up to Coulomb''s limit, from the friction at rest '// &
+                         'on, or friction_law')
     call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
                          'friction opposes the slip in the tangent plane, or acts along the '// &
                          "shaft's motion alone, as in planar models")

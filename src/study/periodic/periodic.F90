@@ -11,6 +11,7 @@ module gfb_periodic
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
+  use gfb_moving_friction, only: begin_rubbing
   use gfb_period_map, only: period_map_type, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at, &
                             moved_speed, tail
   use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
@@ -75,6 +76,7 @@ contains
     newton%settings%step_tolerance = min(newton%settings%step_tolerance, tight(2))
     self%ending = ''
     self%loss = ''
+    call begin_rubbing(bearing, .false.)
     call set_map(scene, bearing, self%map, self%bounds)
     self%x = rest_of(self%map, bearing)
     if (scene%periodic%motion == motion_free) then

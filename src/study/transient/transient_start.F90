@@ -8,6 +8,7 @@ module gfb_transient_start
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_moving_friction, only: begin_rubbing
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_time_march, only: march_type, march_settings_type, begin_march
   use gfb_foil_mass_choice, only: choose_momentum
@@ -34,6 +35,7 @@ contains
       call go_to_orbit(scene, log, bearing, newton)
       call choose_momentum(scene, log, bearing)
     end if
+    call begin_rubbing(bearing, goes_on)
     call begin_march(drive, settings, bearing, march)
     if (scene%transient%orbit_radius > 0.0_wp) march%start%eccentricity = scene%operation%eccentricity
   end subroutine begin_transient
