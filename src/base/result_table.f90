@@ -221,6 +221,11 @@ module gfb_result_table
     result_type('damping_ratio', '1', number, bearing, &
       'damping of that mode over critical damping; negative: it grows', &
       'the same: damping of that mode over critical damping; negative: it grows'), &
+    result_type('largest_growth_rate', '1/s', number, bearing, &
+      'growth of the least damped mode of any kind, of rotor, foil or film', &
+      'with `&rotor`: growth of the least damped mode of any kind, of rotor, foil or film'), &
+    result_type('largest_growth_frequency', 'rad/s', number, bearing, &
+      'circular frequency of that mode', 'the same: circular frequency of that mode'), &
     result_type('onset_speed_rpm', 'rpm', number, bearing, &
       'speed at which growth_rate changes its sign, the first along the sweep', &
       'with `&rotor` in a sweep of `speed_rpm`: speed at which `growth_rate` changes its sign, '// &

@@ -15,21 +15,23 @@ module gfb_dynamics_record
   public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, remember_dynamics, &
             coefficients_of
 
-  !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense [1].
-  integer, parameter, public :: mode_numbers = 6
-  integer, parameter :: most_modes = 24 !! that are kept of each point of a sweep
+  !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense, foil's
+  !> share [1].
+  integer, parameter, public :: mode_numbers = 7
   character(len=*), parameter :: mode_names(mode_numbers) = &
     [character(len=13) :: 'frequency', 'growth_rate', 'damping_ratio', 'shaft_share', 'kind', &
-                          'sense']
+                          'sense', 'foil_share']
   character(len=*), parameter :: mode_units(mode_numbers) = &
-    [character(len=5) :: 'rad/s', '1/s', '1', '1', '1', '1']
+    [character(len=5) :: 'rad/s', '1/s', '1', '1', '1', '1', '1']
   character(len=*), parameter :: mode_meanings(mode_numbers) = [character(len=120) :: &
     'circular frequency of the modes of film, foil and rotor, growth falling', &
     'growth of the amplitude, exp(growth t); negative: the mode dies out', &
     'minus the growth over the modulus of growth + i frequency; negative: it grows', &
-    'share of the rotor''s motion, against the pressure''s; below 0.02: a mode of film or foil', &
+    'share of the rotor, against film and foil by energy and against the foil by mass; below '// &
+    '0.02: of film or foil', &
     '1: cylindrical, both bearings move alike; 2: conical, the rotor turns about its centre', &
-    '1: a circle with the speed, -1: a circle against it, 0: to and fro']
+    '1: a circle with the speed, -1: a circle against it, 0: to and fro', &
+    'share of the foil''s strain and kinetic energy, against rotor and film']
 
   character(len=*), parameter :: names(shaft_coordinates) = [character(len=4) :: 'x', 'y', &
                                                              'phix', 'phiy']
@@ -234,7 +236,10 @@ contains
     integer :: i, k, n, most
 
     if (.not. allocated(record%point(1)%mode)) return
-    most = most_modes
+    most = 1
+    do k = 1, points
+      if (allocated(record%point(k)%mode)) most = max(most, size(record%point(k)%mode, 2))
+    end do
     if (.not. sweeps) most = size(record%point(1)%mode, 2)
     do i = 1, mode_numbers
       allocate (values(most, points), source=ieee_value(1.0_wp, ieee_quiet_nan))

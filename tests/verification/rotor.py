@@ -4,6 +4,7 @@
 import json
 import math
 import pathlib
+import sys
 import tempfile
 
 import h5py
@@ -245,9 +246,50 @@ def check_unstable_foil(checks, folder):
                     "film or foil move by themselves" in answer.log and answer["growth_rate"] < 0.0)
 
 
+def compressor(foil_mass):
+    """Groups of a lightly loaded bearing of three preloaded pads on beams, whose top foils touch no bump in places."""
+    foil = {"youngs_modulus": 207.0e9, "poissons_ratio": 0.29, "density": 8280.0, "fixed_edge": "leading"}
+    return {"scene": {"analysis": "linear_dynamics"},
+            "operation": {"speed_rpm": 14000.0, "load": (-4.41, 0.0)},
+            "model": {"foil": "beam"},
+            "bearing": {"radius": 12.5e-3, "length": 25.0e-3, "clearance": 35.0e-6},
+            "pads": {"count": 3, "arc": 2.0, "first_leading_edge": 0.0, "preload": 0.3},
+            "gas": {"viscosity_law": "sutherland", "temperature": 423.15, "ambient_pressure": 1.5e5},
+            "top_foil": {"thickness": 0.1e-3, **foil},
+            "bump_foil": {"thickness": 0.08e-3, "half_length": 1.3e-3, "height": 0.4e-3, "pitch": 3.4e-3, "bumps": 7,
+                          "strips": 3, "cut_width": 0.5e-3, **foil},
+            "contact": {"friction_top": 0.2, "friction_sleeve": 0.2},
+            "mesh": {"axial_elements": 8},
+            "dynamics": {"frequency_ratios": (0.5,), "foil_mass": foil_mass},
+            "rotor": {"mass": 0.45},
+            "sweep": {"parameter": "speed_rpm", "values": (14000.0, 18000.0)}}
+
+
+def check_foil_mass(checks, folder):
+    """A mode of the foil next to the rotor's is not taken for it: growth and onset are those without the foil's mass."""
+    with_mass = solve(folder, "mass_on", compressor("on"), options=())
+    without = solve(folder, "mass_off", compressor("off"), options=())
+    checks.below("foil mass: onset as without it", with_mass["onset_speed_rpm"]/without["onset_speed_rpm"] - 1.0, 2.0e-3)
+    with h5py.File(f"{with_mass.stem}.h5", "r") as file, h5py.File(f"{without.stem}.h5", "r") as other:
+        growth, largest = (file[f"history/{name}"][...] for name in ("growth_rate", "largest_growth_rate"))
+        checks.below("foil mass: growth over the speed as without it",
+                     (growth[0] - other["history/growth_rate"][0])/(14000.0*math.pi/30.0), 5.0e-4)
+        modes = {name: file[f"dynamics/mode_{name}"][0] for name in ("growth_rate", "frequency", "shaft_share", "foil_share")}
+    checks.that("the least damped mode of any kind is told beside it", largest[0] > growth[0] and
+                largest[0] == modes["growth_rate"][0])
+    checks.that("it is the foil's", modes["foil_share"][0] > 0.9 and modes["shaft_share"][0] < 1.0e-3 and
+                "a mode of the foil" in with_mass.log)
+    checks.that("the rotor's is the rotor's", modes["shaft_share"][modes["growth_rate"] == growth[0]][0] > 0.5)
+    checks.below("it is next to the foil's alone, of 135.4 Hz", modes["frequency"][0]/(2.0*math.pi*135.4) - 1.0, 0.02)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
+        check_foil_mass(checks, folder)
+        if "--long" not in sys.argv:
+            checks.close()
+            return
         check_growth(checks, folder)
         check_onset(checks, folder)
         check_ring(checks, folder)

@@ -4,7 +4,7 @@
 !> Against the same equations in real arithmetic, of twice the order, it takes half the operations and half the
 !> memory. The pattern is analysed once. Each solution is put into the equations again.
 module gfb_complex_factors
-  use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_double_complex, c_ptr, c_null_ptr, c_loc, c_associated
+  use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_double, c_double_complex, c_ptr, c_null_ptr, c_loc, c_associated
   use petscmat
   use gfb_kinds, only: wp
   use gfb_text, only: text
@@ -14,7 +14,8 @@ module gfb_complex_factors
   use gfb_direct_solver, only: larger_workspace
   implicit none (type)
   private
-  public :: create_complex_factors, factor_complex, solve_complex, destroy_complex_factors, keep_entries
+  public :: create_complex_factors, factor_complex, solve_complex, log_determinant, destroy_complex_factors, &
+            keep_entries
 
   character(len=*), parameter :: prefix = '-dynamic_' !! of PETSc's options
   integer(c_int), parameter :: analyse = 1, factor = 2, solve = 3 !! jobs of MUMPS
@@ -62,6 +63,13 @@ module gfb_complex_factors
       integer(c_int) :: status
     end function gfb_mumps_run
 
+    subroutine gfb_mumps_determinant(one, part, exponent) bind(c)
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), value :: one
+      real(c_double), intent(out) :: part(2)
+      integer(c_int), intent(out) :: exponent
+    end subroutine gfb_mumps_determinant
+
     subroutine gfb_mumps_destroy(one) bind(c)
       import :: c_ptr
       type(c_ptr), value :: one
@@ -104,8 +112,9 @@ contains
   subroutine set_controls(mumps)
     type(c_ptr), intent(in) :: mumps
     !> Pairs: the number of a control, and its value. No other permutation of columns, no scaling (the equations are
-    !> scaled), no parallel analysis, which needs other libraries.
-    integer(c_int), parameter :: default(2, 5) = reshape(int([6, 0, 7, 5, 8, 0, int(room_control), first_room, 28, 1], c_int), [2, 5])
+    !> scaled), no parallel analysis, which needs other libraries; the determinant costs nothing.
+    integer(c_int), parameter :: default(2, 6) = &
+      reshape(int([6, 0, 7, 5, 8, 0, int(room_control), first_room, 28, 1, 33, 1], c_int), [2, 6])
     PetscInt :: value
     PetscBool :: given
     PetscErrorCode :: ierr
@@ -237,6 +246,25 @@ contains
       call put_values(aimag(answer(before + 1:before + size(right))), im)
     end associate
   end subroutine solve_complex
+
+  !> Logarithm of the determinant of the matrix that was factored last, up to multiples of 2 pi i.
+  function log_determinant(factors) result(logarithm)
+    type(complex_factors_type), intent(in) :: factors !! made before
+    complex(wp) :: logarithm
+    real(c_double) :: part(2)
+    real(wp) :: both(2)
+    integer(c_int) :: exponent
+    PetscErrorCode :: ierr
+
+    both = 0.0_wp
+    if (this_rank() == 0) then
+      call gfb_mumps_determinant(factors%mumps, part, exponent)
+      logarithm = log(cmplx(part(1), part(2), wp)) + real(exponent, wp)*log(2.0_wp)
+      both = [real(logarithm, wp), aimag(logarithm)]
+    end if
+    call MPI_Bcast(both, 2, MPI_DOUBLE_PRECISION, 0, PETSC_COMM_WORLD, ierr)
+    logarithm = cmplx(both(1), both(2), wp)
+  end function log_determinant
 
   !> One solution, whole on every rank.
   subroutine solve_once(factors, right, answer, solved)

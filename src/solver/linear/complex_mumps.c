@@ -46,6 +46,14 @@ int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, ZMUMPS_COMPLEX *right)
   return one->infog[0];
 }
 
+/* Determinant of the matrix that was factored last, (part[0] + i part[1]) 2^exponent, on the first rank. */
+void gfb_mumps_determinant(const ZMUMPS_STRUC_C *one, double *part, int *exponent)
+{
+  part[0] = one->rinfog[11];
+  part[1] = one->rinfog[12];
+  *exponent = one->infog[33];
+}
+
 void gfb_mumps_destroy(ZMUMPS_STRUC_C *one)
 {
   one->job = -2;

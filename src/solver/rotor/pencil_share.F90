@@ -13,7 +13,7 @@ module gfb_pencil_share
   use gfb_rotor, only: planar
   implicit none (type)
   private
-  public :: entries_of, solve_film, add_momentum, put_rates, take_film, put_film, mean_square
+  public :: entries_of, solve_film, add_momentum, put_rates, take_film, put_film, weigh_foil, energies_of, energy_unit, start_film
 
   !> A u of its own.
   type, public :: share_type
@@ -24,6 +24,8 @@ module gfb_pencil_share
     logical :: has_mass = .false.       !! rates of u over the shift stand behind it
     type(tVec) :: one, other, work      !! room for vectors of u
     type(tMat) :: steady, mass          !! J; M where there is one
+    logical :: has_foil = .false.       !! with unknowns of displacements
+    type(tVec) :: foil                  !! on these what makes a product of scaled vectors one in SI, 0 on all others
     type(tVec) :: column(planar)        !! u that it takes to hold the rotor's coordinates still
     type(tMat) :: rate                  !! E
   end type share_type
@@ -114,11 +116,14 @@ contains
     PetscCallA(GFB_VecRestoreArray(x, values, ierr))
   end subroutine put_film
 
-  !> Mean of the squared pressure of a part's films over their area, over ambient pressure.
-  function mean_square(share, x) result(mean)
+  !> What a motion stores of energy, over p_a C A / 2: of the film, that of compressed gas,
+  !> \( \overline{(p'/p_a)^2} \); of the foil, strain and, over the square of the rate, kinetic energy,
+  !> \( u^T K u \) and \( u^T M u \) [s2] over p_a C A.
+  function energies_of(share, x) result(energies)
     class(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: x !! the vector
-    real(wp) :: mean, sums(2), value(share%bearing%local_size())
+    real(wp) :: energies(3), sums(2), unit, value(share%bearing%local_size()) !! [1], [1], [s2]
+    PetscErrorCode :: ierr
     integer :: i
 
     call take_film(share, x, share%one)
@@ -126,7 +131,95 @@ contains
     associate (pad => share%bearing%pad)
       sums = sum_over_ranks(sum(reshape([(square_integrals(pad(i)%film, value(pad(i)%first + 1:pad(i)%last)), i=1, size(pad))], &
                                         [2, size(pad)]), 2))
-      mean = sums(1)/sums(2)/pad(1)%film%ambient_pressure**2
+      energies = [sums(1)/sums(2)/pad(1)%film%ambient_pressure**2, 0.0_wp, 0.0_wp]
+      if (.not. share%has_foil) return
+      unit = pad(1)%film%ambient_pressure*pad(1)%film%clearance*sums(2)
+      call keep_foil(share, share%one)
+      energies(2) = product_by(share%steady)/unit
+      if (share%has_mass) energies(3) = product_by(share%mass)/unit
     end associate
-  end function mean_square
+
+  contains
+
+    !> Product of the foil's displacements with their forces by a matrix.
+    function product_by(matrix) result(energy)
+      Mat, intent(in) :: matrix
+      real(wp) :: energy
+
+      PetscCallA(MatMult(matrix, share%one, share%other, ierr))
+      PetscCallA(VecPointwiseMult(share%other, share%other, share%foil, ierr))
+      PetscCallA(VecDot(share%one, share%other, energy, ierr))
+    end function product_by
+  end function energies_of
+
+  !> p_a C A of the whole bearing [J].
+  function energy_unit(share) result(unit)
+    class(share_type), intent(in) :: share !! film and foil of one bearing
+    real(wp) :: unit !! [J]
+    real(wp) :: area(1)
+    integer :: i, k
+
+    area = 0.0_wp
+    do i = 1, size(share%bearing%pad)
+      associate (film => share%bearing%pad(i)%film)
+        area = area + film%copies*sum([(sum(film%geometry(k)%area), k=1, size(film%geometry))])
+      end associate
+    end do
+    area = sum_over_ranks(area)
+    associate (film => share%bearing%pad(1)%film)
+      unit = film%ambient_pressure*film%clearance*area(1)
+    end associate
+  end function energy_unit
+
+  !> Values without any order in a vector, the same in each run: multiples of the golden ratio, less their integers. No
+  !> mode lacks them, as one of a part of the foil that touches nothing lacks pressures.
+  subroutine start_film(share, x)
+    class(share_type), intent(in) :: share !! film and foil of one bearing
+    Vec, intent(in) :: x !! the vector
+    real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    integer :: i
+
+    PetscCallA(GFB_VecGetArray(share%one, values, ierr))
+    values = [(modulo(real(i, wp)*golden, 1.0_wp) - 0.5_wp, i=1, size(values))]
+    PetscCallA(GFB_VecRestoreArray(share%one, values, ierr))
+    call keep_entries(share%one, share%kept)
+    call put_film(share, share%one, x)
+  end subroutine start_film
+
+  !> Leaves a bearing's motion of the foil alone.
+  subroutine keep_foil(share, film)
+    class(share_type), intent(in) :: share
+    Vec, intent(in) :: film
+    PetscScalar, pointer :: values(:), weight(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArrayRead(share%foil, weight, ierr))
+    PetscCallA(GFB_VecGetArray(film, values, ierr))
+    where (weight <= 0.0_wp) values = 0.0_wp
+    PetscCallA(GFB_VecRestoreArray(film, values, ierr))
+    PetscCallA(GFB_VecRestoreArrayRead(share%foil, weight, ierr))
+  end subroutine keep_foil
+
+  !> Where the foil's displacements stand, with the sizes of unknowns and equations.
+  subroutine weigh_foil(share)
+    class(share_type), intent(inout) :: share !! film and foil of one bearing
+    real(wp) :: value(share%bearing%local_size())
+    logical :: of_foil(size(value))
+    PetscErrorCode :: ierr
+    integer :: i
+
+    share%has_foil = share%bearing%is_meshed()
+    if (.not. share%has_foil) return
+    of_foil = .false.
+    do i = 1, size(share%bearing%pad)
+      associate (pad => share%bearing%pad(i))
+        of_foil(pad%first + pad%foil%first + 1:pad%last) = .true.
+      end associate
+    end do
+    value = merge(share%bearing%unknown_scale*share%bearing%equation_scale(share%bearing%point), 0.0_wp, of_foil)
+    PetscCallA(VecDuplicate(share%bearing%state, share%foil, ierr))
+    call share%bearing%exchange%put(value, share%foil)
+  end subroutine weigh_foil
 end module gfb_pencil_share

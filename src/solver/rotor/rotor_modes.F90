@@ -1,46 +1,58 @@
 #include "gfb_petsc.h"
 !> How a rigid rotor moves on its bearings: frequency and growth of its modes.
 !>
-!> A mode is a zero of the determinant of \( D(\lambda) \) (`gfb_rotor`). Those next to half the speed come
-!> from the eigenvalues of film, foil and rotor together; the one that decides is solved for once more with
-!> \( D \), which knows nothing of the eigenvalues' method. Dampers beside springs that have no unknowns of
-!> their own, and Maxwell arms, are let grow from nothing, and the modes are followed. A loss factor is defined for steady
-!> vibrations alone, so with one there are no growth rates.
+!> A mode is a zero of the determinant of film, foil and rotor (`gfb_rotor_determinant`). With a shift \( \sigma \) of half
+!> the speed, all modes in the circle
+!>
+!> $$ |\lambda - \sigma| \le r, \qquad r \ge \sqrt{1 + 1.5^2} \, \Omega $$
+!>
+!> come from the eigenvalues next to the shift, and are counted along the circle by the determinant, which knows nothing of
+!> the eigenvalues' method: where one is missing more eigenvalues are looked for. In the circle are all modes that lose less
+!> than half the speed, up to 1.5 times the speed. The mode of the rotor that decides is solved for once more with the
+!> determinant. Dampers beside springs that have no unknowns of their own, and Maxwell arms, are let grow from nothing,
+!> and the rotor's modes are followed. A loss factor is defined for steady vibrations alone, so with one there are no
+!> growth rates.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_text, only: text
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
-  use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
-  use gfb_rotor_pencil, only: pencil_mode_type, find_pencil_modes, has_pencil
+  use gfb_dynamic_response, only: dynamic_response_type, response_failure
+  use gfb_rotor, only: rotor_type, cylindrical, kinds_of, whirl_sense
+  use gfb_mode_count, only: mode_count_type
+  use gfb_rotor_determinant, only: count_missing, solve_mode
+  use gfb_rotor_pencil, only: pencil_mode_type, find_pencil_modes, has_pencil, skip_inner_modes
   use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
-  public :: find_rotor_modes, solve_mode, is_of_shaft
+  public :: find_rotor_modes, find_all_modes, is_of_shaft, is_of_foil
 
   real(wp), parameter :: shift = 0.5_wp        !! next to which modes are looked for, over the speed [1]
   real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is told, over the speed [1]
+  real(wp), parameter :: least_radius = sqrt(1.0_wp + highest**2) !! about the shift: rates of -0.5 + 1.5 i, over the speed [1]
+  real(wp), parameter :: room = 1.3_wp         !! of the largest circle over the least [1]
   !> Of the rotor in a mode of its own: those of foils have some thousandths, the rotor's a tenth and more [1].
   real(wp), parameter :: least_share = 0.02_wp
-  real(wp), parameter :: first_move = 1.0e-5_wp  !! of the secant method, over the rate [1]
-  real(wp), parameter :: tolerance = 1.0e-11_wp  !! of a rate [1]
-  real(wp), parameter :: farthest = 0.05_wp    !! from its start is another mode, over the rate [1]
   real(wp), parameter :: most_damped = 0.5_wp  !! damping ratio of a mode that is followed [1]
-  integer, parameter :: most_trials = 30       !! of the secant method
+  !> Growth over the modulus that round-off makes of none: of foils that touch nothing [1].
+  real(wp), parameter :: rounded = 1.0e-8_wp
   integer, parameter :: damper_steps = 8       !! in which dampers are let grow
+  integer, parameter :: first_wanted = 12      !! eigenvalues next to the shift
+  integer, parameter :: most_wanted = 192      !! where more are needed their number is doubled up to this
 
   !> A mode \( e^{\lambda t} \).
   type, public :: rotor_mode_type
     integer :: kind = cylindrical
-    complex(wp) :: rate = 0.0_wp  !! growth + i frequency, not negative [1/s]
-    real(wp) :: share = 0.0_wp    !! of the rotor, against the film's pressure [1]
-    real(wp) :: sense = 0.0_wp    !! 1: a circle with the speed, -1: against it [1]
+    complex(wp) :: rate = 0.0_wp    !! growth + i frequency, not negative [1/s]
+    real(wp) :: share = 0.0_wp      !! of the rotor, against the film and the foil [1]
+    real(wp) :: sense = 0.0_wp      !! 1: a circle with the speed, -1: against it [1]
+    real(wp) :: foil_share = 0.0_wp !! of the foil's energy, against rotor and film [1]
   end type rotor_mode_type
 
   !> What was found.
   type, public :: rotor_answer_type
     logical :: defined = .true.  !! growth rates exist: no loss factor
-    logical :: found = .false.   !! all matrices could be factorized, and the mode that decides is sure
+    logical :: found = .false.   !! all modes in the circle, and the one that decides is sure
+    character(len=:), allocatable :: reason !! why not
     integer :: decides = 0       !! number of the least damped mode of the rotor; 0: there is none
     logical :: foil_grows = .false. !! a mode in which the rotor has no share grows
     type(rotor_mode_type), allocatable :: mode(:) !! growth falling
@@ -56,7 +68,6 @@ contains
     type(rotor_answer_type), intent(out) :: answer !! what was found
     type(vibration_type) :: whole ! with dampers and arms of their full size
     logical :: grows
-    integer :: i
 
     allocate (answer%mode(0))
     answer%defined = .not. response%equations%vibration%loss_factor > 0.0_wp
@@ -69,10 +80,9 @@ contains
     response%equations%vibration = whole
     if (.not. answer%found) return
     call sort_modes(answer%mode)
-    answer%foil_grows = any(.not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > 0.0_wp)
+    answer%foil_grows = any(.not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > rounded*abs(answer%mode%rate))
     answer%decides = findloc(is_of_shaft(answer%mode), .true., 1)
-    i = answer%decides
-    if (i > 0) call solve_mode(bearing, response, rotor, answer%mode(i)%kind, answer%mode(i)%rate, answer%found)
+    if (answer%decides > 0) call sharpen(bearing, response, rotor, answer)
   end subroutine find_rotor_modes
 
   !> Whether the rotor has a share in a mode.
@@ -81,6 +91,13 @@ contains
     logical :: is_of_shaft
     is_of_shaft = mode%share >= least_share
   end function is_of_shaft
+
+  !> Whether a mode is one of the foil: it has more of the energy than the film, and the rotor has no share.
+  elemental function is_of_foil(mode)
+    type(rotor_mode_type), intent(in) :: mode !! that was found
+    logical :: is_of_foil
+    is_of_foil = mode%foil_share >= 0.5_wp .and. .not. is_of_shaft(mode)
+  end function is_of_foil
 
   !> Modes of all kinds from the eigenvalues next to half the speed.
   subroutine collect_modes(bearing, response, rotor, answer)
@@ -94,14 +111,96 @@ contains
 
     kinds = kinds_of(rotor)
     do k = 1, size(kinds)
-      call find_pencil_modes(bearing, response, rotor, kinds(k), shift*bearing%point%speed, found, answer%found)
+      call find_all_modes(bearing, response, rotor, kinds(k), found, answer%reason)
+      answer%found = .not. allocated(answer%reason)
       if (.not. answer%found) return
       do i = 1, size(found)
         if (aimag(found(i)%rate) > highest*bearing%point%speed) cycle
-        answer%mode = [answer%mode, rotor_mode_type(kinds(k), found(i)%rate, found(i)%share, whirl_sense(found(i)%motion))]
+        answer%mode = [answer%mode, rotor_mode_type(kinds(k), found(i)%rate, found(i)%share, &
+                                                    whirl_sense(found(i)%motion), found(i)%foil_share)]
       end do
     end do
   end subroutine collect_modes
+
+  !> All modes of a kind in a circle about half the speed, by as many eigenvalues as it takes; a foil's modes inside
+  !> condensed pieces are left out.
+  subroutine find_all_modes(bearing, response, rotor, kind, modes, reason)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it, with a pencil
+    type(rotor_type), intent(in) :: rotor !! on the bearing
+    integer, intent(in) :: kind !! `cylindrical` or `conical`
+    type(pencil_mode_type), allocatable, intent(out) :: modes(:) !! in the circle
+    character(len=:), allocatable, intent(out) :: reason !! why they were not found
+    type(mode_count_type) :: count
+    complex(wp), allocatable :: known(:)
+    real(wp) :: reach
+    integer :: wanted, missing
+    logical :: found
+
+    wanted = first_wanted
+    do
+      call find_pencil_modes(bearing, response, rotor, kind, shift*bearing%point%speed, wanted, modes, reach, found)
+      if (.not. found) exit
+      if (reach >= room*least_radius*bearing%point%speed) then
+        known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
+        count = mode_count_type(shift*bearing%point%speed, circle_between(modes, bearing%point%speed), known)
+        call skip_inner_modes(response, .true.)
+        call count_missing(bearing, response, rotor, kind, count, missing, found)
+        call skip_inner_modes(response, .false.)
+        if (count%failed) reason = 'the circle along which modes are counted runs through one'
+        if (.not. found) exit
+        modes = pack(modes, abs(modes%rate - count%centre) < count%radius)
+        if (missing == 0) return
+        reason = text(missing)//' more rates than the '//text(size(modes))//' modes found next to half the speed were counted'
+      else
+        reason = 'the iteration for eigenvalues has found '//text(size(modes))//' modes next to half the speed and none beyond '// &
+                 text(reach/bearing%point%speed, 3)//' of the speed'
+      end if
+      if (wanted >= most_wanted) return
+      wanted = 2*wanted
+      deallocate (reason)
+    end do
+    if (.not. allocated(reason)) reason = 'a matrix: '//response_failure(response)
+  end subroutine find_all_modes
+
+  !> Radius of a circle about the shift that holds all rates that are asked for, in the widest gap between the modes a
+  !> little beyond.
+  pure function circle_between(modes, speed) result(radius)
+    type(pencil_mode_type), intent(in) :: modes(:) !! nearest first
+    real(wp), intent(in) :: speed !! of the shaft [rad/s]
+    real(wp) :: radius !! [1/s]
+    real(wp), allocatable :: ends(:)
+    integer :: i
+
+    allocate (ends(1), source=least_radius*speed)
+    do i = 1, size(modes)
+      associate (distance => abs(modes(i)%rate - shift*speed))
+        if (distance > ends(1) .and. distance < room*ends(1)) ends = [ends, distance]
+      end associate
+    end do
+    ends = [ends, room*ends(1)]
+    i = maxloc(ends(2:) - ends(:size(ends) - 1), 1)
+    radius = 0.5_wp*(ends(i) + ends(i + 1))
+  end function circle_between
+
+  !> Solves for the mode that decides with the determinant, and with the modes inside condensed pieces.
+  subroutine sharpen(bearing, response, rotor, answer)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(rotor_type), intent(in) :: rotor
+    type(rotor_answer_type), intent(inout) :: answer
+    logical :: other(size(answer%mode))
+
+    associate (mode => answer%mode(answer%decides))
+      other = answer%mode%kind == mode%kind
+      other(answer%decides) = .false.
+      call solve_mode(bearing, response, rotor, mode%kind, mode%rate, answer%found, pack(answer%mode%rate, other))
+      if (.not. answer%found) then
+        answer%reason = 'the determinant has no zero next to the rotor''s mode of '//text(aimag(mode%rate), 5)// &
+                        ' rad/s that the eigenvalues have'
+      end if
+    end associate
+  end subroutine sharpen
 
   !> Follows the rotor's modes that vibrate while dampers grow to their full size; all others are left out. A
   !> mode that is lost on the way is missed where it was the least damped one.
@@ -125,6 +224,7 @@ contains
       end do
     end do
     answer%found = all(kept(:1))
+    if (.not. answer%found) answer%reason = 'the least damped mode was lost while dampers grew to their size'
     answer%mode = pack(answer%mode, kept)
   end subroutine let_dampers_grow
 
@@ -137,54 +237,6 @@ contains
     vibration%damping_time = whole%damping_time*share
     vibration%arm%stiffness = whole%arm%stiffness*share
   end subroutine put_dampers
-
-  !> Solves det D = 0 next to a rate by the secant method.
-  subroutine solve_mode(bearing, response, rotor, kind, rate, found)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the mode
-    complex(wp), intent(inout) :: rate !! start, and the mode's where it is found [1/s]
-    logical, intent(out) :: found !! it converged next to the start
-    complex(wp) :: before, here, at_before, at_here, move
-    integer :: i
-
-    before = rate
-    here = rate*(1.0_wp + first_move)
-    call evaluate(bearing, response, rotor, kind, before, at_before, found)
-    if (.not. found) return
-    do i = 1, most_trials
-      call evaluate(bearing, response, rotor, kind, here, at_here, found)
-      if (.not. found) return
-      if (abs(at_here - at_before) <= 0.0_wp) exit
-      move = -at_here*(here - before)/(at_here - at_before)
-      before = here
-      at_before = at_here
-      here = here + move
-      found = abs(here - rate) <= farthest*abs(rate)
-      if (.not. found) return
-      if (abs(move) <= tolerance*abs(here)) then
-        rate = here
-        return
-      end if
-    end do
-    found = .false.
-  end subroutine solve_mode
-
-  !> det D at a rate.
-  subroutine evaluate(bearing, response, rotor, kind, rate, value, found)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
-    type(rotor_type), intent(in) :: rotor
-    integer, intent(in) :: kind
-    complex(wp), intent(in) :: rate   !! [1/s]
-    complex(wp), intent(out) :: value !! [N^2/m^2], [N^2 m^2]
-    logical, intent(out) :: found
-    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
-
-    call find_coefficients(bearing, response, rate, coefficient, found, only_translations=kind == cylindrical)
-    value = determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed))
-  end subroutine evaluate
 
   !> Puts modes in the order of falling growth.
   pure subroutine sort_modes(mode)

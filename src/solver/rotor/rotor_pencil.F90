@@ -24,24 +24,26 @@ module gfb_rotor_pencil
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
-  use gfb_pencil_share, only: share_type, entries_of, solve_film, add_momentum, put_rates, take_film, put_film, mean_square
+  use gfb_pencil_share, only: share_type, entries_of, solve_film, add_momentum, put_rates, take_film, put_film, weigh_foil, energies_of, energy_unit, start_film
   use gfb_rotor_entries, only: rotor_scale_type, take_rotor, put_rotor
   use gfb_rotor, only: rotor_type, planar, motion_of, inertia_of, gyration_of, dynamic_matrix, inverse, cylindrical
   implicit none (type)
   private
-  public :: find_pencil_modes, has_pencil
+  public :: find_pencil_modes, has_pencil, skip_inner_modes
 
   character(len=*), parameter :: prefix = 'rotor_' !! of PETSc's options
-  integer, parameter :: wanted = 12           !! eigenvalues next to the shift
   integer, parameter :: krylov_room = 36      !! vectors kept beyond them
   integer, parameter :: most_restarts = 50    !! of the iteration that finds them
   real(wp), parameter :: tolerance = 1.0e-10_wp !! of the eigenvalues, relative
+
+  real(wp), parameter :: infinite = 1.0e-9_wp !! a smaller eigenvalue of the product times the shift is nothing [1]
 
   !> An eigenvalue and what moves with it.
   type, public :: pencil_mode_type
     complex(wp) :: rate = 0.0_wp        !! lambda, its imaginary part not negative [1/s]
     complex(wp) :: motion(planar) = 0.0_wp !! of the rotor, of any size
     real(wp) :: share = 0.0_wp          !! of the rotor in the mode, 0 .. 1 [1]
+    real(wp) :: foil_share = 0.0_wp     !! of the foil, 0 .. 1 [1]
   end type pencil_mode_type
 
   !> A share with the response that it is of.
@@ -73,18 +75,21 @@ contains
   end function has_pencil
 
   !> Modes next to a real shift, nearest first, one of each complex pair.
-  subroutine find_pencil_modes(bearing, response, rotor, kind, shift, modes, found)
+  subroutine find_pencil_modes(bearing, response, rotor, kind, shift, wanted, modes, reach, found)
     type(bearing_system_type), target, intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), target, intent(inout) :: response !! of it, with a pencil
     type(rotor_type), intent(in) :: rotor !! on the bearing
     integer, intent(in) :: kind !! `cylindrical` or `conical`
     real(wp), intent(in) :: shift !! sigma, no eigenvalue [1/s]
+    integer, intent(in) :: wanted !! modes, each of a complex pair
     type(pencil_mode_type), allocatable, intent(out) :: modes(:) !! none where the iteration finds none
+    real(wp), intent(out) :: reach !! distance of the last mode from the shift; huge where there are no more [1/s]
     logical, intent(out) :: found !! the matrix could be factorized
     type(pencil_type), target :: pencil
     complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
 
     allocate (modes(0))
+    reach = 0.0_wp
     call skip_inner_modes(response, .true.)
     call find_coefficients(bearing, response, cmplx(shift, 0.0_wp, wp), coefficient, found, &
                            only_translations=kind == cylindrical)
@@ -108,14 +113,14 @@ contains
         call create_share(pencil, bearing, response, 2, pencil%share(2))
       end if
     end if
-    call solve_pencil(pencil, modes)
+    call solve_pencil(pencil, wanted, modes, reach)
     call destroy_pencil(pencil)
   end subroutine find_pencil_modes
 
   !> Leaves modes inside condensed pieces of the foils out of the matrix that is combined next, or not.
   subroutine skip_inner_modes(response, skips)
-    type(dynamic_response_type), intent(inout) :: response
-    logical, intent(in) :: skips
+    type(dynamic_response_type), intent(inout) :: response !! of a bearing
+    logical, intent(in) :: skips !! they are left out
 
     response%equations%inertia%skips_modes = skips
     if (allocated(response%opposite)) response%opposite%equations%inertia%skips_modes = skips
@@ -145,6 +150,7 @@ contains
     share%has_mass = response%equations%inertia%present
     if (share%has_mass) share%mass = response%equations%inertia%mass
     PetscCallA(VecDuplicate(bearing%state, share%work, ierr))
+    call weigh_foil(share)
     PetscCallA(MatDuplicate(response%equations%squeeze, MAT_COPY_VALUES, share%rate, ierr))
     if (dissipates(response%equations)) then
       PetscCallA(MatAXPY(share%rate, response%equations%vibration%damping_time, response%equations%springs, SAME_NONZERO_PATTERN, ierr))
@@ -165,9 +171,11 @@ contains
   end subroutine create_share
 
   !> Krylov-Schur's method for the eigenvalues of the product with the largest modulus.
-  subroutine solve_pencil(pencil, modes)
+  subroutine solve_pencil(pencil, wanted, modes, reach)
     type(pencil_type), target, intent(inout) :: pencil
+    integer, intent(in) :: wanted
     type(pencil_mode_type), allocatable, intent(out) :: modes(:)
+    real(wp), intent(out) :: reach !! [1/s]
     Mat :: operator
     EPS :: solver
     Vec :: real_part, imaginary_part, left
@@ -190,16 +198,26 @@ contains
     PetscCallA(EPSSetTolerances(solver, tolerance, int(most_restarts, pint), ierr))
     PetscCallA(EPSSetDimensions(solver, min(int(wanted, pint), all), min(int(wanted + krylov_room, pint), all), PETSC_DEFAULT_INTEGER, ierr))
     PetscCallA(EPSSetFromOptions(solver, ierr))
-    ! A start of the rotor alone, so that a run does not depend on random numbers.
+    ! A start without any symmetry, which no mode may lack, and without random numbers, on which a run would depend.
     PetscCallA(VecSet(left, 0.0_wp, ierr))
+    do i = 1, size(pencil%share)
+      call start_film(pencil%share(i), left)
+    end do
     call put_rotor(pencil%scale, pencil%scale%length*[1.0_wp, 0.5_wp], pencil%scale%length*pencil%scale%clock*[0.25_wp, 0.5_wp], left)
     PetscCallA(EPSSetInitialSpace(solver, 1_pint, [left], ierr))
     PetscCallA(EPSSolve(solver, ierr))
     PetscCallA(EPSGetConverged(solver, found, ierr))
     allocate (modes(0))
+    reach = 0.0_wp
+    if (found >= all) reach = huge(1.0_wp)
     do i = 0, found - 1
       PetscCallA(EPSGetEigenpair(solver, i, re, im, real_part, imaginary_part, ierr))
-      if (im < 0.0_wp .or. hypot(re, im) <= sqrt(tiny(1.0_wp))) cycle
+      if (hypot(re, im) <= infinite/pencil%shift) then
+        reach = huge(1.0_wp)
+        exit
+      end if
+      reach = max(reach, 1.0_wp/hypot(re, im))
+      if (im < 0.0_wp) cycle
       one%rate = pencil%shift - 1.0_wp/cmplx(re, im, wp)
       call weigh(pencil, real_part, imaginary_part, one)
       modes = [modes, one]
@@ -257,13 +275,15 @@ contains
     ierr = 0
   end subroutine apply_pencil
 
-  !> The rotor's motion in a mode, and its share: its displacement in the bearing over the clearance, squared,
-  !> against the mean square of the pressure over ambient pressure.
+  !> The rotor's motion in a mode, and what share it has. Its displacement in the bearing over the clearance, squared,
+  !> stands for an energy \( p_a C A / 2 \) of a film that is trapped; beside it are what the film stores by its pressures
+  !> and the foil's strain and kinetic energy (`energies_of`). That is multiplied by the rotor's part of the kinetic energy
+  !> of rotor and foil, so that a foil that takes a heavy rotor along by next to nothing is not the rotor.
   subroutine weigh(pencil, real_part, imaginary_part, mode)
     type(pencil_type), intent(in) :: pencil
     Vec, intent(in) :: real_part, imaginary_part
     type(pencil_mode_type), intent(inout) :: mode
-    real(wp) :: re(planar), im(planar), v(planar), of_rotor, of_film
+    real(wp) :: re(planar), im(planar), v(planar), of_rotor, energies(3), of_foil, mass
     integer :: i
 
     call take_rotor(pencil%scale, real_part, re, v)
@@ -271,12 +291,18 @@ contains
     if (aimag(mode%rate) <= 0.0_wp) im = 0.0_wp ! then not written
     mode%motion = cmplx(re, im, wp)/pencil%scale%length
     of_rotor = sum(abs(mode%motion)**2)
-    of_film = 0.0_wp
+    energies = 0.0_wp
     do i = 1, size(pencil%share)
-      of_film = of_film + mean_square(pencil%share(i), real_part)
-      if (aimag(mode%rate) > 0.0_wp) of_film = of_film + mean_square(pencil%share(i), imaginary_part)
+      energies = energies + energies_of(pencil%share(i), real_part)
+      if (aimag(mode%rate) > 0.0_wp) energies = energies + energies_of(pencil%share(i), imaginary_part)
     end do
-    mode%share = of_rotor/max(tiny(1.0_wp), of_rotor + of_film)
+    of_foil = energies(2) + energies(3)*abs(mode%rate)**2
+    mass = pencil%inertia*pencil%scale%length**2/energy_unit(pencil%share(1))
+    associate (all => max(tiny(1.0_wp), of_rotor + energies(1) + of_foil), &
+               moving => max(tiny(1.0_wp), mass*of_rotor + energies(3)))
+      mode%share = of_rotor/all*(mass*of_rotor/moving)
+      mode%foil_share = of_foil/all
+    end associate
   end subroutine weigh
 
   !> Frees what PETSc holds.
@@ -288,6 +314,9 @@ contains
     do i = 1, size(pencil%share)
       PetscCallA(MatDestroy(pencil%share(i)%rate, ierr))
       PetscCallA(VecDestroy(pencil%share(i)%work, ierr))
+      if (pencil%share(i)%has_foil) then
+        PetscCallA(VecDestroy(pencil%share(i)%foil, ierr))
+      end if
       do k = 1, planar
         PetscCallA(VecDestroy(pencil%share(i)%column(k), ierr))
       end do

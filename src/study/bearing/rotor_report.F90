@@ -7,7 +7,7 @@ module gfb_rotor_report
   use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_rotor, only: conical
-  use gfb_rotor_modes, only: rotor_answer_type, rotor_mode_type, is_of_shaft
+  use gfb_rotor_modes, only: rotor_answer_type, rotor_mode_type, is_of_shaft, is_of_foil
   use gfb_dynamics_record, only: mode_numbers
   implicit none (type, external)
   private
@@ -48,7 +48,7 @@ contains
     if (.not. answer%defined) then
       call log%line('rotor: no growth rates, for a loss factor is defined for steady vibrations alone; '//by_mass(known, mass))
     else if (.not. answer%found) then
-      call log%line('rotor: its modes were not found')
+      call log%line('rotor: its modes were not found: '//answer%reason)
     else
       if (.not. briefly) then
         call log%line('modes: frequency [rad/s] (over speed), growth [1/s], damping ratio, rotor''s share')
@@ -60,6 +60,7 @@ contains
       end if
       if (answer%decides > 0) call log%line('rotor: '//state_words(speed, answer%mode(answer%decides)))
       if (answer%decides == 0) call log%line('rotor: none of the modes found is the rotor''s')
+      if (answer%decides > 1) call log%line('less damped: '//other_words(speed, answer%mode(1)))
       if (answer%foil_grows) then
         call log%warning('film or foil move by themselves: a mode grows in which the rotor has no share, so this '// &
                          'equilibrium does not stay, and the rotor''s growth rate means nothing')
@@ -91,7 +92,7 @@ contains
     words = text(aimag(mode%rate), digits)//' ('//text(aimag(mode%rate)/speed, digits)//'), '// &
             text(real(mode%rate, wp), digits)//', '//text(damping_ratio(mode), digits)//', '//text(mode%share, 3)//', '
     if (.not. is_of_shaft(mode)) then
-      words = words//'film or foil'
+      words = words//trim(merge('foil', 'film', is_of_foil(mode)))
     else
       words = words//trim(merge('conical    ', 'cylindrical', mode%kind == conical))//sense_words(mode)
     end if
@@ -108,6 +109,16 @@ contains
     if (mode%sense > circular) words = ' forward'
     if (mode%sense < -circular) words = ' backward'
   end function sense_words
+
+  !> A mode of foil or film that is damped less than all of the rotor.
+  function other_words(speed, mode) result(words)
+    real(wp), intent(in) :: speed !! [rad/s]
+    type(rotor_mode_type), intent(in) :: mode
+    character(len=:), allocatable :: words
+
+    words = 'a mode of the '//trim(merge('foil', 'film', is_of_foil(mode)))//' at '//text(aimag(mode%rate)/speed, digits)// &
+            ' of the speed that changes as exp('//text(real(mode%rate, wp), digits)//' t)'
+  end function other_words
 
   !> What the mode that decides says.
   function state_words(speed, mode) result(words)
@@ -129,12 +140,17 @@ contains
     ratio = -real(mode%rate, wp)/abs(mode%rate)
   end function damping_ratio
 
-  !> Adds the least damped mode of the rotor to results, where there is one.
+  !> Adds the least damped mode of the rotor, and of any kind, to results, where there is one.
   subroutine add_rotor(answer, found)
     type(rotor_answer_type), intent(in) :: answer
     type(quantity_type), allocatable, intent(inout) :: found(:)
 
-    if (.not. answer%found .or. answer%decides == 0) return
+    if (.not. answer%found) return
+    if (size(answer%mode) > 0) then
+      call add_result(found, 'largest_growth_rate', real(answer%mode(1)%rate, wp))
+      call add_result(found, 'largest_growth_frequency', aimag(answer%mode(1)%rate))
+    end if
+    if (answer%decides == 0) return
     associate (mode => answer%mode(answer%decides))
       call add_result(found, 'growth_rate', real(mode%rate, wp))
       call add_result(found, 'whirl_frequency', aimag(mode%rate))
@@ -151,7 +167,8 @@ contains
     allocate (matrix(mode_numbers, merge(size(answer%mode), 0, answer%found)))
     do i = 1, size(matrix, 2)
       associate (mode => answer%mode(i))
-        matrix(:, i) = [aimag(mode%rate), real(mode%rate, wp), damping_ratio(mode), mode%share, real(mode%kind, wp), mode%sense]
+        matrix(:, i) = [aimag(mode%rate), real(mode%rate, wp), damping_ratio(mode), mode%share, real(mode%kind, wp), mode%sense, &
+                        mode%foil_share]
       end associate
     end do
   end function mode_matrix
