@@ -227,9 +227,11 @@ module gfb_result_table
     result_type('largest_growth_frequency', 'rad/s', number, bearing, &
       'circular frequency of that mode', 'the same: circular frequency of that mode'), &
     result_type('onset_speed_rpm', 'rpm', number, bearing, &
-      'speed at which growth_rate changes its sign, the first along the sweep', &
+      'speed at which growth_rate changes its sign, or critical_mass passes the rotor''s; the '// &
+      'first along the sweep', &
       'with `&rotor` in a sweep of `speed_rpm`: speed at which `growth_rate` changes its sign, '// &
-      'the first along the sweep; absent where it does not'), &
+      'with a loss factor at which the critical mass passes the rotor''s, the first along the '// &
+      'sweep; absent where it does not'), &
     result_type('load_capacity', 'N', number, bearing, &
       'load at which the smallest film has come down to the one asked for', &
       'with `analysis = ''load_capacity''`: load, in the direction of `load`, at which the '// &

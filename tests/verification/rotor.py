@@ -283,10 +283,28 @@ def check_foil_mass(checks, folder):
     checks.below("it is next to the foil's alone, of 135.4 Hz", modes["frequency"][0]/(2.0*math.pi*135.4) - 1.0, 0.02)
 
 
+def check_onset_with_losses(checks, folder):
+    """With a loss factor the onset is where the critical mass passes the rotor's."""
+    one = REFERENCE["onset"][1]
+    content = rotor_case(one, one["mass"], mesh=(32, 8))
+    content["dynamics"] = {"frequency_ratios": (0.5,), "loss_factor": 0.1}
+    content["operation"]["speed_rpm"] = 12000.0
+    content["sweep"] = {"parameter": "speed_rpm", "values": (12000.0, 14000.0)}
+    answer = solve(folder, "losses", content, options=())
+    onset = answer["onset_speed_rpm"]
+    checks.that("onset with a loss factor: found, and its way said", 12000.0 < onset < 14000.0 and
+                "the critical mass passes" in answer.log)
+    del content["sweep"]
+    content["operation"]["speed_rpm"] = onset
+    checks.below("critical mass at that speed is the rotor's",
+                 solve(folder, "losses", content)["critical_mass"]/one["mass"] - 1.0, 1.0e-5)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_foil_mass(checks, folder)
+        check_onset_with_losses(checks, folder)
         if "--long" not in sys.argv:
             checks.close()
             return

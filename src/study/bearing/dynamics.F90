@@ -28,7 +28,7 @@ module gfb_dynamics
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of
   implicit none (type, external)
   private
-  public :: find_dynamics, find_growth_rate, opposite_builder
+  public :: find_dynamics, find_instability, mass_excess, opposite_builder
 
   integer, parameter :: digits = 4       !! in tables of the log
   integer, parameter :: translations = 2 !! of the shaft's coordinates, the first ones
@@ -186,30 +186,49 @@ contains
     end do
   end function numbers_of
 
-  !> Growth of the rotor's least damped mode at an answer.
-  subroutine find_growth_rate(scene, bearing, newton, build, growth, found)
+  !> What is positive where the rotor is unstable: growth of its least damped mode at an answer, and with a loss factor,
+  !> which has no growth, the excess of its mass over the critical one.
+  subroutine find_instability(scene, bearing, newton, build, excess, found)
     type(scene_type), intent(in) :: scene !! with a rotor
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     procedure(opposite_builder) :: build !! of the bearing of tilts
-    real(wp), intent(out) :: growth !! [1/s]
-    logical, intent(out) :: found !! there is such a mode
+    real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
+    logical, intent(out) :: found !! there is such a mode, or all frequencies could be looked at
     type(dynamic_response_type) :: response
     type(rotor_answer_type) :: answer
+    type(whirl_type) :: whirl
     character(len=:), allocatable :: problem
 
-    growth = 0.0_wp
+    excess = 0.0_wp
     call start_response(scene, bearing, build, response, problem)
     found = .not. allocated(problem)
     if (.not. found) return
-    call find_rotor_modes(bearing, response, rotor_of(scene), answer)
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      call find_critical_mass(bearing, response, whirl)
+      found = whirl%searched
+      excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
+    else
+      call find_rotor_modes(bearing, response, rotor_of(scene), answer)
+      found = answer%found .and. answer%decides > 0
+      if (found) excess = real(answer%mode(answer%decides)%rate, wp)
+    end if
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements
     call destroy_response(response)
     call bearing%linearise(bearing%state)
-    found = answer%found .and. answer%decides > 0
-    if (found) growth = real(answer%mode(answer%decides)%rate, wp)
-  end subroutine find_growth_rate
+  end subroutine find_instability
+
+  !> The excess of a mass over the critical one, over the sum of both: -1 where no mass whirls, 1 where every one does.
+  pure function mass_excess(mass, critical_mass, whirls) result(excess)
+    real(wp), intent(in) :: mass !! of the rotor on this bearing, positive [kg]
+    real(wp), intent(in) :: critical_mass !! [kg]
+    logical, intent(in) :: whirls !! there is a critical mass
+    real(wp) :: excess !! [1]
+
+    excess = -1.0_wp
+    if (whirls) excess = (mass - critical_mass)/(mass + critical_mass)
+  end function mass_excess
 
   !> The scene's rotor.
   pure function rotor_of(scene) result(rotor)

@@ -14,7 +14,7 @@ module gfb_onset
   use gfb_operating_point, only: operating_point_type
   use gfb_case_file, only: history_row_type
   use gfb_last_answer, only: last_answer_type
-  use gfb_dynamics, only: find_growth_rate, opposite_builder
+  use gfb_dynamics, only: find_instability, mass_excess, opposite_builder
   implicit none (type, external)
   private
   public :: look_for_onset
@@ -25,7 +25,8 @@ module gfb_onset
 contains
 
   !> Finds the speed where the growth of the rotor's least damped mode changes its sign, where it does so
-  !> between the last two rows of the history. The bearing comes back to its present answer.
+  !> between the last two rows of the history; with a loss factor, which has no growth, where the critical mass passes
+  !> the rotor's. The bearing comes back to its present answer.
   !>
   !> Every trial has an equilibrium of its own, on the path from the present answer.
   subroutine look_for_onset(scene, log, path, history, bearing, newton, build, onset)
@@ -38,32 +39,69 @@ contains
     procedure(opposite_builder) :: build !! of the bearing of tilts
     real(wp), intent(inout) :: onset !! set where it is 0, and a change is found [rpm]
     type(last_answer_type) :: kept
-    real(wp) :: speed(2), growth(2)
-    logical :: known(2), found
+    type(root_bracket_type) :: bracket
+    real(wp) :: speed(2), excess(2)
+    logical :: known(4), found
 
     if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present) return
     if (onset > 0.0_wp .or. size(history) < 2) return
     associate (last => history(size(history) - 1:))
       call look_up(last(1), 'speed_rpm', speed(1), known(1))
       call look_up(last(2), 'speed_rpm', speed(2), known(2))
-      if (.not. all(known)) return
-      call look_up(last(1), 'growth_rate', growth(1), known(1))
-      call look_up(last(2), 'growth_rate', growth(2), known(2))
+      call look_up_excess(scene, last(1), excess(1), known(3))
+      call look_up_excess(scene, last(2), excess(2), known(4))
     end associate
-    if (.not. all(known) .or. growth(1)*growth(2) > 0.0_wp) return
+    if (.not. all(known) .or. excess(1)*excess(2) > 0.0_wp) return
+    bracket = root_bracket_type(speed(1), speed(2), excess(1), excess(2))
     call kept%keep(bearing, newton)
-    call close_in(scene, path, speed, growth, bearing, newton, build, onset, found)
+    call close_in(scene, path, bearing, newton, build, bracket, found)
     call kept%put_back(bearing, newton)
     call bearing%linearise(bearing%state)
     call kept%destroy()
-    if (found) then
-      call log%line('onset: the rotor''s least damped mode changes from '//trim(merge('growth to decay', &
-                    'decay to growth', growth(1) > 0.0_wp))//' at '//text(onset, 8)//' rpm')
-    else
-      call log%line('onset: between '//text(speed(1))//' and '//text(speed(2))//' rpm; no closer, for an '// &
-                    'equilibrium or its modes were not found')
-    end if
+    if (found) onset = bracket%high
+    call show_onset(scene, log, bracket, excess(1) > 0.0_wp, found)
   end subroutine look_for_onset
+
+  !> What is positive where the rotor is unstable, of a point of the sweep.
+  pure subroutine look_up_excess(scene, row, excess, known)
+    type(scene_type), intent(in) :: scene
+    type(history_row_type), intent(in) :: row
+    real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
+    logical, intent(out) :: known
+    real(wp) :: critical_mass
+
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      call look_up(row, 'critical_mass', critical_mass, known)
+      excess = mass_excess(scene%rotor%mass, critical_mass, known)
+      known = .true. ! no mass whirls where there is none
+    else
+      call look_up(row, 'growth_rate', excess, known)
+    end if
+  end subroutine look_up_excess
+
+  !> Says where the onset is, and by what it was found.
+  subroutine show_onset(scene, log, bracket, calms, found)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(root_bracket_type), intent(in) :: bracket !! around it [rpm]
+    logical, intent(in) :: calms !! from growth to decay
+    logical, intent(in) :: found !! closely
+    character(len=:), allocatable :: what
+
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      what = 'the critical mass passes the rotor''s '//text(scene%rotor%mass)//' kg (whirl in x and y; a loss factor has no '// &
+             'growth rates), from '//trim(merge('whirl to none', 'none to whirl', calms))
+    else
+      what = 'the rotor''s least damped mode changes from '//trim(merge('growth to decay', 'decay to growth', calms))
+    end if
+    if (found) then
+      call log%line('onset: '//what//' at '//text(bracket%high, 8)//' rpm')
+    else
+      call log%line('onset: '//what//' between '//text(min(bracket%low, bracket%high))//' and '// &
+                    text(max(bracket%low, bracket%high))//' rpm; no closer, for an equilibrium, its modes or a mass that '// &
+                    'whirls was not found, or it jumps')
+    end if
+  end subroutine show_onset
 
   !> A number of a row.
   pure subroutine look_up(row, name, value, known)
@@ -83,37 +121,32 @@ contains
   end subroutine look_up
 
   !> False position with halved weights (Illinois) between two speeds, from the second one's answer.
-  subroutine close_in(scene, path, speed, growth, bearing, newton, build, onset, found)
+  subroutine close_in(scene, path, bearing, newton, build, bracket, found)
     type(scene_type), intent(in) :: scene
     type(path_settings_type), intent(in) :: path
-    real(wp), intent(in) :: speed(2), growth(2) !! of both ends [rpm], [1/s]
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     procedure(opposite_builder) :: build
-    real(wp), intent(inout) :: onset !! [rpm]
+    type(root_bracket_type), intent(inout) :: bracket !! of speeds [rpm]; its `high` is the onset where that is found
     logical, intent(out) :: found
     type(operating_point_type) :: target
     type(path_report_type) :: report
-    type(root_bracket_type) :: bracket
     real(wp) :: trial, here
     integer :: i
 
-    bracket = root_bracket_type(speed(1), speed(2), growth(1), growth(2))
-    trial = speed(2)
     do i = 1, most_trials
-      if (abs(bracket%at_high) <= 0.0_wp .or. &
-          abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)) exit
+      found = abs(bracket%at_high) <= 0.0_wp .or. abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)
+      if (found) return
       trial = bracket%trial()
       target = bearing%point
       target%speed = angular_speed(trial)
       call follow_path(bearing, newton, target, 1.0_wp, path, report)
-      found = report%converged
-      if (found) call find_growth_rate(scene, bearing, newton, build, here, found)
+      if (.not. report%converged) return
+      call find_instability(scene, bearing, newton, build, here, found)
       if (.not. found) return
-      if (abs(trial - bracket%high) <= tolerance*abs(bracket%high)) exit
+      found = abs(trial - bracket%high) <= tolerance*abs(bracket%high)
       call bracket%narrow(trial, here)
+      if (found) return
     end do
-    found = .true.
-    onset = trial
   end subroutine close_in
 end module gfb_onset
