@@ -11,7 +11,8 @@ module gfb_machine_memory
   integer, parameter :: longest_line = 500
 
   interface
-    !> Ends the program with a sentence and status 3 where a limit does not leave what its start takes.
+    !> Ends the program with a sentence and status 3 where a limit does not leave what its start
+    !> takes.
     subroutine look_for_room() bind(c, name='gfb_look_for_room')
       implicit none (type, external)
     end subroutine look_for_room
