@@ -156,24 +156,25 @@ contains
   !> Names that `&accuracy` may ask for, in the order of the table.
   pure recursive function asked_names() result(names)
     character(len=name_length), allocatable :: names(:)
-    names = names_of(pack(result_rows, result_rows%asked))
+    names = names_of(result_rows%asked)
   end function asked_names
 
   !> Names of the results that show whether two answers are the same.
   pure function compared_names() result(names)
     character(len=name_length), allocatable :: names(:)
-    names = names_of(pack(result_rows, result_rows%compared))
+    names = names_of(result_rows%compared)
   end function compared_names
 
   !> All names of some rows.
-  pure recursive function names_of(rows) result(names)
-    type(result_type), intent(in) :: rows(:)
+  pure recursive function names_of(wanted) result(names)
+    logical, intent(in) :: wanted(:) !! rows of the table
     character(len=name_length), allocatable :: names(:)
     integer :: row
 
     allocate (names(0))
-    do row = 1, size(rows)
-      names = [character(len=name_length) :: names, names_of_row(rows(row)%name)]
+    do row = 1, size(result_rows)
+      if (.not. wanted(row)) cycle
+      names = [character(len=name_length) :: names, names_of_row(result_rows(row)%name)]
     end do
   end function names_of
 
@@ -336,7 +337,7 @@ contains
   !> The names of all rows, but for errors and orders of quantities of `&accuracy`.
   pure function row_names() result(names)
     character(len=name_length), allocatable :: names(:)
-    names = names_of(pack(result_rows, index(result_rows%name, any_quantity) == 0))
+    names = names_of(index(result_rows%name, any_quantity) == 0)
   end function row_names
 
   !> Rows as one line of the table.
@@ -372,7 +373,7 @@ contains
     character(len=:), allocatable :: words
 
     words = trim(row%name)
-    if (index(words, any_quantity) == 0) words = join(names_of([row]), '`, `')
+    if (index(words, any_quantity) == 0) words = join(names_of_row(row%name), '`, `')
   end function shown_names
 
   !> What has a result, in words.

@@ -38,6 +38,10 @@ endif()
 set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-99999999 -finit-derived
                      -ffpe-trap=invalid,zero,overflow -fbacktrace)
 
+# Arrays that the compiler makes for itself say so where they get no memory (-fcheck=mem). Stacks may be small: what is large,
+# such as a scene, a bearing or its solver, is allocated [bytes].
+set(gfb_release -O2 -g1 -fcheck=mem -Wframe-larger-than=20000)
+
 # What the sanitizers find ends the program.
 set(gfb_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all)
 add_link_options("$<$<CONFIG:Sanitize>:${gfb_sanitizers}>")
@@ -51,7 +55,7 @@ function(gfb_compile_options target)
     $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
     ${gfb_werror}
     $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Debug>>:${gfb_debug_checks}>
-    $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O2 -g1>
+    "$<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:${gfb_release}>"
     "$<$<CONFIG:Sanitize>:${gfb_sanitizers};-O1;-g;-fno-omit-frame-pointer>")
   # Sources that need no preprocessor are standard Fortran; PETSc's headers are not.
   get_target_property(sources ${target} SOURCES)

@@ -31,14 +31,15 @@ contains
   !> where nothing. To be asked before the program sets options itself.
   function given_petsc_options() result(words)
     character(len=:), allocatable :: words
-    character(kind=c_char), target :: all(longest)
-    character(len=longest) :: line
+    character(kind=c_char), allocatable, target :: all(:)
+    character(len=:), allocatable :: line
     PetscErrorCode :: ierr
     integer :: i
 
+    allocate (all(longest))
     ierr = gfb_all_options(c_loc(all), int(longest, c_size_t))
     if (ierr /= 0) error stop 'PETSc does not tell its options'
-    line = ''
+    line = repeat(' ', longest)
     do i = 1, longest
       if (all(i) == c_null_char) exit
       line(i:i) = all(i)

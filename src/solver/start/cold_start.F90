@@ -131,11 +131,12 @@ contains
       type(operating_point_type), intent(in) :: way(:)
       logical, intent(in) :: one_start
       logical :: comes, has_smaller
-      type(bearing_system_type), target :: coarse
-      type(newton_type), target :: coarse_newton
-      type(scene_type), target :: small, next
+      type(bearing_system_type), allocatable, target :: coarse
+      type(newton_type), allocatable, target :: coarse_newton
+      type(scene_type), allocatable, target :: small, next
       type(bearing_plan_type) :: small_plan, next_plan
 
+      allocate (coarse, coarse_newton, next)
       small = scene
       small_plan = plan
       do
@@ -217,14 +218,15 @@ contains
     type(bearing_system_type), target, intent(in), optional :: known !! a smaller system with its answer
     type(bearing_plan_type), intent(in), optional :: known_plan !! its meshes
 
-    type(bearing_system_type), target :: coarse, middle
+    type(bearing_system_type), allocatable, target :: coarse, middle ! not on the stack: a few meshes are open at once
     type(kept_state_type) :: coarse_anchor
-    type(newton_type), target :: coarse_newton, middle_newton
-    type(scene_type), target :: small
+    type(newton_type), allocatable, target :: coarse_newton, middle_newton
+    type(scene_type), allocatable, target :: small
     type(bearing_plan_type) :: small_plan, middle_plan
-    type(start_problem_type) :: problem
+    type(start_problem_type), allocatable :: problem
     logical :: has_smaller, helped, between, told, again
 
+    allocate (coarse, middle, coarse_newton, middle_newton, small, problem)
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)
@@ -336,12 +338,13 @@ contains
     type(path_report_type), intent(out) :: report !! how it ended
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
 
-    type(bearing_system_type), target :: rigid
-    type(newton_type), target :: rigid_newton
-    type(scene_type) :: stiff
+    type(bearing_system_type), allocatable, target :: rigid
+    type(newton_type), allocatable, target :: rigid_newton
+    type(scene_type), allocatable :: stiff
     real(wp), allocatable :: unknown(:)
     integer :: i
 
+    allocate (rigid, rigid_newton)
     call build_bearing(scene, plan, bearing, error)
     if (allocated(error)) return
     call create_newton(newton, bearing, 'bearing_', newton_settings, log)

@@ -85,7 +85,7 @@ contains
     integer, intent(out) :: next !! point of the sweep
     type(reason_type), intent(out) :: reason
     type(error_type), allocatable, intent(out) :: error
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene
     type(operation_case_type) :: operation
     type(path_report_type) :: report
 
@@ -151,10 +151,11 @@ contains
   subroutine scene_of(sweep, point, scene, error)
     type(sweep_type), intent(inout) :: sweep !! notes the value
     integer, intent(in) :: point !! of the sweep
-    type(scene_type), intent(out) :: scene
+    type(scene_type), allocatable, intent(out) :: scene
     type(error_type), allocatable, intent(out) :: error
 
     if (sweep%scene%sweep%parameter == sweep_keys) then
+      allocate (scene)
       sweep%value = sweep%scene%sweep%values(point)
       call scene_at_value(sweep%scene, sweep%value, scene, error)
     else
@@ -169,7 +170,7 @@ contains
     type(sweep_type), target, intent(inout) :: sweep
     integer, intent(out) :: next !! point of the sweep
     type(error_type), allocatable, intent(out) :: error
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene
     type(bearing_plan_type) :: on_way
 
     next = 0
@@ -257,7 +258,7 @@ contains
     type(reason_type), intent(out) :: reason
     type(error_type), allocatable, intent(out) :: error
     type(path_report_type) :: report
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene
     integer :: point
 
     do point = first, size(sweep%scene%sweep%values)
@@ -288,7 +289,7 @@ contains
     integer, intent(in) :: point
     type(path_report_type), intent(inout) :: report !! in: of the path; out: of the start
     type(error_type), allocatable, intent(out) :: error
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene
 
     call sweep%tell_end(point, report)
     call scene_of(sweep, point, scene, error)

@@ -93,7 +93,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
     type(error_type), allocatable, intent(out) :: error
-    type(scene_type) :: first
+    type(scene_type), allocatable :: first
 
     first = scene
     if (scene%transient%present) first%operation%load = scene%transient%start_load

@@ -36,11 +36,12 @@ contains
     type(sweep_type), target, intent(inout) :: sweep !! left at the last answer
     type(reason_type), intent(out) :: reason !! why the branch does not lead on
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(fold_way_type), target :: branch
+    type(fold_way_type), allocatable, target :: branch
     type(path_report_type) :: report
     integer :: kept
     logical :: ended, stops, due
 
+    allocate (branch)
     call begin_branch(sweep, branch, error)
     if (allocated(error)) return
     ended = .false.

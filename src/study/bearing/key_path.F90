@@ -160,7 +160,7 @@ contains
     type(newton_type), target, intent(inout) :: newton !! of the bearing; is created anew
     type(path_report_type), intent(inout) :: report !! in: of the start; out: of the way, where it tells more
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    type(scene_type), target :: here, thick
+    type(scene_type), allocatable, target :: here, thick
     type(kept_state_type) :: refused
     type(path_report_type) :: way
     type(newton_settings_type) :: tolerances
@@ -178,7 +178,7 @@ contains
     call log%line('no answer from there ('//report%reason//'); from a top foil '//text(thicker(1), 2)//' times as thick:')
     call refused%keep(bearing)
     call drop_bearing(bearing, newton, spent)
-    here = scene
+    allocate (here, thick, source=scene)
     here%operation = operation
     reached = 0.0_wp
     call with_top_foil(here, thicker(1)*scene%top_foil%thickness, thick, error)

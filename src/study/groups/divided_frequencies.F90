@@ -49,13 +49,14 @@ contains
     type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status !! exit status of the program
-    type(bearing_study_type), target :: study
+    type(bearing_study_type), allocatable, target :: study
     type(run_context_type) :: own
-    type(share_type) :: mine
+    type(share_type), allocatable :: mine
     type(share_type), allocatable :: shares(:)
     type(error_type), allocatable :: error
     real(wp) :: memory(1)
 
+    allocate (study, mine)
     call show_division(scene, context, job)
     job%total = job%groups
     job%counted = 0

@@ -43,14 +43,15 @@ contains
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status !! exit status of the program
 
-    type(bearing_study_type), target :: study
+    type(bearing_study_type), allocatable, target :: study
     type(run_context_type) :: own
-    type(stretch_type) :: mine
+    type(stretch_type), allocatable :: mine
     type(stretch_type), allocatable :: stretches(:)
     type(error_type), allocatable :: error
     real(wp) :: memory(1)
     integer :: writer
 
+    allocate (study, mine)
     call show_division(scene, context, job)
     job%total = size(scene%sweep%values)
     own = context
