@@ -4,13 +4,16 @@ what has happened. With --long every operation on files of a small run fails onc
 
 import os
 import pathlib
+import resource
+import shutil
 import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]/name) for name in ("verification", "floating_point")]
 from gfb_run import GFB, Checks, write_case  # noqa: E402
 from gfb.bench import faults  # noqa: E402 (gfb_run has made it known)
+from scenes import PLATES, ROTOR, SHELL, merged  # noqa: E402
 
 SWEEP = {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(1500))}}
 
@@ -66,6 +69,75 @@ def check_full_log(checks, folder):
     checks.that("log on a full disk: the results are there", (folder/"log/log.summary").exists())
 
 
+def told(done, status, words):
+    """Whether a run has ended with a status and one sentence."""
+    return (done.returncode == status and words in done.stderr and done.stderr.count("\n") == 1
+            and not any(word in done.stderr for word in faults.CRASH))
+
+
+def check_petsc_options(checks, folder):
+    """What PETSc was told wrongly, at its start, in a run and at its end; a folder that is gone: not MPI's fault."""
+    case = write_case(folder, "options", faults.CASE)
+    for options in ("-options_file /nonexistent", "-malloc_debug nonsense", "-info /nonexistent/x", "-bearing_ksp_type nonsense",
+                    "-log_view :/nonexistent/x", "-options_view :/nonexistent/x"):
+        done = run(case, folder/"options", "--quiet", env={**os.environ, "PETSC_OPTIONS": options})
+        checks.that(f"PETSC_OPTIONS='{options}': status {done.returncode}: {done.stderr.strip()[-200:]}",
+                    told(done, 3, f"PETSC_OPTIONS is '{options}'"))
+    gone = folder/"gone"
+    gone.mkdir()
+    done = subprocess.run(["bash", "-c", f"cd {gone} && rmdir {gone} && exec {GFB} --output {folder/'options'} {case}"],
+                          capture_output=True, encoding="utf-8", check=False, timeout=faults.SECONDS)
+    checks.that(f"a folder that is gone: status {done.returncode}: {done.stderr.strip()[-200:]}",
+                told(done, 3, "the folder in which it was started is not there"))
+
+
+def check_little_memory(checks, folder):
+    """Whatever addresses a process may have: an answer, or a sentence and status 3, and soon."""
+    case = write_case(folder, "little", faults.CASE)
+    seen = set()
+    for megabytes in (180, 240, 300, 360, 600):
+        try:
+            done = run(case, folder/"little", "--quiet",
+                       env={**os.environ, "PETSC_OPTIONS": "-bearing_pc_factor_mat_solver_type mumps"}, preexec_fn=lambda room=megabytes << 20: resource.setrlimit(resource.RLIMIT_AS, (room, room)))
+        except subprocess.TimeoutExpired:
+            checks.that(f"{megabytes} MB: it ends", False)
+            continue
+        if "error while loading shared libraries" in done.stderr:
+            continue
+        seen.add(done.returncode)
+        checks.that(f"{megabytes} MB: status {done.returncode}: {done.stderr.strip()[-200:]}", done.returncode == 0 or (
+            done.returncode == 3 and "memory" in done.stderr and not any(word in done.stderr for word in faults.CRASH)))
+    checks.that("little memory: both were seen", seen == {0, 3})
+
+
+def check_small_stack(checks, folder):
+    """A stack of 128 kB is enough: what is large is allocated."""
+    for name, case in (("beams", merged(SHELL, model={"foil": "beam"}, mesh={"axial_elements": 16})), ("strip", PLATES)):
+        path = write_case(folder, name, case)
+        done = subprocess.run(["bash", "-c", f"ulimit -s 128 && exec {GFB} --output {folder/'stack'} {path}"],
+                              stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False,
+                              timeout=faults.SECONDS)
+        checks.that(f"a stack of 128 kB, {name}: status {done.returncode}", done.returncode == 0)
+
+
+def check_older_surfaces(checks, folder):
+    """An answer leaves no file of a state without one, whatever surfaces that had; those of other cases stay."""
+    case = write_case(folder, "older", merged(ROTOR, scene={"analysis": "transient"}, rotor={
+        "transverse_inertia": 5.0e-3, "bearing_distance": 0.2}, transient={"turns": 0.1, "steps_per_turn": 20}))
+    place = folder/"surfaces"
+    run(case, place)
+    surface = (place/"older.film_2.vtkhdf").read_bytes()
+    for name in ("film", "film_2", "film_2.steps", "other.film"):
+        (place/f"older.unconverged.{name}.vtkhdf").write_bytes(surface)
+    for ending in ("h5", "used.nml"):
+        shutil.copy(place/f"older.{ending}", place/f"older.unconverged.{ending}")
+    (place/"older.unconverged.summary").write_text("converged = false\n", encoding="utf-8")
+    done = run(case, place)
+    left = {path.name for path in place.glob("older.unconverged.*")}
+    checks.that(f"older surfaces: status {done.returncode}, left {left}",
+                done.returncode == 0 and "removed: " in done.stdout and left == {"older.unconverged.other.film.vtkhdf"})
+
+
 def check_readers(checks, folder):
     """tools/plot answers a damaged, cut or foreign file with one sentence."""
     case = write_case(folder, "read", faults.CASE)
@@ -88,7 +160,8 @@ def check_readers(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_two_runs, check_links, check_full_log, check_readers):
+        for check in (check_two_runs, check_links, check_full_log, check_readers, check_petsc_options, check_little_memory,
+                      check_small_stack, check_older_surfaces):
             check(checks, pathlib.Path(name))
     rows = faults.all_rows(GFB, long="--long" in sys.argv)
     checks.that("faults were tried", len(rows) > 0)
