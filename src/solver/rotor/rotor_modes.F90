@@ -160,7 +160,7 @@ contains
       wanted = 2*wanted
       deallocate (reason)
     end do
-    if (.not. allocated(reason)) reason = 'a matrix: '//response_failure(response)
+    if (.not. allocated(reason)) reason = response_failure(response)
   end subroutine find_all_modes
 
   !> Radius of a circle about the shift that holds all rates that are asked for, in the widest gap between the modes a

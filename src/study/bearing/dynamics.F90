@@ -188,30 +188,33 @@ contains
 
   !> What is positive where the rotor is unstable: growth of its least damped mode at an answer, and with a loss factor,
   !> which has no growth, the excess of its mass over the critical one.
-  subroutine find_instability(scene, bearing, newton, build, excess, found)
+  subroutine find_instability(scene, bearing, newton, build, excess, problem)
     type(scene_type), intent(in) :: scene !! with a rotor
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     procedure(opposite_builder) :: build !! of the bearing of tilts
     real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
-    logical, intent(out) :: found !! there is such a mode, or all frequencies could be looked at
+    character(len=:), allocatable, intent(out) :: problem !! why it was not found
     type(dynamic_response_type) :: response
     type(rotor_answer_type) :: answer
     type(whirl_type) :: whirl
-    character(len=:), allocatable :: problem
 
     excess = 0.0_wp
     call start_response(scene, bearing, build, response, problem)
-    found = .not. allocated(problem)
-    if (.not. found) return
+    if (allocated(problem)) return
     if (scene%dynamics%loss_factor > 0.0_wp) then
       call find_critical_mass(bearing, response, whirl)
-      found = whirl%searched
+      if (.not. whirl%searched) problem = response_failure(response)
       excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
     else
       call find_rotor_modes(bearing, response, rotor_of(scene), answer)
-      found = answer%found .and. answer%decides > 0
-      if (found) excess = real(answer%mode(answer%decides)%rate, wp)
+      if (.not. answer%found) then
+        problem = 'modes were not found: '//answer%reason
+      else if (answer%decides == 0) then
+        problem = 'no mode is the rotor''s'
+      else
+        excess = real(answer%mode(answer%decides)%rate, wp)
+      end if
     end if
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements

@@ -41,7 +41,8 @@ contains
     type(last_answer_type) :: kept
     type(root_bracket_type) :: bracket
     real(wp) :: speed(2), excess(2)
-    logical :: known(4), found
+    character(len=:), allocatable :: problem
+    logical :: known(4)
 
     if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present) return
     if (onset > 0.0_wp .or. size(history) < 2) return
@@ -54,12 +55,12 @@ contains
     if (.not. all(known) .or. excess(1)*excess(2) > 0.0_wp) return
     bracket = root_bracket_type(speed(1), speed(2), excess(1), excess(2))
     call kept%keep(bearing, newton)
-    call close_in(scene, path, bearing, newton, build, bracket, found)
+    call close_in(scene, path, bearing, newton, build, bracket, problem)
     call kept%put_back(bearing, newton)
     call bearing%linearise(bearing%state)
     call kept%destroy()
-    if (found) onset = bracket%high
-    call show_onset(scene, log, bracket, excess(1) > 0.0_wp, found)
+    if (.not. allocated(problem)) onset = bracket%high
+    call show_onset(scene, log, bracket, excess(1) > 0.0_wp, problem)
   end subroutine look_for_onset
 
   !> What is positive where the rotor is unstable, of a point of the sweep.
@@ -80,12 +81,12 @@ contains
   end subroutine look_up_excess
 
   !> Says where the onset is, and by what it was found.
-  subroutine show_onset(scene, log, bracket, calms, found)
+  subroutine show_onset(scene, log, bracket, calms, problem)
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(root_bracket_type), intent(in) :: bracket !! around it [rpm]
     logical, intent(in) :: calms !! from growth to decay
-    logical, intent(in) :: found !! closely
+    character(len=:), allocatable, intent(in) :: problem !! why it is not closer
     character(len=:), allocatable :: what
 
     if (scene%dynamics%loss_factor > 0.0_wp) then
@@ -94,12 +95,11 @@ contains
     else
       what = 'the rotor''s least damped mode changes from '//trim(merge('growth to decay', 'decay to growth', calms))
     end if
-    if (found) then
+    if (.not. allocated(problem)) then
       call log%line('onset: '//what//' at '//text(bracket%high, 8)//' rpm')
     else
       call log%line('onset: '//what//' between '//text(min(bracket%low, bracket%high))//' and '// &
-                    text(max(bracket%low, bracket%high))//' rpm; no closer, for an equilibrium, its modes or a mass that '// &
-                    'whirls was not found, or it jumps')
+                    text(max(bracket%low, bracket%high))//' rpm; no closer: '//problem)
     end if
   end subroutine show_onset
 
@@ -121,32 +121,38 @@ contains
   end subroutine look_up
 
   !> False position with halved weights (Illinois) between two speeds, from the second one's answer.
-  subroutine close_in(scene, path, bearing, newton, build, bracket, found)
+  subroutine close_in(scene, path, bearing, newton, build, bracket, problem)
     type(scene_type), intent(in) :: scene
     type(path_settings_type), intent(in) :: path
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     procedure(opposite_builder) :: build
     type(root_bracket_type), intent(inout) :: bracket !! of speeds [rpm]; its `high` is the onset where that is found
-    logical, intent(out) :: found
+    character(len=:), allocatable, intent(out) :: problem !! why it is not found
     type(operating_point_type) :: target
     type(path_report_type) :: report
-    real(wp) :: trial, here
+    real(wp) :: trial, here, change
     integer :: i
 
     do i = 1, most_trials
-      found = abs(bracket%at_high) <= 0.0_wp .or. abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)
-      if (found) return
+      if (abs(bracket%at_high) <= 0.0_wp .or. abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)) return
       trial = bracket%trial()
       target = bearing%point
       target%speed = angular_speed(trial)
       call follow_path(bearing, newton, target, 1.0_wp, path, report)
-      if (.not. report%converged) return
-      call find_instability(scene, bearing, newton, build, here, found)
-      if (.not. found) return
-      found = abs(trial - bracket%high) <= tolerance*abs(bracket%high)
+      if (report%converged) then
+        call find_instability(scene, bearing, newton, build, here, problem)
+      else
+        problem = report%reason
+      end if
+      if (allocated(problem)) then
+        problem = 'at '//text(trial)//' rpm '//problem
+        return
+      end if
+      change = abs(trial - bracket%high)
       call bracket%narrow(trial, here)
-      if (found) return
+      if (change <= tolerance*abs(trial)) return
     end do
+    problem = 'it jumps there, or '//text(most_trials)//' trials are too few'
   end subroutine close_in
 end module gfb_onset
