@@ -30,7 +30,7 @@ module gfb_sweep
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, extends(walk_type), public :: sweep_type
     type(scene_type) :: scene
-    type(scene_type) :: here !! the same with the present value of the keys that it sweeps
+    type(scene_type), allocatable :: here !! the same with the present value of the keys that it sweeps
     type(run_context_type) :: context
     type(path_settings_type) :: path
     type(newton_settings_type) :: tolerances
