@@ -12,7 +12,8 @@ from gfb.run import run_file, write_case  # noqa: E402 (gfb_run has made it know
 from scenes import SCENES  # noqa: E402
 
 FEW = ("rigid, under a load", "rigid, film order 2", "springs, sweep of speed", "springs, film and foil in turns", "beams, 100 N",
-       "strip between plates, loop", "modes of an arc")
+       "strip between plates, loop", "modes of an arc", "springs, load capacity", "beams, two pads, small vibrations",
+       "beams with their mass, rotor over time", "springs, forced orbits", "beams, sample", "springs, sensitivities")
 SECONDS = 400
 WRONG = ("AddressSanitizer", "runtime error:", "ERROR: ")
 

@@ -76,6 +76,22 @@ class Structure(unittest.TestCase):
         self.assertIn("longest chain of use: 3 ", words)
         self.assertIn("select type on foil models outside src/model/foil: 1 (limit 0), asks.f90", words)
 
+    def test_arrays_of_chance_size_are_seen(self):
+        work = """module gfb_work
+contains
+  subroutine carry(self, other)
+    real :: newest(size(self%free)), known(size(other%free))
+    real, allocatable :: later(:)
+    if (.not. self%present) return
+  end subroutine carry
+end module gfb_work
+"""
+        words, status = self.run_tool("--check", files={"base/work.f90": work})
+        self.assertIn("arrays as large as what may not be there: 1 (limit 0), work.f90:6", words)
+        self.assertEqual(status, 1)
+        words, _ = self.run_tool(files={"base/work.f90": work.replace("newest(size(self%free)), ", "")})
+        self.assertIn("arrays as large as what may not be there: 0", words)
+
     def test_a_full_folder_and_a_long_file_are_seen(self):
         files = {f"base/m{i}.f90": f"module gfb_m{i}\nend module gfb_m{i}\n" for i in range(17)}
         files["film/long.f90"] = "module gfb_long\n" + "! line\n"*400 + "end module gfb_long\n"
