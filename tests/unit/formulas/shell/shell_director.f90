@@ -125,20 +125,18 @@ contains
     integer, intent(in) :: own              !! corner asked for
     real(wp), intent(out) :: mean(3)        !! not of unit length
     logical, intent(out) :: apart           !! some normals are not near
-    real(wp) :: total(3)
+    real(wp) :: total(3), mine(3), other(3)
     integer :: i, count
 
     total = 0.0_wp
     count = 0
-    associate (mine => normal(:, place(own), element(own)))
-      do i = 1, size(around)
-        associate (other => normal(:, place(around(i)), element(around(i))))
-          if (around(i) /= own .and. dot_product(mine, other) < near) cycle
-          total = total + other
-          count = count + 1
-        end associate
-      end do
-    end associate
+    mine = normal(:, place(own), element(own))
+    do i = 1, size(around)
+      other = normal(:, place(around(i)), element(around(i)))
+      if (around(i) /= own .and. dot_product(mine, other) < near) cycle
+      total = total + other
+      count = count + 1
+    end do
     mean = total/count
     apart = count < size(around)
   end subroutine mean_normal
