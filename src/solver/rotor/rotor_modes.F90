@@ -147,11 +147,11 @@ contains
         call skip_inner_modes(response, .true.)
         call count_missing(bearing, response, rotor, kind, count, missing, found)
         call skip_inner_modes(response, .false.)
-        if (count%failed) reason = 'the circle along which modes are counted runs through one'
-        if (.not. found) exit
+        if (.not. (found .or. count%failed)) exit
         modes = pack(modes, abs(modes%rate - count%centre) < count%radius)
-        if (missing == 0) return
-        reason = text(missing)//' more rates than the '//text(size(modes))//' modes found next to half the speed were counted'
+        if (found .and. missing == 0) return
+        reason = 'the circle along which modes are counted runs through one that was not found'
+        if (found) reason = text(missing)//' more rates than the '//text(size(modes))//' modes found next to half the speed were counted'
       else
         reason = 'the iteration for eigenvalues has found '//text(size(modes))//' modes next to half the speed and none beyond '// &
                  text(reach/bearing%point%speed, 3)//' of the speed'
