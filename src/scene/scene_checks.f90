@@ -2,7 +2,7 @@
 module gfb_scene_checks
   use gfb_accuracy_case, only: check_accuracy
   use gfb_assembly_rules, only: check_assembly, check_crest_gaps, check_bump_sizes
-  use gfb_branch_rules, only: check_edge_lift, check_turn_folds, check_load_angles
+  use gfb_branch_key_rules, only: check_edge_lift, check_turn_folds, check_load_angles
   use gfb_capacity_rules, only: check_capacity
   use gfb_case_keys, only: case_keys_type
   use gfb_count_rules, only: check_counts

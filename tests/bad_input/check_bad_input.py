@@ -82,6 +82,10 @@ def places_with_mistakes(folder):
     (folder / "large.nml").write_bytes(b"! a comment of 40 bytes, again and again\n" * 250000)
     (folder / "long_line.nml").write_bytes(b"&scene title = " + b"x" * 900000)
     (folder / "garbage.nml").write_bytes(b"a=1,(2)'b'/&c d=*=\xff " * 45000)
+    for form in ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-32-be"):
+        (folder / f"{form}.nml").write_text(GOOD, encoding=form)
+    (folder / "ctrl_z.nml").write_text(GOOD.replace("&gas", "\x1a&gas"))
+    (folder / "only_ctrl_z.nml").write_text("\x1a\r\n")
     (folder / "in_the_way").write_text("a file")
     yield "missing file", ["--check", "nowhere.nml"], ["nowhere.nml: the case file does not exist"]
     yield "missing folder", ["--check", "nowhere/case.nml"], ["does not exist"]
@@ -94,6 +98,10 @@ def places_with_mistakes(folder):
     yield "a device", ["--check", "/dev/zero"], ["is a pipe, a terminal or another device"]
     yield "empty file", ["--check", "empty.nml"], ["empty.nml: the case file is empty"]
     yield "binary file", ["--check", "binary.nml"], ["binary.nml: is binary", "line 2"]
+    for form in ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-32-be"):
+        yield form, ["--check", f"{form}.nml"], [f"{form}.nml: is UTF-16 or UTF-32", "save it as UTF-8"]
+    yield "Ctrl-Z inside", ["--check", "ctrl_z.nml"], ["ctrl_z.nml: is binary", "line 2", "control character 26"]
+    yield "Ctrl-Z alone", ["--check", "only_ctrl_z.nml"], ["only_ctrl_z.nml: the case file is empty"]
     yield "a program", ["--check", "program.nml"], ["program.nml: is binary"]
     yield "10 MB", ["--check", "large.nml"], ["has 10.25 MB, more than the limit of 1 MB"]
     yield "long line", ["--check", "long_line.nml"], ["x" * 60 + "..."]

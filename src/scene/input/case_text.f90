@@ -9,6 +9,8 @@ module gfb_case_text
   private
   public :: read_case_text, read_standard_input
 
+  character(len=*), parameter :: end_mark = achar(26) !! Ctrl-Z, of a text's last line
+  character(len=*), parameter :: printed = '&$! '//achar(9)//achar(10)//achar(13) !! what begins one
   integer(long), parameter :: longest = 1000000_long !! bytes; a case file has some thousand
 
   interface
@@ -43,7 +45,7 @@ contains
     words = ''
     call look_at_file(file, problem)
     if (problem == '') call read_bytes(file, words, problem)
-    if (problem == '') problem = binary_problem(words)
+    if (problem == '') call look_at_bytes(words, problem)
     if (problem /= '') call fail(error, trim(file)//': '//problem, status_input)
   end subroutine read_case_text
 
@@ -71,8 +73,38 @@ contains
     if (problem == '' .and. words == '') problem = 'the standard input is empty'
     if (len(words) > longest) problem = 'the standard input has more than the limit of '// &
                                         megabytes(longest)
-    if (problem == '') problem = binary_problem(words)
+    if (problem == '') call look_at_bytes(words, problem)
   end subroutine read_standard_input
+
+  !> Drops the mark with which some systems end a text, and says what makes it none.
+  pure subroutine look_at_bytes(words, problem)
+    character(len=:), allocatable, intent(inout) :: words !! all bytes
+    character(len=:), allocatable, intent(out) :: problem !! empty where it is a text
+    character(len=*), parameter :: white = ' '//achar(9)//achar(10)//achar(13)
+    integer :: mark
+
+    mark = index(words, end_mark)
+    if (mark > 0) then
+      if (verify(words(mark:), end_mark//white) == 0) words = words(:mark - 1)
+    end if
+    problem = ''
+    if (words == '') problem = 'the case file is empty'
+    if (is_wide(words)) problem = 'is UTF-16 or UTF-32, whose characters have several bytes '// &
+                                  'each; save it as UTF-8'
+    if (problem == '') problem = binary_problem(words)
+  end subroutine look_at_bytes
+
+  !> Whether a text is of characters of two or four bytes: its mark tells, or a zero byte in its
+  !> first character.
+  pure function is_wide(words) result(wide)
+    character(len=*), intent(in) :: words
+    logical :: wide
+    character(len=*), parameter :: little = char(255)//char(254), big = char(254)//char(255)
+
+    wide = index(words, little) == 1 .or. index(words, big) == 1
+    if (wide .or. len(words) < 4) return
+    wide = scan(words(:2), achar(0)) > 0 .and. scan(words(:4), printed) > 0
+  end function is_wide
 
   !> What keeps a file from being opened at all; a pipe would be waited for without end, and its
   !> size is zero.

@@ -96,28 +96,34 @@ contains
     integer, intent(inout) :: filled(:)  !! value of each element, 0 where none yet
     integer, intent(inout) :: owner(:)   !! entry that gave it
     type(complaints_type), intent(inout) :: complaints
-    integer(long) :: n
-    integer :: value, repeat_number, element, first
+    integer(long) :: n, first, last
+    integer :: value, repeat_number, element
 
-    associate (item => file%entries(entry))
-      first = max(1, item%element)
+    associate (item => file%entries(entry), section => file%entries(entry)%section)
       n = 0
       do value = item%first_value, item%last_value
         n = n + file%values(value)%repeats
       end do
       if (item%wrong .or. n == 0) return
-      if (most == 0 .and. item%element > 0) then
+      first = section%place(1_long)
+      last = section%place(n)
+      if (most == 0 .and. section%element > 0) then
         call complain('is a single value and takes no index')
-      else if (first > size(filled)) then
+      else if (.not. section%holds(n)) then
+        call complain('the section has '//text(section%size())//' place(s) for '//text(n)// &
+                      ' value(s)')
+      else if (max(first, min(first, last)) > size(filled) .or. min(first, last) < 1) then
         call complain('the index must lie between 1 and '//text(most))
-      else if (first - 1 + n > size(filled)) then
-        call complain('takes '//most_words(size(filled))//', not '//text(first - 1 + n)// &
+      else if (max(first, last) > size(filled)) then
+        call complain('takes '//most_words(size(filled))//', not '//text(max(first, last))// &
                       missing_equals(file, item%first_value + 1, item%last_value)// &
                       decimal_comma(file, item%first_value, item%last_value))
       else
-        element = first
+        n = 0
         do value = item%first_value, item%last_value
           do repeat_number = 1, file%values(value)%repeats
+            n = n + 1
+            element = int(section%place(n))
             if (filled(element) > 0) then
               ! A group that stands there twice has been complained about.
               if (file%entries(owner(element))%group == item%group) call complain_twice(element)
@@ -125,7 +131,6 @@ contains
             end if
             filled(element) = value
             owner(element) = entry
-            element = element + 1
           end do
         end do
       end if
@@ -138,7 +143,7 @@ contains
       character(len=*), intent(in) :: rule
       associate (item => file%entries(entry))
         call complaints%add(item%line, '&'//file%group_name(item%group)//': '// &
-                            file%key_name(entry)//index_shown(item%element)//' = '// &
+                            file%key_name(entry)//item%section%shown()//' = '// &
                             file%values_shown(item%first_value, item%last_value)//': '//rule)
       end associate
     end subroutine complain
@@ -159,14 +164,6 @@ contains
     words = 'one value'
     if (most > 1) words = 'at most '//text(most)//' values'
   end function most_words
-
-  !> An index as typed with a key; nothing where none was.
-  pure function index_shown(element) result(words)
-    integer, intent(in) :: element
-    character(len=:), allocatable :: words
-    words = ''
-    if (element > 0) words = '('//text(element)//')'
-  end function index_shown
 
   !> A hint where two values look like one number with a comma: digits, comma, digits.
   pure function decimal_comma(file, first, last) result(words)

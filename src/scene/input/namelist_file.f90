@@ -2,14 +2,13 @@
 module gfb_namelist_file
   use gfb_complaints, only: complaints_type, shown
   use gfb_foreign_characters, only: foreign_type, foreign_words
+  use gfb_namelist_sections, only: section_type
   use gfb_namelist_values, only: value_string
   use gfb_text, only: lower_case, text
   implicit none (type, external)
   private
   public :: namelist_file_type, namelist_group_type, namelist_entry_type, namelist_value_type
   public :: complain_about_foreign
-
-  integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
 
   !> A group as it stands in the file.
   type :: namelist_group_type
@@ -31,7 +30,7 @@ module gfb_namelist_file
     integer :: group = 0           !! number of its group in the file
     integer :: first = 1, last = 0 !! the key in the text
     integer :: equals = 0          !! its equals sign in the text
-    integer :: element = 0         !! index given with the key, 0 if none, or `bad_index`
+    type(section_type) :: section  !! which elements of a list it gives
     integer :: line = 0            !! of the file
     integer :: first_value = 1, last_value = 0
     logical :: wrong = .false.     !! it was complained about, and so all its values

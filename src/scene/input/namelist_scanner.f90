@@ -6,10 +6,11 @@ module gfb_namelist_scanner
   use gfb_complaints, only: complaints_type, shown
   use gfb_foreign_characters, only: foreign_type, fold_foreign, is_spoilt
   use gfb_namelist_file, only: namelist_file_type, namelist_group_type, namelist_entry_type, &
-                               namelist_value_type, bad_index, complain_about_foreign
+                               namelist_value_type, complain_about_foreign
+  use gfb_namelist_sections, only: section_type, section_of, bad_index
   use gfb_namelist_tokens, only: token_type, find_tokens, token_group, token_slash, token_equals, &
                                  token_comma, token_open, token_close, token_string, token_word
-  use gfb_namelist_values, only: word_kind, repeat_count, value_string, value_word
+  use gfb_namelist_values, only: word_kind, repeat_count, has_kind, value_string, value_word
   use gfb_text, only: lower_case, text
   implicit none (type, external)
   private
@@ -128,7 +129,8 @@ contains
       end if
       call end_entry(self, complaints)
       if (token%last < token%first) then
-        call complaints%add(token%line, "a group's name must follow '&' at once")
+        call complaints%add(token%line, "a group's name must follow '"// &
+                            self%file%words(token%first - 1:token%first - 1)//"' at once")
       end if
       self%n_groups = self%n_groups + 1
       self%file%groups(self%n_groups) = namelist_group_type(token%first, token%last, token%line)
@@ -179,8 +181,8 @@ contains
 
     length = 0
     if (self%tokens(i)%kind /= token_word) return
-    ! An index is a word between parentheses; a few more tokens are looked at to find a spoilt one.
-    do j = i + 1, min(i + 6, size(self%tokens))
+    ! An index is a word between parentheses, a section has colons, perhaps with blanks about them.
+    do j = i + 1, min(i + 8, size(self%tokens))
       select case (self%tokens(j)%kind)
       case (token_equals)
         length = j - i + 1
@@ -198,29 +200,30 @@ contains
     type(scanner_type), intent(inout) :: self
     integer, intent(inout) :: i
     type(complaints_type), intent(inout) :: complaints
-    integer :: length, element
+    type(section_type) :: section
+    integer :: length
 
     call end_entry(self, complaints)
     length = key_length(self, i)
-    element = 0
     self%told = .false.
     if (length > 2) then
-      element = bad_index
-      if (length == 5 .and. self%tokens(i + 3)%kind == token_close) then
-        element = repeat_count(token_words(self, i + 2))
+      section%element = bad_index
+      if (self%tokens(i + length - 2)%kind == token_close) then
+        section = section_of(self%file%words(self%tokens(i + 1)%last + 1: &
+                                             self%tokens(i + length - 2)%first - 1))
       end if
-      if (element < 1) element = bad_index
     end if
     associate (token => self%tokens(i))
-      if (element == bad_index) then
+      if (section%element == bad_index) then
         self%told = .true.
         call complaints%add(token%line, place(self)//"the index of '"// &
-                            shown(token_words(self, i))//"' must be one whole number from 1 on")
+                            shown(token_words(self, i))//"' must be one whole number from 1 on"// &
+                            ', or a section such as 1:3')
       end if
       self%n_entries = self%n_entries + 1
       self%file%entries(self%n_entries) = namelist_entry_type( &
                                           self%n_groups, token%first, token%last, &
-                                          self%tokens(i + length - 1)%first, element, &
+                                          self%tokens(i + length - 1)%first, section, &
                                           token%line, self%n_values + 1, self%n_values)
     end associate
     self%in_entry = .true.
@@ -306,6 +309,17 @@ contains
       end if
       if (value%repeats == 0) then
         call complain_about_value(self, i, 'a repeat count must not be zero', complaints)
+        return
+      end if
+      if (value%kind == value_word .and. &
+          has_kind(self%file%words(value%first:value%last)) .and. self%in_entry) then
+        if (.not. self%told) then
+          call complaints%add(value%line, place(self)//shown(self%file%key_name(self%n_entries))// &
+                              ' = '//shown(token_words(self, i))//': a namelist has no kinds '// &
+                              "of numbers, and no digits divided by '_'")
+        end if
+        self%told = .true.
+        self%after_comma = .false.
         return
       end if
       value%repeats = max(value%repeats, 1)

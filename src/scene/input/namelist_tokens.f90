@@ -5,7 +5,7 @@ module gfb_namelist_tokens
   private
   public :: token_type, find_tokens
 
-  integer, parameter, public :: token_group = 1  !! `&name`; its words are the name
+  integer, parameter, public :: token_group = 1  !! `&name` or `$name`; its words are the name
   integer, parameter, public :: token_slash = 2  !! end of a group
   integer, parameter, public :: token_equals = 3
   integer, parameter, public :: token_comma = 4
@@ -84,7 +84,7 @@ contains
       token%kind = token_slash + mark - 1
       token%last = at
       at = at + 1
-    else if (words(at:at) == '&') then
+    else if (scan(words(at:at), '&$') == 1) then
       token%kind = token_group
       token%first = at + 1
       token%last = end_of_word(words, at + 1)

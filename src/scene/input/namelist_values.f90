@@ -4,7 +4,7 @@ module gfb_namelist_values
   use gfb_text, only: lower_case, text
   implicit none (type, external)
   private
-  public :: word_kind, repeat_count, read_real, read_integer, read_logical
+  public :: word_kind, repeat_count, has_kind, read_real, read_integer, read_logical
 
   integer, parameter, public :: value_number = 1
   integer, parameter, public :: value_string = 2  !! between quotes
@@ -12,9 +12,11 @@ module gfb_namelist_values
   integer, parameter, public :: value_word = 4    !! neither of them
 
   character(len=*), parameter :: digits = '0123456789'
-  character(len=*), parameter :: true_words(*) = [character(len=6) :: '.true.', 'true', 't', '.t.']
+  character(len=*), parameter :: true_words(*) = [character(len=6) :: &
+                                                  '.true.', 'true', 't', '.t.', '.true', '.t']
   character(len=*), parameter :: false_words(*) = [character(len=7) :: &
-                                                   '.false.', 'false', 'f', '.f.']
+                                                   '.false.', 'false', 'f', '.f.', &
+                                                   '.false', '.f']
 
   ! Every quantity in SI units lies far inside, and products of several of them do not overflow.
   integer, parameter :: highest_power = 30  !! of ten
@@ -51,6 +53,20 @@ contains
       if (number == huge(number)) return
     end do
   end function repeat_count
+
+  !> Whether words are a number, or a logical with its periods, with a kind behind it as in 1.0_8;
+  !> so look digits that are divided as in 30_000.
+  pure function has_kind(words) result(has)
+    character(len=*), intent(in) :: words !! a value as it was typed
+    logical :: has
+    integer :: bar
+
+    bar = index(words, '_')
+    has = bar > 1
+    if (.not. has) return
+    has = is_number(words(:bar - 1)) .or. &
+          (words(1:1) == '.' .and. word_kind(words(:bar - 1)) == value_logical)
+  end function has_kind
 
   !> Whether words are a number: sign, digits with a point, exponent with e or d.
   pure function is_number(words) result(truth)

@@ -1,5 +1,5 @@
 !> What keys that choose and follow branches of equilibria ask of the rest of a scene.
-module gfb_branch_rules
+module gfb_branch_key_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: model_case_type, meshes_foils, coupling_partitioned
@@ -87,4 +87,4 @@ contains
                          'between them the load goes straight', point)
     end do
   end subroutine check_load_angles
-end module gfb_branch_rules
+end module gfb_branch_key_rules
