@@ -217,16 +217,18 @@ contains
     integer, intent(in) :: i
     type(complaints_type), intent(inout) :: complaints
     character(len=:), allocatable :: name, near
-    integer :: line
+    integer :: line, known
 
     name = file%group_name(i)
     if (name == '') return
     line = file%groups(i)%line
-    if (is_group(self, name)) then
-      if (line /= self%group_line(name) .or. earlier(file, i)) then
+    known = findloc(self%group_names == name, .true., dim=1)
+    if (known > 0) then
+      if (self%groups(known)%given) then
         call complaints%add(line, '&'//name//': the group is given twice, first in line '// &
-                            text(self%group_line(name)))
+                            text(self%groups(known)%line))
       end if
+      self%groups(known)%given = .true.
       return
     end if
     near = nearest_word(name, self%group_names)
@@ -241,28 +243,6 @@ contains
     end if
   end subroutine check_group
 
-  !> Whether a group of the same name stands before this one, perhaps on the same line.
-  pure function earlier(file, i) result(is_earlier)
-    type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: i
-    logical :: is_earlier
-    integer :: j
-
-    is_earlier = .false.
-    do j = 1, i - 1
-      if (file%groups(j)%line /= file%groups(i)%line) cycle
-      if (file%group_name(j) == file%group_name(i)) is_earlier = .true.
-    end do
-  end function earlier
-
-  !> Whether a group of this name exists.
-  pure function is_group(self, name) result(exists)
-    class(key_book_type), intent(in) :: self !! the known groups and keys
-    character(len=*), intent(in) :: name
-    logical :: exists
-    exists = any(self%group_names == name)
-  end function is_group
-
   !> Complains about a key that does not exist.
   subroutine check_key(self, file, i, complaints)
     class(key_book_type), intent(inout) :: self !! the known groups and keys
@@ -274,7 +254,7 @@ contains
     integer :: j
 
     group = file%group_name(file%entries(i)%group)
-    if (.not. is_group(self, group)) return
+    if (.not. any(self%group_names == group)) return
     key = file%key_name(i)
     in_group = self%key_groups == group
     if (any(in_group .and. self%key_names == key)) return

@@ -12,7 +12,7 @@ module gfb_key_notes
   character(len=*), parameter, public :: no_default = 'none' !! nothing holds without the key
 
   integer, parameter :: values_a_line = 8 !! of a long list in the echo
-  integer, parameter :: first_room = 65536 !! characters of a growing text
+  integer, parameter :: first_room = 1024 !! characters of a growing text
 
   !> What is known of a key.
   type :: key_type
@@ -40,6 +40,8 @@ module gfb_key_notes
     integer :: length = 0 !! filled
   contains
     procedure :: append
+    procedure :: add
+    procedure :: words
   end type growing_text_type
 
   !> The echo and the table of keys.
@@ -106,32 +108,48 @@ contains
   pure function echo(self) result(words)
     class(key_notes_type), intent(in) :: self !! the echo and the table of keys
     character(len=:), allocatable :: words
-    words = self%echoed%room(:self%echoed%length)
+    words = self%echoed%words()
   end function echo
 
   !> All keys as a Markdown table.
   pure function table(self) result(words)
     class(key_notes_type), intent(in) :: self !! the echo and the table of keys
     character(len=:), allocatable :: words
-    words = self%tabled%room(:self%tabled%length)
+    words = self%tabled%words()
   end function table
 
   !> Adds a line.
   pure subroutine append(self, line)
     class(growing_text_type), intent(inout) :: self !! the text
     character(len=*), intent(in) :: line !! without its end
+    call self%add(line//new_line('a'))
+  end subroutine append
+
+  !> Adds words.
+  pure subroutine add(self, words)
+    class(growing_text_type), intent(inout) :: self !! the text
+    character(len=*), intent(in) :: words !! as they shall stand there
     character(len=:), allocatable :: longer
 
     if (.not. allocated(self%room)) self%room = repeat(' ', first_room)
-    associate (needed => self%length + len(line) + 1)
+    associate (needed => self%length + len(words))
       if (needed > len(self%room)) then
         longer = self%room(:self%length)//repeat(' ', 2*needed - self%length)
         call move_alloc(longer, self%room)
       end if
-      self%room(self%length + 1:needed) = line//new_line('a')
-      self%length = needed
+      self%room(self%length + 1:needed) = words
     end associate
-  end subroutine append
+    self%length = self%length + len(words)
+  end subroutine add
+
+  !> What was added so far.
+  pure function words(self)
+    class(growing_text_type), intent(in) :: self !! the text
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (self%length > 0) words = self%room(:self%length)
+  end function words
 
   !> Adds the row of a key.
   pure subroutine add_row(self, key, value_words)
@@ -210,14 +228,15 @@ contains
   pure function value_list(values) result(words)
     real(wp), intent(in) :: values(:) !! [their unit] of a key
     character(len=:), allocatable :: words
+    type(growing_text_type) :: list
     integer :: i
 
-    words = ''
     do i = 1, size(values)
-      if (i > 1) words = words//', '
-      if (i > 1 .and. mod(i - 1, values_a_line) == 0) words = words//new_line('a')//'    '
-      words = words//exact_text(values(i))
+      if (i > 1) call list%add(', ')
+      if (i > 1 .and. mod(i - 1, values_a_line) == 0) call list%add(new_line('a')//'    ')
+      call list%add(exact_text(values(i)))
     end do
+    words = list%words()
   end function value_list
 
   !> Words to choose from.
