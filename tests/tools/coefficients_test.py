@@ -65,6 +65,40 @@ class CoefficientsTest(unittest.TestCase):
                 self.assertEqual(table[f"k{name}{other}"], STIFFNESS[:, row, column].tolist())
                 self.assertEqual(table[f"c{name}{other}"], DAMPING[:, row, column].tolist())
 
+    def sweep(self, name, frequency, speeds, stiffness=None, parameter="speed_rpm"):
+        """A made-up sweep, and status and words of its file for ROSS."""
+        path = self.folder/name
+        with h5py.File(path, "w") as file:
+            file["dynamics/frequency"], file[f"history/{parameter}"] = frequency, speeds
+            file["dynamics/stiffness"] = numpy.stack((STIFFNESS, 3.0*STIFFNESS)) if stiffness is None else stiffness
+            file["dynamics/damping"] = numpy.stack((DAMPING, 3.0*DAMPING))
+        return call(coefficients.main, path, "--ross", self.folder/f"{name}.toml")
+
+    def test_file_for_ross_over_speed_and_frequency(self):
+        status, said = self.sweep("two.h5", numpy.stack((FREQUENCY, FREQUENCY)), [3000.0, 1500.0])
+        self.assertEqual((status, "for ROSS 3" in said), (0, True), said)
+        text = (self.folder/"two.h5.toml").read_text(encoding="utf-8")
+        self.assertRegex(text, "^# gfb, for ROSS 3: .* speed of the shaft")
+        (table,) = tomllib.loads(text).values()
+        self.assertEqual(table["frequency"], FREQUENCY.tolist())
+        numpy.testing.assert_allclose(table["speed"], [50.0*numpy.pi, 100.0*numpy.pi], rtol=1e-15)  # in their order
+        self.assertEqual(table["kxy"], [(3.0*STIFFNESS[:, 0, 1]).tolist(), STIFFNESS[:, 0, 1].tolist()])
+        self.assertEqual(table["cyx"], [(3.0*DAMPING[:, 1, 0]).tolist(), DAMPING[:, 1, 0].tolist()])
+        status, said = call(coefficients.main, self.folder/"two.h5", "--ross", self.folder/"one.toml", "--point", "2")
+        self.assertEqual((status, "for ROSS 2 and 3" in said), (0, True), said)
+        text = (self.folder/"one.toml").read_text(encoding="utf-8")
+        self.assertRegex(text, "^# gfb, for ROSS 2 and 3: ")
+        self.assertEqual(next(iter(tomllib.loads(text).values()))["kxy"], (3.0*STIFFNESS[:, 0, 1]).tolist())
+
+    def test_sweeps_that_are_no_table_over_the_speed(self):
+        same, none = numpy.stack((FREQUENCY, FREQUENCY)), numpy.stack((STIFFNESS, numpy.nan*STIFFNESS))
+        for words, text in (((numpy.stack((FREQUENCY, 2.0*FREQUENCY)), [1.0, 2.0]), "frequencies, not frequency_ratios"),
+                            ((same, [1.0, 1.0]), "there are equal ones"), ((same, [1.0, 2.0], none), "point 2 has none"),
+                            ((same, [1.0, 2.0], None, "load"), "not over speed_rpm")):
+            status, said = self.sweep("none.h5", *words)
+            self.assertEqual((status, said.count("\n"), text in said), (1, 1, True), said)
+            self.assertFalse((self.folder/"none.h5.toml").exists())
+
     def test_columns_of_xltrc(self):
         self.assertEqual(call(coefficients.main, self.path, "--xltrc", self.folder/"a.txt")[0], 0)
         lines = (self.folder/"a.txt").read_text(encoding="utf-8").splitlines()

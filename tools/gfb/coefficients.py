@@ -1,13 +1,15 @@
 """Writes a bearing's stiffness and damping for rotor codes.
 
-  tools/coefficients CASE.h5 --ross NAME.toml    a BearingElement of ROSS: ross.BearingElement.load("NAME.toml")
+  tools/coefficients CASE.h5 --ross NAME.toml    a BearingElement of ROSS: ross.BearingElement.load("NAME.toml"); of one speed
+      a table over the frequency of vibration, for ROSS 2 and 3; of a sweep over speed_rpm, without --point, a table over
+      speed and frequency, which ROSS 3 reads
   tools/coefficients CASE.h5 --xltrc NAME.txt    columns as XLTRC2's: frequency [rpm], K [N/m], C [N s/m]
   tools/coefficients CASE.h5 --state-space [NAME.npz]   matrices of linear differential equations, for integration in time:
       x' = A x + B a,  force = -(C x + D a + E a'),  a = (x, y, phi_x, phi_y) of the shaft; NAME.mat for MATLAB (with SciPy);
       without a name CASE.state_space.npz beside CASE.h5
 
 CASE.h5 is of analysis = 'linear_dynamics'. The first two hold the four coefficients of x and y over the frequency of
-vibration, at the one speed of the case: for stability take them at the frequency of the mode, not at the speed.
+vibration, at one speed where no other is said: for stability take them at the frequency of the mode, not at the speed.
 """
 
 import argparse
@@ -23,6 +25,7 @@ from gfb.state_space import CannotFit, fit
 from gfb.tool import say, stop
 
 PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, column
+ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
 LARGE = 1.0e-3  # deviation of a fit that is warned of
 ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
          "the shaft along x, y [m], rotation about x, y [rad]; force: along x, y [N], torque about x, y [N m]. A [1/s], "
@@ -35,7 +38,7 @@ def read_coefficients(path, point=None):
     with reading(path), open_results(path) as file:
         if "dynamics" not in file:
             raise ValueError("no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
-        frequency, *both = (file[f"dynamics/{name}"][...] for name in ("frequency", "stiffness", "damping"))
+        frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
         swept = both[0].ndim == 4
         if swept:
             points = len(both[0])
@@ -50,17 +53,45 @@ def read_coefficients(path, point=None):
         return frequency, *both
 
 
+def read_speeds(path):
+    """The same of all points of a sweep over the speed, in the order of their speeds [rad/s]: speeds, frequencies, which all points
+    share, K and C (speed, frequency, row, column)."""
+    with reading(path), open_results(path) as file:
+        if "dynamics/stiffness" not in file or "speed_rpm" not in file.get("history", {}) or file["dynamics/stiffness"].ndim != 4:
+            raise Unreadable(f"{path}: a sweep, but not over speed_rpm with analysis = 'linear_dynamics'; say which of its points with --point")
+        speed = file["history/speed_rpm"].astype(float)[...]*math.pi/30.0
+        frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
+        order = numpy.argsort(speed)
+        if frequency.ndim != 2 or any(values.shape != (len(speed), frequency.shape[1], 4, 4) for values in both):
+            raise ValueError("stiffness and damping are no 4 x 4 a speed and frequency")
+        if (frequency != frequency[0]).any():
+            raise Unreadable(f"{path}: a table over the speed needs the same frequencies at all speeds: give &dynamics frequencies, "
+                             "not frequency_ratios, or say which point with --point")
+        lost = [number for number, values in enumerate(zip(*both), 1) if not numpy.isfinite(values).all()]
+        if lost or len(set(speed)) < len(speed):
+            raise Unreadable(f"{path}: a table over the speed needs speeds that differ, and an answer at each; "
+                             + (f"point {lost[0]} has none" if lost else "there are equal ones"))
+        return speed[order], frequency[0], *(values[order] for values in both)
+
+
+def is_sweep(path):
+    """Whether a file has stiffness and damping of several points."""
+    with reading(path), open_results(path) as file:
+        return "dynamics/stiffness" in file and file["dynamics/stiffness"].ndim == 4
+
+
 def columns_of(stiffness, damping):
-    """{kxx: values over frequency, ..., cyy: ...}."""
-    return {kind + name: values[:, row, column] for kind, values in (("k", stiffness), ("c", damping))
+    """{kxx: values over frequency, or over speed and frequency, ..., cyy: ...}."""
+    return {kind + name: values[..., row, column] for kind, values in (("k", stiffness), ("c", damping))
             for name, row, column in PLANE}
 
 
-def ross_text(frequency, columns, name):
-    """A BearingElement as ROSS saves it; node 0."""
-    lines = [f"[{json.dumps('BearingElement_' + name)}]", "n = 0", f"tag = {json.dumps(name)}", "scale_factor = 1"]
-    for key, values in sorted({**columns, "frequency": frequency}.items()):
-        lines.append(f"{key} = [{', '.join(repr(float(value)) for value in values)}]")
+def ross_text(frequency, columns, name, speed=None):
+    """A BearingElement as ROSS saves it; node 0. With speeds a table of two dimensions."""
+    axes = {"frequency": frequency} | ({} if speed is None else {"speed": speed})
+    lines = [f"# gfb, for ROSS {'2 and 3: a table over the frequency of vibration' if speed is None else ROSS_3}, in SI",
+             f"[{json.dumps('BearingElement_' + name)}]", "n = 0", f"tag = {json.dumps(name)}", "scale_factor = 1"]
+    lines += [f"{key} = {values.tolist()!r}" for key, values in sorted({**columns, **axes}.items())]
     return "\n".join(lines) + "\n"
 
 
@@ -77,6 +108,14 @@ def table_writer(text_of, data, name):
     """What writes a table to a path."""
     frequency, stiffness, damping = data
     return lambda path: path.write_text(text_of(frequency, columns_of(stiffness, damping), name), encoding="utf-8")
+
+
+def ross_writer(over, data, name):
+    """The same of ROSS's file, of one speed or over all of a sweep."""
+    if over is None:
+        return table_writer(ross_text, data, name)
+    speed, frequency, *both = over
+    return lambda path: path.write_text(ross_text(frequency, columns_of(*both), name, speed), encoding="utf-8")
 
 
 def state_space_writer(options, data):
@@ -130,14 +169,17 @@ def main():
     if options.state_space == pathlib.Path():
         options.state_space = options.file.with_suffix(".state_space.npz")
     try:
-        data = read_coefficients(options.file, options.point)
+        over_speed = options.ross is not None and options.point is None and is_sweep(options.file)
+        over = read_speeds(options.file) if over_speed else None
+        data = None if over_speed and options.xltrc is options.state_space is None else read_coefficients(options.file, options.point)
     except Unreadable as error:
         stop(str(error))
     except FileNotFoundError:
         stop(f"{options.file}: there is no such file")
-    for path, writer in ((options.ross, lambda: table_writer(ross_text, data, options.file.stem)),
-                         (options.xltrc, lambda: table_writer(xltrc_text, data, options.file.stem)),
-                         (options.state_space, lambda: state_space_writer(options, data))):
+    ross = "for ROSS 3, over speed and frequency" if over_speed else "for ROSS 2 and 3, over the frequency"
+    for path, writer, words in ((options.ross, lambda: ross_writer(over, data, options.file.stem), f" ({ross})"),
+                                (options.xltrc, lambda: table_writer(xltrc_text, data, options.file.stem), ""),
+                                (options.state_space, lambda: state_space_writer(options, data), "")):
         if path is None:
             continue
         write = writer()
@@ -145,5 +187,5 @@ def main():
             write(path)
         except OSError as error:
             stop(f"{path}: {error.strerror}", 3)
-        print(f"written: {path}")
+        print(f"written: {path}{words}")
     return 0
