@@ -1,7 +1,7 @@
 """Load capacity and drag beside numbers measured by others: one strip and split strips, thin and thick top foils, preload.
 
-Capacity of a bearing of 34.9 x 43.7 mm from 20,000 to 68,000 rpm, shells, and its drag under light loads; the foils are those
-of [Gu2020], because those of the measured bearings were not published (ten to fifteen minutes).
+Capacity of a bearing 43.7 mm in diameter and 34.9 mm long from 20,000 to 68,000 rpm, shells, and the drag of a longer one under
+light loads; the foils are those of [Gu2020], because those of the measured bearings were not published (a quarter of an hour and more).
 """
 
 import itertools
@@ -9,15 +9,22 @@ import math
 import pathlib
 import tempfile
 
+import numpy
+
 from gfb.run import run_file, write_case
 from gfb.tables import markdown_table, plain_table
 
 PAGE = pathlib.Path(__file__).resolve().parents[3]/"docs/measured/comparisons.md"
-RADIUS, LENGTH = 17.45e-3, 43.7e-3
-MEASURED = 537.0                                   # [N] at the last of the speeds, 353 kPa over D L
+RADIUS, LENGTH = 21.85e-3, 34.9e-3                  # [m]
+PRESSURE = 352.0e3                                  # W/(D L) measured at the last of the speeds [Pa]
+MEASURED = PRESSURE*2.0*RADIUS*LENGTH               # [N]
 SPEEDS = (20000.0, 36000.0, 68000.0)                # [rpm]
 DRAG_SPEEDS = (20000.0, 30000.0, 40000.0)
-DRAG_PRESSURES = (6.0e3, 2.0e4, 5.0e4)             # W/(D L) [Pa]
+DRAG_PRESSURES = (6.0e3, 1.6e4, 2.6e4)             # W/(D L), the least, the middle and the most of the test [Pa]
+DRAG_LENGTH = 1.04*2.0*RADIUS                       # the test's L/D [m]
+DRAG_MEASURED = 0.04                                # coefficient
+BUMPS = 30                                          # as many as fit around
+ARC, FLAT = 6, 2                                    # elements of an arc and of a flat
 SHEET = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "leading"}
 THIN, THICK, SOFT = 0.102e-3, 0.203e-3, 0.076e-3   # [m]
 SPLIT = {"strips": 3, "cut_width": 0.6e-3, "strip_thickness": (SOFT, THIN, SOFT)}
@@ -31,7 +38,7 @@ VARIANTS = {  # words: rows, width of the middle ones over those at the edges, t
     "one strip, pressed on its bumps at rest": (16, 4.0, THIN, {"thickness": THIN}, 110.0e-6),
 }
 RESTS_ON = (  # what each of them assumes beyond what all do
-    "bumps as stiff at the edges as in the middle", "the same; a mesh with half the error", "a top foil twice as thick", OUTER,
+    "bumps as stiff at the edges as in the middle", "the same; rows finer at the edges", "a top foil twice as thick", OUTER,
     f"{OUTER}; a top foil twice as thick", "a top foil made 0.11 mm wider than the bore")
 DRAG_VARIANTS = tuple(list(VARIANTS)[i] for i in (0, 3, 5))
 HEAD = """# Measured numbers of others
@@ -39,32 +46,41 @@ HEAD = """# Measured numbers of others
 Written by `tools/bench measured --docs`.
 
 What was measured is load and speed; foils, clearances, gas and the film at which a test was stopped were not published, or not whole.
-So these lines show orders and trends, and rest on what is assumed: the sizes of the bearing, 34.9 mm in diameter and 43.7 mm long,
-are read from "43.7 x 34.9 mm" (which is which is not said); both foils are [Gu2020]'s, 0.102 mm, 23 bumps of a pitch of 4.572 mm that
-fit around it; clearance 31.8 um, friction 0.1, air of 1.85e-5 Pa s at 1.0135e5 Pa, one temperature; both foils are fixed at their leading
-edges, because the film draws a free leading edge up at 68,000 rpm; the load acts opposite the slit. Capacity is the
-load at which the smallest film is {gap:g} um, or where the branch ends before (marked *; *none*: no equilibrium from which to
-look for it). Nothing was fitted.
+So these lines show orders and trends, and rest on what is assumed: both foils are [Gu2020]'s, 0.102 mm, {bumps} bumps of a pitch of
+4.572 mm, as many as fit around; clearance 31.8 um, friction 0.1, air of 1.85e-5 Pa s at 1.0135e5 Pa, one temperature; both foils are
+fixed at their leading edges, because the film draws a free leading edge up at 68,000 rpm, the strip of bumps at the first bump's foot
+(`fixed_line = 'corner'`); the load acts opposite the slit. Foils are shells. The mesh has
+{arc} elements an arc and {flat} a flat, {around} around the bearing; rows are elements along its width, all alike or, where finer, four
+times narrower at the edges than in the middle (`edge_refinement = 4`). Capacity is the load at which the smallest film is {gap:g} um, or
+where the branch ends before (marked *; *none*: no equilibrium from which to look for it). Nothing was fitted. What the tests were is
+taken from the abstracts of their papers.
 """
+MIDDLE = """In the middle of the width the film is then {least:.1f} to {most:.1f} um: where that is the smallest film nearly, the whole width is at its
+limit; where it is more, the edges are, where the pressure falls and the bumps hold the foil up. What still differs: heat (a thin film
+is hot, and a hot gas is more viscous; shaft and foils grow), coatings that wear in, the criterion (tests end where the torque rises or
+the shaft rubs, at films that nobody measured), and the foils, which are not those of the test."""
 LOADS = """
-## 353 kPa at 68,000 rpm (Heshmat, Shapiro and Gray, 1982)
+## 352 kPa at 68,000 rpm [Heshmat1982]
 
-That is {measured:.0f} N. [N], and the film in the middle of the width at the limit of the last speed:
+A bearing of one pad, 43.7 mm in diameter and 34.9 mm long, bore 352 kPa: {measured:.0f} N. [N], and the film in the middle of the width
+at the limit of the last speed:
 
 {table}
 *over n*: W grows as speed^n between the first and the last speed; designers take 1 [DellaCorteValco2000].
 
 {said}
 """
-DRAG = """
-## A drag coefficient of 0.04 from 20,000 to 40,000 rpm (San Andres and Chirathadam)
+DRAGS = """
+## A drag coefficient of 0.04 from 20,000 to 40,000 rpm [SanAndres2012]
 
-Friction torque over W R of the bearing above, on 8 rows, three strips on 18:
+The test's bearing had L/D = 1.04 and bore 0.06 to 0.26 bar; its coefficient of about 0.04 is said of all of these together. Its
+sizes are not known here: the diameter is that of the bearing above, the length 1.04 times as much. Friction torque over W R, on 8 rows,
+three strips on 18:
 
 {table}
-It falls with the load and grows with the speed, as a film's does: a coefficient by itself says little without its load. Cuts and a top foil
-that is pressed on at rest change it by less than these digits. Each line rests on what its foils rest on above. Measured
-bearings rub, too, at start and where rows of bumps lift; these do not, once the film is there.
+gfb reaches {least:.0f} to {most:.0f} % of 0.04. The coefficient falls with the load and grows with the speed, as a film's does: by
+itself it says little without its load. Cuts and a top foil that is pressed on at rest change it by {spread}. Each line rests on what
+its foils rest on above. Measured bearings rub, too, at start and where rows of bumps lift; these do not, once the film is there.
 """
 
 
@@ -83,24 +99,25 @@ def run(options):
             answers[words] = capacities(options, folder, *variant)
             print(f"{words}:", *(f"{load:.0f}" for load, _, _ in answers[words]), "N", flush=True)
         loads = load_table(answers)
-        drags = drag_table(options, folder)
+        drags, reached, spread = drag_table(options, folder)
     if options.docs and not options.quick:
-        PAGE.write_text(HEAD.format(gap=options.gap*1.0e6)
+        PAGE.write_text(HEAD.format(gap=options.gap*1.0e6, bumps=BUMPS, arc=ARC, flat=FLAT, around=BUMPS*(ARC + FLAT))
                         + LOADS.format(measured=MEASURED, table=markdown_table(*loads), said=said_of(answers))
-                        + DRAG.format(table=markdown_table(*drags)), encoding="utf-8")
+                        + DRAGS.format(table=markdown_table(*drags), least=min(reached), most=max(reached), spread=spread),
+                        encoding="utf-8")
     return plain_table(*loads) + "\n" + plain_table(*drags)
 
 
-def groups_of(options, rows, finer, top, bumps, larger):
+def groups_of(options, length, rows, finer, top, bumps, larger):
     """A case's groups but for what is asked."""
     return {
-        "bearing": {"radius": RADIUS, "length": LENGTH, "clearance": 31.8e-6},
+        "bearing": {"radius": RADIUS, "length": length, "clearance": 31.8e-6},
         "gas": {"viscosity": 1.85e-5, "ambient_pressure": 1.0135e5},
         "top_foil": SHEET | {"thickness": top} | ({"free_radius": RADIUS + larger} if larger else {}),
-        "bump_foil": SHEET | {"half_length": 1.778e-3, "height": 0.508e-3, "pitch": 4.572e-3, "bumps": 23} | bumps,
+        "bump_foil": SHEET | {"half_length": 1.778e-3, "height": 0.508e-3, "pitch": 4.572e-3, "bumps": BUMPS, "fixed_line": "corner"} | bumps,
         "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
         "model": {"foil": "beam" if options.quick else "shell"},
-        "mesh": {"axial_elements": 4 if options.quick else rows, "arc_elements": 6, "flat_elements": 2}
+        "mesh": {"axial_elements": 4 if options.quick else rows, "arc_elements": ARC, "flat_elements": FLAT}
         | ({"edge_refinement": finer} if finer > 1.0 else {}),
         "output": {"fields": "none"},
     }
@@ -108,7 +125,7 @@ def groups_of(options, rows, finer, top, bumps, larger):
 
 def capacities(options, folder, *variant):
     """Load, whether it is at the limit, and the film in the middle there, speed by speed; as far as the sweep gets."""
-    groups = groups_of(options, *variant) | {
+    groups = groups_of(options, LENGTH, *variant) | {
         "scene": {"analysis": "load_capacity"}, "capacity": {"smallest_gap": options.gap},
         "operation": {"speed_rpm": SPEEDS[-1], "load": (-120.0, 0.0)},
         "sweep": {"parameter": "speed_rpm", "values": SPEEDS[::-1]}}
@@ -143,26 +160,29 @@ def said_of(answers):
     """What the lines say."""
     parts = [found[-1][0]/MEASURED for found in answers.values() if not math.isnan(found[-1][0])]
     powers = [exponent(found) for found in answers.values() if not math.isnan(exponent(found))]
+    middle = [1.0e6*found[-1][2] for found in answers.values() if not math.isnan(found[-1][2])]
     order = sorted((words for words in answers if not math.isnan(answers[words][-1][0])), key=lambda words: answers[words][-1][0])
     return (f"These bear {min(parts):.2f} to {max(parts):.2f} of what was measured, and their capacity grows as speed^{min(powers):.2f} to "
             f"speed^{max(powers):.2f};\nleast is borne by *{order[0]}*, most by *{order[-1]}*.\n"
-            "The film is thinnest at the edges of the width, where the pressure falls and the bumps hold the foil up, while the middle\n"
-            "has reserve. What still differs: heat (a thin film is hot, and a hot gas is more viscous; shaft and foils grow), coatings\n"
-            "that wear in, the criterion (tests end where the torque rises or the shaft rubs, at films that nobody measured), and the\n"
-            "foils, which are not those of the test.")
+            f"{MIDDLE.format(least=min(middle), most=max(middle))}")
 
 
 def drag_table(options, folder):
-    """A line a load and a variant."""
-    rows = []
-    for words, pressure in itertools.product(DRAG_VARIANTS[:1 if options.quick else None], DRAG_PRESSURES):
-        load = pressure*2.0*RADIUS*LENGTH
+    """A line a load and a variant; all coefficients in per cent of the measured one; by how much variants differ."""
+    rows, found = [], []
+    for pressure, words in itertools.product(DRAG_PRESSURES, DRAG_VARIANTS[:1 if options.quick else None]):
+        load = pressure*2.0*RADIUS*DRAG_LENGTH
         count, _, *foils = VARIANTS[words]
-        groups = groups_of(options, count if "strips" in foils[1] else 8, 1.0, *foils) | {
+        groups = groups_of(options, DRAG_LENGTH, count if "strips" in foils[1] else 8, 1.0, *foils) | {
             "scene": {"analysis": "equilibrium"}, "operation": {"speed_rpm": DRAG_SPEEDS[0], "load": (-load, 0.0)},
             "sweep": {"parameter": "speed_rpm", "values": DRAG_SPEEDS}}
         answer = run_file(options.gfb, write_case(folder, "drag", groups), folder, 1, [], seconds=1800)
         torques = list(answer.history()["friction_torque"]) if answer.status in (0, 2) else []
-        torques += [math.nan]*(len(DRAG_SPEEDS) - len(torques))
-        rows.append([words.removesuffix(", 16 rows"), f"{pressure*1.0e-5:.2f} bar", f"{load:.1f} N", *(number(torque/(load*RADIUS), ".4f") for torque in torques)])
-    return "drag coefficient", ["foils", "W/(D L)", "W", *(f"{speed:,.0f} rpm" for speed in DRAG_SPEEDS)], rows
+        found.append([torque/(load*RADIUS) for torque in torques] + [math.nan]*(len(DRAG_SPEEDS) - len(torques)))
+        rows.append([words.removesuffix(", 16 rows"), f"{pressure*1.0e-5:.2f} bar", f"{load:.1f} N", *(number(one, ".4f") for one in found[-1])])
+        print(f"{words}, {pressure*1.0e-5:.2f} bar:", *rows[-1][3:], flush=True)
+    shape = (len(DRAG_PRESSURES), -1, len(DRAG_SPEEDS))
+    by_load = numpy.array(found).reshape(shape)
+    spread = numpy.nanmax(numpy.ptp(by_load, axis=1)/by_load[:, 0])
+    reached = 100.0*by_load[numpy.isfinite(by_load)]/DRAG_MEASURED
+    return ("drag coefficient", ["foils", "W/(D L)", "W", *(f"{speed:,.0f} rpm" for speed in DRAG_SPEEDS)], rows), reached, f"{100.0*spread:.1g} % at most"
