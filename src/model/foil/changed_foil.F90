@@ -7,6 +7,7 @@ module gfb_changed_foil
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: share_failure
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
@@ -315,7 +316,7 @@ contains
     type(local_exchange_type) :: exchange
     real(wp) :: there(count(number > 0))
 
-    call create_exchange(pack(number, number > 0) - 1, foil%state, exchange)
+    call create_exchange(int(pack(number, number > 0) - 1, pint), foil%state, exchange)
     call exchange%get(foil%state, there)
     call exchange%destroy()
     moved = unpack(there, number > 0, 0.0_wp)
@@ -328,7 +329,7 @@ contains
     real(wp), intent(in) :: force(:) !! [N], [N m]
     type(local_exchange_type) :: exchange
 
-    call create_exchange(pack(number, number > 0) - 1, foil%force, exchange)
+    call create_exchange(int(pack(number, number > 0) - 1, pint), foil%force, exchange)
     call exchange%add(pack(force, number > 0), foil%force)
     call exchange%destroy()
   end subroutine add_up
