@@ -76,7 +76,8 @@ install_packages() {
     fi
   fi
   system=$(. /etc/os-release 2>/dev/null; printf '%s %s' "${ID:-}" "${VERSION_ID:-}")
-  [[ $system == 'debian 12' ]] || say "gfb is tested on Debian 12; ${system:-this system} is untested"
+  [[ $system == 'debian 12' || $system == 'debian 13' ]] \
+    || say "gfb is tested on Debian 12 and 13; ${system:-this system} is untested"
   say "installing with apt: $*"
   say '(some minutes the first time)'
   as_root+=(env DEBIAN_FRONTEND=noninteractive)

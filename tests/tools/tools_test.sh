@@ -114,6 +114,13 @@ for wrong in '--version 3.26' '--version newest' '--jobs 0' '--folder' ''; do # 
   expect 1 'tools/check_petsc:' "check_petsc refuses '$wrong'"
 done
 
+# --- tools/check_systems ---
+for wrong in '11' '--jobs 0' '--folder' '13 amd64' ''; do
+  # shellcheck disable=SC2086 # several words
+  call "$copy/tools/check_systems" $wrong
+  expect 1 'tools/check_systems:' "check_systems refuses '$wrong'"
+done
+
 # --- tools/check: with the real findent and fortitude, where the build folder has them ---
 venv=$project/build/venv
 if [[ -x $venv/bin/fortitude ]] && command -v findent >/dev/null; then

@@ -27,9 +27,9 @@ class Gfb(CMakePackage):
     depends_on("blas")
     depends_on("lapack")
     depends_on("metis@5:")
-    # PETSc's own MUMPS, with complex numbers as well; double precision and 32-bit indices.
+    # PETSc's own MUMPS, with complex numbers as well; double precision, indices of 32 or 64 bits.
     depends_on("mumps+mpi+double+complex")
-    depends_on("petsc@3.18:+mpi+mumps+fortran+double~complex~int64")
+    depends_on("petsc@3.18:+mpi+mumps+fortran+double~complex")
     depends_on("slepc@3.18:")
     depends_on("suite-sparse")
     depends_on("hdf5+mpi+fortran")
