@@ -4,98 +4,15 @@ module gfb_plausible_values
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_key_elements, only: find_elements
   use gfb_namelist_values, only: read_real, value_string
+  use gfb_periodic_case, only: follow_mass, follow_speed, follow_unbalance
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_keys, sweep_load, sweep_load_angle, &
                             sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
+  use gfb_usual_ranges, only: range_type, ranges, units
   implicit none (type, external)
   private
   public :: check_plausible
-
-  !> What is usual of a key's values; signs do not count, and zero is always usual.
-  type :: range_type
-    character(len=13) :: group
-    character(len=22) :: key
-    real(wp) :: low, high       !! smallest and largest usual value [the key's unit]
-    character(len=8) :: unit    !! the key's
-    character(len=19) :: others !! what the number may be meant in: units, the likeliest first
-  end type range_type
-
-  type(range_type), parameter :: ranges(*) = [ &
-    range_type('bearing', 'radius', 1.0e-3_wp, 0.5_wp, 'm', 'mm,um'), &
-    range_type('bearing', 'length', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
-    range_type('bearing', 'clearance', 1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bearing', 'assembly_interference', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bearing', 'leading_edge_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'wave_amplitude', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bore', 'wave_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bore', 'shim_arc', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_ramp', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'profile_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('gas', 'viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
-    range_type('gas', 'ambient_pressure', 1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
-    range_type('gas', 'mean_free_path', 1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm'), &
-    range_type('gas', 'temperature', 50.0_wp, 3000.0_wp, 'K', ''), &
-    range_type('gas', 'molar_mass', 1.0e-3_wp, 0.5_wp, 'kg/mol', 'g/mol'), &
-    range_type('gas', 'critical_pressure', 1.0e5_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
-    range_type('operation', 'speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
-    range_type('operation', 'eccentricity', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('operation', 'tilt', 0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg'), &
-    range_type('operation', 'leading_edge_lift', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('operation', 'leading_edge_lift_edge', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'free_radius', 1.0e-3_wp, 1.0e3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
-    range_type('top_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
-    range_type('bump_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
-    range_type('bump_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
-    range_type('bump_foil', 'half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'crest_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'corner_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'height_deviation', 1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_offset', 0.0_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'cut_width', 1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'width', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
-    range_type('contact', 'friction_top', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('contact', 'friction_sleeve', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('contact', 'stick_length', 1.0e-12_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('shaft_contact', 'roughness', 1.0e-8_wp, 1.0e-4_wp, 'm', 'um,mm'), &
-    range_type('shaft_contact', 'pressure', 1.0e4_wp, 1.0e11_wp, 'Pa', 'MPa,GPa'), &
-    range_type('shaft_contact', 'friction', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('strip_load', 'pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
-    range_type('strip_load', 'bump_pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
-    range_type('strip_load', 'maximum_displacement', 0.0_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('model', 'foundation_stiffness', 1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('capacity', 'smallest_gap', 1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm'), &
-    range_type('solver', 'touch_down_gap', 0.0_wp, 1.0e-4_wp, 'm', 'mm,um')]
-
-  !> A unit in which a number may be meant.
-  type :: unit_type
-    character(len=8) :: name
-    real(wp) :: size !! in the key's unit [1]
-  end type unit_type
-
-  type(unit_type), parameter :: units(*) = [ &
-    unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
-    unit_type('mrad', 1.0e-3_wp), unit_type('deg', acos(-1.0_wp)/180.0_wp), &
-    unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
-    unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &
-    unit_type('krpm', 1.0e3_wp), unit_type('%', 1.0e-2_wp), &
-    unit_type('g/mol', 1.0e-3_wp), unit_type('g/cm^3', 1.0e3_wp), &
-    unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp)]
 
   !> No gas film carries a larger load over p_a D L [1].
   real(wp), parameter :: most_carried = 50.0_wp
@@ -113,6 +30,7 @@ contains
       call check_values(keys, trim(ranges(i)%group), trim(ranges(i)%key), ranges(i))
     end do
     call check_sweep_values(keys, scene%sweep)
+    call check_final_value(keys, scene%periodic%parameter)
     ! A load that is large against a wrong pressure is not wrong.
     if (keys%complaints%count + keys%warnings%count == mistakes) call check_load(keys, scene)
   end subroutine check_plausible
@@ -160,6 +78,24 @@ contains
       call check_values(keys, 'sweep', 'values', range)
     end do
   end subroutine check_sweep_values
+
+  !> The last value of a branch of orbits is that of its parameter.
+  subroutine check_final_value(keys, parameter)
+    type(case_keys_type), intent(inout) :: keys
+    integer, intent(in) :: parameter !! over which the orbits are followed
+    integer :: i
+
+    do i = 1, size(ranges)
+      associate (group => ranges(i)%group, key => ranges(i)%key)
+        if ((parameter == follow_speed .and. group == 'operation' .and. key == 'speed_rpm') .or. &
+            (parameter == follow_unbalance .and. group == 'periodic' .and. &
+             key == 'unbalance') .or. &
+            (parameter == follow_mass .and. group == 'rotor' .and. key == 'mass')) then
+          call check_values(keys, 'periodic', 'final_value', ranges(i))
+        end if
+      end associate
+    end do
+  end subroutine check_final_value
 
   !> Warns of a load that no film carries.
   subroutine check_load(keys, scene)

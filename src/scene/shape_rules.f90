@@ -5,6 +5,7 @@ module gfb_shape_rules
                                 bump_thicknesses, strips_differ
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
+  use gfb_periodic_case, only: follow_unbalance
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
@@ -37,6 +38,7 @@ contains
                       scene%strip_load%maximum_displacement, scene%bump_foil%height, &
                       'the height of the bumps')
     call check_position(keys, scene)
+    call check_motion(keys, scene)
   end subroutine check_shape
 
   !> Bumps are low against the bearing, and their foil is thin against them.
@@ -136,6 +138,52 @@ contains
       end do
     end subroutine lifts_must_be_less
   end subroutine check_position
+
+  !> A shaft that vibrates, or is led round an orbit, stays within the clearance, and so does the
+  !> centre of mass of one with an unbalance, about which it turns when it is fast.
+  subroutine check_motion(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: room !! left for an orbit [m]
+    integer :: i
+
+    associate (clearance => scene%bearing%clearance, mass => scene%rotor%mass)
+      if (.not. clearance > 0.0_wp) return
+      if (scene%dynamics%present) then
+        do i = 1, size(scene%dynamics%amplitudes)
+          call must_be_less(keys, 'dynamics', 'vibration_amplitudes', &
+                            scene%dynamics%amplitudes(i), clearance, 'the clearance', i)
+        end do
+      end if
+      if (scene%transient%present) then
+        room = clearance
+        if (scene%model%foil == foil_rigid) room = room - norm2(scene%operation%eccentricity)
+        call must_be_less(keys, 'transient', 'orbit_radius', scene%transient%orbit_radius, room, &
+                          'what the position leaves of the clearance')
+        call check_unbalance('transient', 'unbalance', scene%transient%unbalance, mass, clearance)
+      end if
+      if (.not. scene%periodic%present) return
+      call check_unbalance('periodic', 'unbalance', scene%periodic%unbalance, mass, clearance)
+      if (scene%periodic%parameter == follow_unbalance) then
+        call check_unbalance('periodic', 'final_value', scene%periodic%final_value, mass, clearance)
+      end if
+    end associate
+
+  contains
+
+    !> Complains about a centre of mass that lies outside the clearance.
+    subroutine check_unbalance(group, key, unbalance, mass, clearance)
+      character(len=*), intent(in) :: group, key !! names in the case file
+      real(wp), intent(in) :: unbalance !! [kg m]
+      real(wp), intent(in) :: mass      !! [kg]
+      real(wp), intent(in) :: clearance !! [m]
+
+      if (.not. mass > 0.0_wp .or. unbalance < clearance*mass) return
+      call keys%complain(group, key, 'puts the centre of mass '//text(unbalance/mass)// &
+                         ' m off the axis, with mass = '//text(mass)//' kg in &rotor; this '// &
+                         'must be less than '//text(clearance)//' m, the clearance')
+    end subroutine check_unbalance
+  end subroutine check_motion
 
   !> Complains about a size that is not less than its limit; none where the limit is not known.
   subroutine must_be_less(keys, group, key, value, limit, what, point, of)

@@ -5,7 +5,7 @@ module gfb_periodic_case
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_maxwell_keys, only: read_maxwell_keys
   use gfb_scene_case, only: analysis_periodic, misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative, at_least, from_to
+  use gfb_value_rules, only: any_value, positive, not_negative, at_least, between, from_to
   implicit none (type, external)
   private
   public :: periodic_case_type, read_periodic_case
@@ -65,7 +65,8 @@ contains
                        'clearance '// &
                        'and the parameter over its way', positive)
     call keys%real_key('first_amplitude', periodic%first_amplitude, '1', &
-                       'of the first limit cycle after the onset, over the clearance', positive)
+                       'of the first limit cycle after the onset, over the clearance', &
+                       between(0.0_wp, 1.0_wp))
     call keys%integer_key('steps_per_turn', periodic%steps_per_turn, &
                           'equal steps of time in a turn of the shaft', at_least(fewest_steps))
     call keys%integer_key('period_turns', periodic%period_turns, &
