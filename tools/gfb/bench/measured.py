@@ -49,11 +49,11 @@ What was measured is load and speed; foils, clearances, gas and the film at whic
 So these lines show orders and trends, and rest on what is assumed: both foils are [Gu2020]'s, 0.102 mm, {bumps} bumps of a pitch of
 4.572 mm, as many as fit around; clearance 31.8 um, friction 0.1, air of 1.85e-5 Pa s at 1.0135e5 Pa, one temperature; both foils are
 fixed at their leading edges, because the film draws a free leading edge up at 68,000 rpm, the strip of bumps at the first bump's foot
-(`fixed_line = 'corner'`); the load acts opposite the slit. Foils are shells. The mesh has
-{arc} elements an arc and {flat} a flat, {around} around the bearing; rows are elements along its width, all alike or, where finer, four
-times narrower at the edges than in the middle (`edge_refinement = 4`). Capacity is the load at which the smallest film is {gap:g} um, or
-where the branch ends before (marked *; *none*: no equilibrium from which to look for it). Nothing was fitted. What the tests were is
-taken from the abstracts of their papers.
+(`fixed_line = 'corner'`); the load acts opposite the slit. What the tests were is taken from the abstracts of their papers.
+Foils are shells. The mesh has {arc} elements an arc and {flat} a flat, {around} around the bearing, and along its width 16 rows of one strip,
+18 of three: all alike on the first line and of three strips, else four times narrower at the edges than in the middle
+(`edge_refinement = 4`). Capacity is the load at which the smallest film is {gap:g} um, or where the branch ends before (marked *; *none*: no
+equilibrium from which to look for it). Nothing was fitted.
 """
 MIDDLE = """In the middle of the width the film is then {least:.1f} to {most:.1f} um: where that is the smallest film nearly, the whole width is at its
 limit; where it is more, the edges are, where the pressure falls and the bumps hold the foil up. What still differs: heat (a thin film
