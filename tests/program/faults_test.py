@@ -94,11 +94,12 @@ def check_petsc_options(checks, folder):
 def check_little_memory(checks, folder):
     """Whatever addresses a process may have: an answer, or a sentence and status 3, and soon."""
     case = write_case(folder, "little", faults.CASE)
+    by_mumps = {**os.environ, "PETSC_OPTIONS": "-bearing_pc_factor_mat_solver_type mumps"}
     seen = set()
     for megabytes in (180, 240, 300, 360, 600):
         try:
-            done = run(case, folder/"little", "--quiet",
-                       env={**os.environ, "PETSC_OPTIONS": "-bearing_pc_factor_mat_solver_type mumps"}, preexec_fn=lambda room=megabytes << 20: resource.setrlimit(resource.RLIMIT_AS, (room, room)))
+            done = run(case, folder/"little", "--quiet", env=by_mumps,
+                       preexec_fn=lambda room=megabytes << 20: resource.setrlimit(resource.RLIMIT_AS, (room, room)))
         except subprocess.TimeoutExpired:
             checks.that(f"{megabytes} MB: it ends", False)
             continue
