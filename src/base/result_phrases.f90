@@ -14,6 +14,7 @@ module gfb_result_phrases
     with_stretches = 'of ranks, each with a stretch of the sweep', &
     at_this_point = 'at this point', at_first_point = 'at the sweep''s first point', &
     at_fixed_equilibrium = 'in the equilibrium at which the shaft is held', &
+    at_begin_of_time = 'where the time begins', &
     load_kept = '; the load is kept', shaft_fixed = '; the shaft is held', &
     linearised_there = ', contact and friction linearised there'
   !> By the axis of the sweep.

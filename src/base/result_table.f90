@@ -135,7 +135,8 @@ module gfb_result_table
       'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
 
   type(result_type), parameter :: transients(*) = [ &
-    result_type('time', 's', number, transient, 'computed; what stands above is of its end'), &
+    result_type('time', 's', number, transient, &
+      'computed; eccentricity, forces, film and foils are of its end'), &
     result_type('turns', '1', number, transient, 'of the shaft in that time'), &
     result_type('time_steps', '1', total, transient, 'that were taken'), &
     result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
@@ -143,6 +144,10 @@ module gfb_result_table
     result_type('orbit_tilt_<a>', 'rad', number, transient, 'extent of a tilt in a turn'), &
     result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest one'), &
     result_type('ending', '', word, transient + periodic, 'why it ended before its end'), &
+    result_type('not_reached', '', word, transient + periodic, &
+      'what was asked for and not reached', &
+      'what was asked for and not reached: turns, a speed, a steady orbit, the end of a '// &
+      'branch; `converged` is then false and the exit status 2'), &
     result_type('frequency_ratio', '1', number, periodic, 'of the last orbit over the speed'), &
     result_type('largest_multiplier', '1', number, periodic, 'of that orbit, which judges it'), &
     result_type('orbit_stable', '1', truth, periodic, 'whether disturbances of it die out'), &
@@ -196,9 +201,10 @@ module gfb_result_table
       'force that lifts the free edge of pad n over its displacement', &
       'of several pads: the same of each'), &
     result_type('critical_mass', 'kg', number, bearing, &
-      'mass on this bearing above which a rigid shaft whirls, at this load and speed', &
+      'mass on this bearing above which a rigid shaft whirls, {at this load and speed}', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
-      'rigid shaft whirls, at this load and speed; absent where none does', asked=.true.), &
+      'rigid shaft whirls, at this load and speed; absent where none does; with `&transient` '// &
+      'that of the point where it begins', asked=.true.), &
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
       'the same: frequency of that whirl over the speed of the shaft', asked=.true.), &

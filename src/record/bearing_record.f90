@@ -37,7 +37,13 @@ module gfb_bearing_record
     type(dynamics_record_type) :: dynamics !! stiffness, damping, rotor
     type(grid_series_type) :: series !! film and foils at the points of a sweep
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
+  contains
+    procedure :: move_on
   end type bearing_record_type
+
+  !> What is known of the point where a motion begins, and still of interest at its end.
+  character(len=*), parameter :: of_first_point(2) = [character(len=13) :: 'critical_mass', &
+                                                      'whirl_ratio']
 
 contains
 
@@ -115,6 +121,21 @@ contains
       unit = result_unit(sweep_name(sweep))
     end if
   end function sweep_unit
+
+  !> The shaft has moved on from the one answer: what is known of its motion stands in the place
+  !> of what was known of that.
+  subroutine move_on(self, found)
+    class(bearing_record_type), intent(inout) :: self !! of the answer
+    type(quantity_type), intent(in) :: found(:) !! of the motion
+    type(quantity_type), allocatable :: first(:)
+    integer :: i
+
+    call move_alloc(self%judged, first)
+    self%judged = found
+    do i = 1, size(first)
+      if (any(of_first_point == first(i)%name)) call add_quantity(self%judged, first(i))
+    end do
+  end subroutine move_on
 
   !> Packs or unpacks a record but for the contacts.
   subroutine remember_record(memory, record)

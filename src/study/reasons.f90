@@ -15,6 +15,7 @@ module gfb_reasons
   integer, parameter, public :: reason_failed = 7         !! an error, which `detail` tells
   integer, parameter, public :: reason_stopped = 8        !! by a signal, which `detail` tells
   integer, parameter, public :: reason_no_limit = 9       !! of load, speed or tilt
+  integer, parameter, public :: reason_not_reached = 10   !! by a motion; `detail` says what
 
   !> Why there is no answer.
   type, public :: reason_type

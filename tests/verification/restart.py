@@ -339,7 +339,7 @@ def check_kinds(checks, folder, loads, tilts, chance):
     check_kills(checks, folder, "beams_folded",
                 bearing("beam", {"parameter": "load", "values": (100.0, 60.0, 30.0), "turn_folds": True}), chance)
     check_kills(checks, folder, "rotor", vibrating(), chance)
-    heavy = shaft_in_time(foils={"density": 8200.0}, foil_mass="on", output_every=25, steady_tolerance=1.0e-9)
+    heavy = shaft_in_time(foils={"density": 8200.0}, foil_mass="on", output_every=25, steady_tolerance=3.0e-2)
     turning = run_time(write_case(folder, "turning", heavy), pathlib.Path(folder)/"whole")
     check_kills(checks, folder, "turning", heavy, chance, whole=turning)
     check_kills(checks, folder, "strip_pressed", strip("crest_pressure", every=3), chance)

@@ -185,7 +185,7 @@ def modes_in(rows, turns, count=1, name="eccentricity"):
 
 
 def check_growth(checks, folder):
-    """A pushed shaft: growth and frequency of the linear theory, none at the critical mass."""
+    """A pushed shaft: growth and frequency of the linear theory, none at the critical mass, which the march itself tells."""
     upwind = {"film_order": 1, "film_scheme": "supg"}
     cases = (("above the critical mass", 1.1, {}), ("at it", 1.0, {}), ("SUPG", 1.1, upwind),
              ("local springs, SUPG", 1.1, upwind | {"foundation_pressure": "local"}), ("rigid pad", 1.1, {"foil": "rigid"}))
@@ -203,7 +203,11 @@ def check_growth(checks, folder):
         answer = solve(folder, "mode", linear)
         push = 1.0e-4*31.8e-6*mass*0.5*omega
         content["transient"] |= {"pulse": (push, 0.0), "pulse_length": 2.0*math.pi/omega}
-        found = modes_in(history(solve(folder, "growth", content)), 4.0)[0]/omega
+        march = solve(folder, "growth", content)
+        checks.below(f"push, {words}: the march tells the critical mass", march["critical_mass"]/answer["critical_mass"] - 1.0, 1.0e-9)
+        if abs(share - 1.0) > 0.01:
+            checks.that(f"push, {words}: and that the first point is unstable", f"linearly unstable: the mass of {mass:.4g} kg" in march.log)
+        found = modes_in(history(march), 4.0)[0]/omega
         checks.below(f"push, {words}: growth over the speed", found.real - answer["growth_rate"]/omega, 2.0e-5)
         checks.below(f"push, {words}: frequency over the speed", found.imag - answer["whirl_frequency"]/omega, 2.0e-5)
 
@@ -269,16 +273,28 @@ def check_steps(checks, folder):
 
 
 def check_touch_down(checks, folder):
-    """A shaft that is pushed into its foil stops there, however seldom a line is written."""
-    mass, ends = 0.3, []
+    """A shaft that is pushed into its foil stops there, however seldom a line is written, and says that it has not reached what
+    it was asked for; resumed from a restart file it ends in the same way, and an orbit may be given a limit before."""
+    mass, ends, keys = 0.3, [], ("turns", "time_steps", "minimum_gap_over_time", "critical_mass", "not_reached", "ending")
     for every in (1, 1000):
         content, _ = foil_case(mass, (-60.0, 0.0), turns=1, output_every=every)
         omega = speed_of(content)
         content["transient"] |= {"pulse": (-6.0*31.8e-6*mass*omega, 0.0), "pulse_length": 0.6*math.pi/omega}
         content["solver"] = {"touch_down_gap": 5.0e-6}
-        ends.append(history(solve(folder, "touch_down", content))["turns"][-1])
-    checks.that("touch-down: the shaft does", ends[0] < 0.9)
-    checks.below("touch-down: the same with few lines", ends[1] - ends[0], 1.0e-12)
+        content["output"] = {"restart_every": 7}
+        ends.append(solve(folder, "touch_down", content, status=2))
+    one = ends[0]
+    checks.that("touch-down: the shaft does", history(one)["turns"][-1] < 0.9)
+    checks.that("touch-down: what was asked for is not reached", one["converged"] == "false" and one["not_reached"] == "1 turns"
+                and one["ending"] == "the shaft touches down" and "not reached: 1 turns: the shaft touches down at time" in one.log)
+    checks.that("touch-down: from a point that is stable", one["critical_mass"] > mass and "is linearly stable: the mass of" in one.log)
+    again = solve(folder, "touch_down", content, options=["--restart"], status=2)
+    checks.that("touch-down: resumed", "restart: resumed from time" in again.log)
+    for words, other in (("with few lines", ends[1]), ("resumed", again)):
+        checks.that(f"touch-down: the same {words}", all(other[name] == one[name] for name in keys))
+    content["transient"] |= {"largest_orbit": 5.0e-6}
+    checks.that("a limit of the orbit that was asked for is reached", solve(folder, "limit", content)["ending"]
+                == "the orbit has grown beyond its limit")
 
 
 def extent(rows, name):
@@ -344,13 +360,16 @@ def check_steady(checks, folder):
         {"base_time": (0.0, 0.006, 0.007), "base_acceleration_x": (0.01, 0.01, 0.0)}, 0.007)}
     for words, (drive, until) in change.items():
         content, _ = foil_case(0.3, (-60.0, 0.0), **keys, **drive)
-        answer = solve(folder, "settled", content)
+        settles = until < keys["duration"]
+        answer = solve(folder, "settled", content, status=0 if settles else 2)
         turn = 2.0*math.pi/speed_of(content)
-        if until < keys["duration"]:
+        if settles:
             checks.within(f"steady: {words}: two turns after that", (answer["time"] - until)/turn, 1.9, 2.2)
             checks.that(f"steady: {words}: then it ends", answer["ending"] == "the orbit is steady")
         else:
             checks.that(f"steady: {words}: it goes on", "ending" not in answer.summary and answer["time"] == until)
+            checks.that(f"steady: {words}: not reached", answer["not_reached"] == "a steady orbit" and answer["converged"] == "false"
+                        and "not reached: a steady orbit: the time is over; the last two turns differ by" in answer.log)
 
 
 def friction_loop(folder, turns, **law):

@@ -88,8 +88,9 @@ contains
     call keys%real_key('field_start', transient%field_start, 's', 'first of these times', &
                        not_negative)
     call keys%real_key('steady_tolerance', transient%steady_tolerance, '1', &
-                       'ends when two turns of the shaft differ by no more than this part of '// &
-                       'the clearance; 0: never', not_negative)
+                       'a steady orbit is asked for: ends when two turns of the shaft differ '// &
+                       'by no more than this part of the clearance, and has not reached it '// &
+                       'where the time is over before; 0: all of the time', not_negative)
     call keys%real_key('largest_orbit', transient%largest_orbit, 'm', &
                        'ends when the shaft has left its first position by more, in either '// &
                        'bearing; 0: never', &

@@ -100,9 +100,9 @@ contains
     call solve_bearing(first, self%plan, context, self%sweep, self%reason, error)
     if (allocated(error) .or. self%reason%is_given() .or. .not. moves(scene)) return
     allocate (self%motion)
+    if (scene%transient%present .and. .not. context%restart%goes_on) call self%sweep%judge_begin()
     call self%motion%run(scene, context, self%sweep%bearing, self%sweep%newton, self%sweep%record, self%reason, error)
-    if (allocated(error)) return
-    self%sweep%record%judged = self%motion%results() ! what was known of the first state is not of the last one
+    if (.not. allocated(error)) call self%sweep%record%move_on(self%motion%results())
   end subroutine find_first
 
   !> Writes the result files.

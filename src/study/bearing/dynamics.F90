@@ -28,7 +28,7 @@ module gfb_dynamics
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of
   implicit none (type, external)
   private
-  public :: find_dynamics, find_instability, mass_excess, opposite_builder
+  public :: find_dynamics, find_instability, mass_excess, find_whirl, opposite_builder
 
   integer, parameter :: digits = 4       !! in tables of the log
   integer, parameter :: translations = 2 !! of the shaft's coordinates, the first ones
@@ -232,6 +232,23 @@ contains
     excess = -1.0_wp
     if (whirls) excess = (mass - critical_mass)/(mass + critical_mass)
   end function mass_excess
+
+  !> The mass above which a rigid shaft whirls at an answer.
+  subroutine find_whirl(scene, bearing, newton, whirl)
+    type(scene_type), intent(in) :: scene !! whose `&dynamics` says what the foil does
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(newton_type), intent(inout) :: newton !! its factorizations are counted
+    type(whirl_type), intent(out) :: whirl !! what was found; not searched where a matrix could not be factorized
+    type(dynamic_response_type) :: response
+
+    call create_response(bearing, vibration_of(scene), response)
+    call choose_mass(scene, bearing, response)
+    call find_critical_mass(bearing, response, whirl)
+    newton%factorizations = newton%factorizations + response%factorizations
+    newton%enlargements = newton%enlargements + response%enlargements
+    call destroy_response(response)
+    call bearing%linearise(bearing%state)
+  end subroutine find_whirl
 
   !> The scene's rotor.
   pure function rotor_of(scene) result(rotor)

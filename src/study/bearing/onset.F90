@@ -1,8 +1,12 @@
 #include "gfb_petsc.h"
-!> The speed at which a rotor begins to whirl, between two points of a sweep over the speed.
+!> The speed at which a rotor begins to whirl, between two points of a sweep over the speed; and whether it would at the
+!> point from which it is followed over time.
 module gfb_onset
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_quantity, only: quantity_type
+  use gfb_result_phrases, only: at_begin_of_time
+  use gfb_results, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_speed
@@ -14,13 +18,16 @@ module gfb_onset
   use gfb_operating_point, only: operating_point_type
   use gfb_case_file, only: history_row_type
   use gfb_last_answer, only: last_answer_type
-  use gfb_dynamics, only: find_instability, mass_excess, opposite_builder
+  use gfb_whirl, only: whirl_type
+  use gfb_dynamics, only: find_instability, mass_excess, find_whirl, opposite_builder
   implicit none (type, external)
   private
-  public :: look_for_onset
+  public :: look_for_onset, judge_first_point
 
   real(wp), parameter :: tolerance = 1.0e-7_wp !! of the speed, relative [1]
   integer, parameter :: most_trials = 20       !! of equilibria between the points
+  integer, parameter :: digits = 4             !! in the log
+  real(wp), parameter :: rpm = acos(-1.0_wp)/30.0_wp !! [rad/s]
 
 contains
 
@@ -155,4 +162,51 @@ contains
     end do
     problem = 'it jumps there, or '//text(most_trials)//' trials are too few'
   end subroutine close_in
+
+  !> Says whether a shaft that turns in equilibrium would stay there: the mass of the rotor
+  !> against the critical one.
+  !>
+  !> Of a rotor that tilts on two bearings it is the motion without tilt that is judged, by what
+  !> each of them carries. The bearing's state and equations are left as they are.
+  subroutine judge_first_point(scene, log, bearing, newton, found)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(run_log_type), intent(in) :: log !! where the line goes
+    type(bearing_system_type), intent(inout) :: bearing !! at its equilibrium
+    type(newton_type), intent(inout) :: newton !! its factorizations are counted
+    type(quantity_type), allocatable, intent(inout) :: found(:) !! gets what it is
+    type(scene_type) :: vibrating
+    type(whirl_type) :: whirl
+    character(len=:), allocatable :: words
+
+    if (.not. bearing%floats .or. bearing%shaft_fixed) return
+    if (.not. bearing%point%speed > 0.0_wp) return
+    call log%is_at('the critical mass')
+    vibrating = scene
+    vibrating%dynamics%foundation_damping = scene%transient%foundation_damping
+    vibrating%dynamics%arm = scene%transient%arm
+    vibrating%dynamics%foil_modes = scene%transient%foil_modes
+    call find_whirl(vibrating, bearing, newton, whirl)
+    call log%is_at('')
+    if (.not. whirl%searched) return
+    associate (point => bearing%point, mass => scene%rotor%mass)
+      words = 'the first point, '//text(point%speed/rpm)//' rpm under ('// &
+              text(point%load(1), digits)//', '//text(point%load(2), digits)//') N, is linearly '
+      if (.not. whirl%found) then
+        call log%line(words//'stable: no rigid shaft whirls there between 0.05 and 1.2 times '// &
+                      'the speed')
+        return
+      end if
+      call add_result(found, 'critical_mass', whirl%critical_mass, at_begin_of_time)
+      call add_result(found, 'whirl_ratio', whirl%ratio)
+      if (mass > whirl%critical_mass) then
+        call log%warning(words//'unstable: the mass of '//text(mass, digits)//' kg is above '// &
+                         'the critical mass of '//text(whirl%critical_mass, digits)// &
+                         ' kg, and whirl at about '//text(whirl%ratio, digits)// &
+                         ' of the speed grows from there')
+      else
+        call log%line(words//'stable: the mass of '//text(mass, digits)//' kg is below the '// &
+                      'critical mass of '//text(whirl%critical_mass, digits)//' kg')
+      end if
+    end associate
+  end subroutine judge_first_point
 end module gfb_onset

@@ -21,7 +21,7 @@ module gfb_sweep
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
   use gfb_answer_record, only: record_single, record_swept, fix_shaft, builders_type
-  use gfb_onset, only: look_for_onset
+  use gfb_onset, only: look_for_onset, judge_first_point
   use gfb_last_answer, only: last_answer_type
   use gfb_limit_search, only: find_limit, leave_limit
   implicit none (type)
@@ -59,6 +59,7 @@ module gfb_sweep
     procedure :: explain
     procedure :: watch
     procedure :: tell_end
+    procedure :: judge_begin
     procedure, private :: may_start_anew
   end type sweep_type
 
@@ -254,6 +255,12 @@ contains
 
     call explain_missing(self%scene, self%bearing, report, fixed, self%context%log, reason)
   end subroutine explain
+
+  !> Judges the one answer as the point from which a shaft is followed over time.
+  subroutine judge_begin(self)
+    class(sweep_type), target, intent(inout) :: self !! at the answer
+    call judge_first_point(self%scene, self%context%log, self%bearing, self%newton, self%record%judged)
+  end subroutine judge_begin
 
   !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
   subroutine show_progress(context, scene, point, begun)

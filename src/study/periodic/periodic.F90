@@ -15,10 +15,10 @@ module gfb_periodic
   use gfb_period_map, only: period_map_type, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at, &
                             moved_speed, tail
   use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
-  use gfb_scene_map, only: set_map, value_words
+  use gfb_scene_map, only: set_map, value_words, words_at, step_within
   use gfb_whirl_onset, only: whirl_type, find_onset, fixed_parameter
   use gfb_case_file, only: case_array_type, add_arrays
-  use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_orbit_judgement, only: judge_orbit, words_of
   use gfb_orbit_table, only: orbit_table_type, orbit_type, extent_of
@@ -36,6 +36,7 @@ module gfb_periodic
     type(orbit_table_type) :: table
     type(whirl_type) :: onset                 !! of free ones
     character(len=:), allocatable :: ending   !! why the branch ends before its end
+    character(len=:), allocatable :: lacking  !! end of the branch that was asked for and is not reached; empty: it is
     character(len=:), allocatable :: loss     !! how the last orbit is unstable; empty: it is not
     real(wp), allocatable, private :: x(:)    !! the last orbit [1]
     real(wp), allocatable, private :: way(:)  !! where the branch goes from there, of length 1 [1]
@@ -75,6 +76,7 @@ contains
     newton%settings%residual_tolerance = min(newton%settings%residual_tolerance, tight(1))
     newton%settings%step_tolerance = min(newton%settings%step_tolerance, tight(2))
     self%ending = ''
+    self%lacking = ''
     self%loss = ''
     call begin_rubbing(bearing, .false.)
     call set_map(scene, bearing, self%map, self%bounds)
@@ -95,7 +97,13 @@ contains
     else
       allocate (y(size(self%x)))
       found = apply_map(self%map, bearing, newton, self%x, y, .true.) ! the bearing's state is of the orbit again
-      if (self%ending /= '') call context%log%line(self%ending)
+      if (self%lacking /= '') then
+        reason%code = reason_not_reached
+        reason%detail = 'not reached: '//self%lacking//': '//self%ending
+        call context%log%tell(reason%words())
+      else if (self%ending /= '') then
+        call context%log%line(self%ending)
+      end if
       if (self%map%parameter > 0) call context%log%line(text(size(self%table%orbit))//' orbits, '//text(self%folds)//' fold(s)')
       call context%log%line(text(self%map%periods)//' periods marched, each in '//text(self%map%steps)//' steps')
     end if
@@ -231,7 +239,7 @@ contains
     last = size(x)
     allocate (condition%row(last, conditions))
     do while (size(self%table%orbit) < scene%periodic%points)
-      taken = to_bound(self, step, at_bound)
+      taken = step_within(self%bounds, self%x(last), self%way(last), step, at_bound)
       x = self%x + taken*self%way
       condition%row(:, 1) = self%phase(self%x)
       condition%row(:, 2) = self%way
@@ -245,6 +253,7 @@ contains
       if (found) then
         if (self%map%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
           self%ending = 'the shaft touches down'
+          self%lacking = words_at(self%map, self%x, self%bounds(2))
           return
         end if
         found = is_near(self, x, taken)
@@ -267,29 +276,13 @@ contains
         step = 0.5_wp*taken
         if (step < shortest*scene%periodic%step) then
           self%ending = 'no orbit leads on from '//value_words(self%map, self%x)//': '//self%map%problem
+          self%lacking = words_at(self%map, self%x, self%bounds(2))
           return
         end if
       end if
     end do
     self%ending = 'the branch has as many points as were asked for'
   end subroutine follow
-
-  !> A step along the branch, not beyond the bounds of the parameter.
-  function to_bound(self, step, at_bound) result(taken)
-    class(periodic_type), intent(in) :: self
-    real(wp), intent(in) :: step
-    logical, intent(out) :: at_bound
-    real(wp) :: taken, low, high, now, rate
-
-    low = minval(self%bounds)
-    high = maxval(self%bounds)
-    now = self%x(size(self%x))
-    rate = self%way(size(self%way))
-    taken = step
-    if (now + rate*step > high) taken = (high - now)/rate
-    if (now + rate*step < low) taken = (low - now)/rate
-    at_bound = now + rate*step > high .or. now + rate*step < low
-  end function to_bound
 
   !> Whether an orbit that was found is that of the branch: near to where it was looked for.
   function is_near(self, x, taken) result(near)
@@ -386,6 +379,7 @@ contains
     end if
     if (self%map%free) call add_result(found, 'subcritical', self%subcritical)
     if (self%ending /= '') call add_result(found, 'ending', self%ending)
+    if (self%lacking /= '') call add_result(found, 'not_reached', self%lacking)
   end function results
 
   !> Adds the table of orbits to what the result file gets.

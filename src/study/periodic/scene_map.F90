@@ -10,7 +10,7 @@ module gfb_scene_map
   use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass
   implicit none (type)
   private
-  public :: set_map, value_words
+  public :: set_map, value_words, words_at, step_within
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -77,4 +77,30 @@ contains
       words = text(map%drive%speed*30.0_wp/pi, 7)//' rpm'
     end select
   end function value_words
+
+  !> Another value of the parameter, in words.
+  function words_at(map, x, parameter) result(words)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! any point [1]
+    real(wp), intent(in) :: parameter !! as points have it [1]
+    character(len=:), allocatable :: words
+
+    words = value_words(map, [x(:size(x) - 1), parameter])
+  end function words_at
+
+  !> A step along the branch, not beyond the bounds of the parameter.
+  function step_within(bounds, now, rate, step, at_bound) result(taken)
+    real(wp), intent(in) :: bounds(2) !! of the parameter of a point [1]
+    real(wp), intent(in) :: now, rate !! of the parameter: its value, and its change along the branch [1]
+    real(wp), intent(in) :: step !! along the branch [1]
+    logical, intent(out) :: at_bound !! the step ends there
+    real(wp) :: taken, low, high
+
+    low = minval(bounds)
+    high = maxval(bounds)
+    taken = step
+    if (now + rate*step > high) taken = (high - now)/rate
+    if (now + rate*step < low) taken = (low - now)/rate
+    at_bound = now + rate*step > high .or. now + rate*step < low
+  end function step_within
 end module gfb_scene_map

@@ -15,7 +15,7 @@ module gfb_transient
   use gfb_time_march, only: march_type, take_step, end_march
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
-  use gfb_reasons, only: reason_type, reason_no_answer, reason_stopped
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_transient_history, only: transient_history_type
   use gfb_orbit_record, only: plane_motion, tilt_motion
@@ -30,13 +30,17 @@ module gfb_transient
   type, public :: transient_type
     type(march_type) :: march
     type(transient_history_type) :: history
-    character(len=:), allocatable :: ending !! why the time has ended before its end; empty: it has not
+    character(len=:), allocatable :: ending  !! why the time has ended before its end; empty: it has not
+    character(len=:), allocatable :: lacking !! what was asked for and not reached; empty: nothing
+    logical, private :: within = .false. !! the end is one that was asked for
   contains
     procedure :: run => run_transient
     procedure :: results
     procedure :: add_arrays => add_transient_arrays
     procedure, private :: look_for_limits
     procedure, private :: look_for_steady_orbit
+    procedure, private :: change_of_orbit
+    procedure, private :: judge_end
   end type transient_type
 
 contains
@@ -84,6 +88,7 @@ contains
     logical :: due
 
     self%ending = ''
+    self%lacking = ''
     restart = context%restart
     from = self%march%time
     call context%log%is_within(place_in_time(self%march), 0.0_wp)
@@ -110,8 +115,6 @@ contains
             call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
             call restart%tell(log, reason%detail)
           end if
-        else if (reason%is_given()) then
-          call log%tell(reason%words())
         end if
         if (reason%is_given()) exit
         due = restart%is_due(march%steps)
@@ -122,6 +125,8 @@ contains
       end do
       call log%is_within('')
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
+      call self%judge_end(scene, reason)
+      if (reason%is_given() .and. reason%code /= reason_stopped) call log%tell(reason%words())
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
                     text(self%history%smallest_gap*1.0e6_wp, 4)//' um')
       if (self%history%lacks_spectrum()) then
@@ -152,6 +157,7 @@ contains
       else if (transient%largest_orbit > 0.0_wp) then
         if (largest_way(march, march%place(:, 1) - march%first_place) > transient%largest_orbit) then
           self%ending = 'the orbit has grown beyond its limit'
+          self%within = .true.
         end if
       end if
     end associate
@@ -161,18 +167,65 @@ contains
   subroutine look_for_steady_orbit(self, scene)
     class(transient_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
-    real(wp), allocatable :: now(:), before(:)
 
     if (.not. scene%transient%steady_tolerance > 0.0_wp) return
     associate (turn => self%march%turns(), orbit => self%history%orbit)
       if (turn < 2.0_wp) return
       if (orbit%turn_began(turn - 2.0_wp) < self%march%drive%settled()) return
+    end associate
+    if (self%change_of_orbit() > scene%transient%steady_tolerance*scene%bearing%clearance) return
+    self%ending = 'the orbit is steady'
+    self%within = .true.
+  end subroutine look_for_steady_orbit
+
+  !> By how much the last two turns differ [m].
+  function change_of_orbit(self) result(change)
+    class(transient_type), intent(in) :: self
+    real(wp) :: change
+    real(wp), allocatable :: now(:), before(:)
+
+    associate (turn => self%march%turns(), orbit => self%history%orbit)
       now = orbit%extents(turn - 1.0_wp, turn)
       before = orbit%extents(turn - 2.0_wp, turn - 1.0_wp)
     end associate
-    if (maxval(abs(now - before)) > scene%transient%steady_tolerance*scene%bearing%clearance) return
-    self%ending = 'the orbit is steady'
-  end subroutine look_for_steady_orbit
+    change = maxval(abs(now - before))
+  end function change_of_orbit
+
+  !> Whether what was asked for is reached: the time to its end, or an end that the scene allows; and a steady orbit where it
+  !> has a tolerance.
+  subroutine judge_end(self, scene, reason)
+    class(transient_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene
+    type(reason_type), intent(inout) :: reason !! given where there was one before, or something is not reached
+    character(len=:), allocatable :: why
+
+    if (self%within) return
+    why = self%ending
+    associate (march => self%march, transient => scene%transient)
+      if (march%time < march%settings%end_time) then
+        if (transient%turns > 0.0_wp) self%lacking = text(transient%turns)//' turns'
+        if (transient%duration > 0.0_wp) self%lacking = text(transient%duration)//' s'
+        if (transient%speed_changes .and. march%time < march%drive%ramp) then
+          self%lacking = self%lacking//', '//text(transient%final_speed_rpm)//' rpm'
+        end if
+        if (why /= '') then
+          why = why//' at '//place_in_time(march)//', where the smallest film is below touch_down_gap = '// &
+                text(scene%solver%touch_down_gap, 3)//' m'
+        end if
+      end if
+      if (transient%steady_tolerance > 0.0_wp) then
+        if (self%lacking /= '') self%lacking = self%lacking//', '
+        self%lacking = self%lacking//'a steady orbit'
+        if (why == '') why = 'the time is over'
+        if (march%turns() >= 2.0_wp) then
+          why = why//'; the last two turns differ by '//text(self%change_of_orbit()/scene%bearing%clearance, 3)//' of the clearance'
+        end if
+      end if
+    end associate
+    if (self%lacking == '' .or. reason%is_given()) return
+    reason%code = reason_not_reached
+    reason%detail = 'not reached: '//self%lacking//': '//why
+  end subroutine judge_end
 
   !> What the summary says of the whole time.
   function results(self) result(found)
@@ -200,6 +253,7 @@ contains
       end if
       call add_result(found, 'minimum_gap_over_time', self%history%smallest_gap)
       if (self%ending /= '') call add_result(found, 'ending', self%ending)
+      if (self%lacking /= '') call add_result(found, 'not_reached', self%lacking)
     end associate
   end function results
 
