@@ -1,7 +1,7 @@
 !> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity
   use gfb_results, only: add_result
   use gfb_result_phrases, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type
@@ -9,7 +9,8 @@ module gfb_bearing_summary
   use gfb_bearing_answer, only: bearing_answer_type
   implicit none (type, external)
   private
-  public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block
+  public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
+            asked_first
 
   real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
@@ -26,6 +27,16 @@ module gfb_bearing_summary
 
   !> Of an edge off its bumps, over the clearance: another equilibrium is likely [1].
   real(wp), parameter :: lifted = 0.02_wp
+
+  !> What an analysis is asked for, in the order in which summary and closing block begin with it;
+  !> what a scene does not have is absent.
+  character(len=*), parameter :: asked(*) = [character(len=28) :: &
+    'load_capacity', 'load_capacity_coefficient', 'load_capacity_coefficient_si', &
+    'lift_off_speed_rpm', 'misalignment_allowance', 'limit_reached', 'not_reached', 'ending', &
+    'onset_speed_rpm', 'critical_mass', 'growth_rate', 'time', 'turns', 'orbit_x', 'orbit_y', &
+    'minimum_gap_over_time']
+  character(len=*), parameter :: opening(*) = [character(len=9) :: 'analysis', 'converged']
+  integer, parameter :: digits = 6, label = 16 !! of their lines
 
 contains
 
@@ -148,9 +159,18 @@ contains
     end associate
   end function attitude_angle
 
+  !> Direction of a vector, from x towards y, in [0, 360) [deg].
+  pure function direction_of(vector) result(angle)
+    real(wp), intent(in) :: vector(2) !! in any unit
+    real(wp) :: angle
+    angle = modulo(atan2(vector(2), vector(1))*degrees, 360.0_wp)
+  end function direction_of
+
   !> The answer in the units an engineer reads.
-  subroutine show_closing_block(log, converged, place, answer, clearance, cost, ranks, blas)
+  subroutine show_closing_block(log, summary, converged, place, answer, clearance, cost, ranks, &
+                                blas)
     type(run_log_type), intent(in) :: log !! where lines go
+    type(quantity_type), intent(in) :: summary(:) !! what was asked for stands in it
     logical, intent(in) :: converged !! it is an answer, not the last state reached
     character(len=*), intent(in) :: place !! point of the sweep, in words; empty without one
     type(bearing_answer_type), intent(in) :: answer !! to be shown
@@ -166,11 +186,17 @@ contains
       call log%heading('last state reached, not the answer')
     end if
     if (place /= '') call log%line('point            '//place)
+    call show_asked(log, summary)
     call log%line('eccentricity     '//pair(answer%eccentricity, 'um', 1.0e6_wp)// &
                   '   over C '//text(answer%eccentricity(1)/clearance, 5)//', '// &
                   text(answer%eccentricity(2)/clearance, 5))
-    call log%line('attitude angle   '//engineering_text(attitude_angle(answer), 'deg', degrees))
     who = merge('full', 'film', answer%has_solid_contact)
+    call log%line('attitude angle   '// &
+                  engineering_text(attitude_angle(answer), 'deg', degrees)//'   from '//who// &
+                  ' force (in equilibrium the load), at '// &
+                  text(direction_of(answer%force(1:2)), 4)// &
+                  ' deg, to the thinnest film, -e, at '// &
+                  text(direction_of(-answer%eccentricity), 4)//' deg, positive with the rotation')
     call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
     call log%line(who//' torque      '//pair(answer%force(3:4), 'N m', 1.0_wp)// &
                   '   without suction '// &
@@ -235,4 +261,82 @@ contains
     character(len=:), allocatable :: words
     words = '('//text(numbers(1)*scale, 4)//', '//text(numbers(2)*scale, 4)//') '//unit
   end function pair
+
+  !> A summary with what was asked for behind the lines that open it; all else in its order.
+  pure function asked_first(list) result(ordered)
+    type(quantity_type), intent(in) :: list(:) !! of a summary
+    type(quantity_type), allocatable :: ordered(:)
+    integer :: i, k
+
+    allocate (ordered(0))
+    do i = 1, size(list)
+      if (any(opening == list(i)%name)) call add_quantity(ordered, list(i))
+    end do
+    do k = 1, size(asked)
+      do i = 1, size(list)
+        if (list(i)%name == asked(k)) call add_quantity(ordered, list(i))
+      end do
+    end do
+    do i = 1, size(list)
+      if (any(opening == list(i)%name) .or. any(asked == list(i)%name)) cycle
+      call add_quantity(ordered, list(i))
+    end do
+  end function asked_first
+
+  !> Lines of the closing block: what was asked for, with its meaning.
+  subroutine show_asked(log, list)
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(quantity_type), intent(in) :: list(:) !! of a summary
+    character(len=:), allocatable :: name
+    integer :: i, k
+
+    do k = 1, size(asked)
+      do i = 1, size(list)
+        if (list(i)%name /= asked(k)) cycle
+        name = list(i)%name
+        if (len(name) > 4) then
+          if (name(len(name) - 3:) == '_rpm') name = name(:len(name) - 4)
+        end if
+        call log%line(with_blanks(name)//' '//value_of(list(i)))
+      end do
+    end do
+  end subroutine show_asked
+
+  !> A name in words, as wide as the labels of the block.
+  pure function with_blanks(name) result(words)
+    character(len=*), intent(in) :: name
+    character(len=max(label, len(name))) :: words
+    integer :: i
+
+    words = name
+    do i = 1, len(name)
+      if (name(i:i) == '_') words(i:i) = ' '
+    end do
+  end function with_blanks
+
+  !> A value in the units an engineer reads, and what it is.
+  pure function value_of(quantity) result(words)
+    type(quantity_type), intent(in) :: quantity
+    character(len=:), allocatable :: words
+
+    select case (quantity%kind)
+    case (quantity_word)
+      words = quantity%word
+      return
+    case (quantity_truth)
+      words = trim(merge('yes', 'no ', quantity%number > 0.5_wp))
+    case default
+      select case (quantity%unit)
+      case ('m')
+        words = text(quantity%number*1.0e6_wp, digits)//' um'
+      case ('rad')
+        words = text(quantity%number*1.0e3_wp, digits)//' mrad'
+      case ('1')
+        words = text(quantity%number, digits)
+      case default
+        words = text(quantity%number, digits)//' '//quantity%unit
+      end select
+    end select
+    words = words//'   '//quantity%meaning
+  end function value_of
 end module gfb_bearing_summary

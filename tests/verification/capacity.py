@@ -7,6 +7,7 @@ limit and one a millionth beyond it.
 
 import copy
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -81,6 +82,12 @@ def check_capacity(checks, folder):
                 on_both_sides(lambda load: gap_of(folder, load=load, mesh=mesh) > GAP, found))
     checks.below("capacity, springs: film", light["minimum_gap"]/GAP - 1.0, SAME)
     checks.below("capacity, springs: it is the load", light["force_x"]/found + 1.0, SAME)
+    checks.that("capacity, springs: summary and closing block begin with it", list(light.summary)[:3] == ["analysis", "converged",
+                "load_capacity"] and re.search(r"answer\n-+\nload capacity +(\S+) N ", light.log) is not None)
+    words = r"attitude angle +(\S+) deg   from film force \(in equilibrium the load\), at (\S+) deg, to the thinnest film, -e, at (\S+) deg"
+    told = re.search(words, light.log)
+    angle, load, thinnest = map(float, told.groups()) if told else (0.0, 0.0, 999.0)
+    checks.below("capacity, springs: attitude angle from the load's direction to that of the thinnest film", thinnest - load - angle, 0.1)
     checks.that("capacity, springs: reached", light["limit_reached"] == above["limit_reached"] == "true")
     si = found/(GU2020.length*(2.0*GU2020.radius)**2*30000.0*numpy.pi/30.0)
     checks.below("coefficient in SI", light["load_capacity_coefficient_si"]/si - 1.0, 1.0e-12)
@@ -176,8 +183,10 @@ def check_lift_off(checks, folder):
         answer = solve(folder, "plain", case("equilibrium", speed_rpm=speed, **ROUGH))
         return numpy.hypot(answer["solid_contact_force_x"], answer["solid_contact_force_y"]) < PART*50.0
 
-    high, low = (solve(folder, "lift", case("lift_off", {"contact_part": PART}, speed_rpm=speed, **ROUGH))["lift_off_speed_rpm"]
-                 for speed in (30000.0, 1000.0))
+    answers = [solve(folder, "lift", case("lift_off", {"contact_part": PART}, speed_rpm=speed, **ROUGH)) for speed in (30000.0, 1000.0)]
+    high, low = (answer["lift_off_speed_rpm"] for answer in answers)
+    checks.that("lift-off: summary and closing block begin with it", list(answers[0].summary)[2] == "lift_off_speed_rpm"
+                and re.search(r"answer\n-+\nlift off speed +\S+ rpm ", answers[0].log) is not None)
     checks.below("lift-off: from below", low/high - 1.0, SAME)
     checks.that("lift-off: plain equilibria on both sides", on_both_sides(lambda speed: not lifted(speed), high))
 

@@ -71,6 +71,7 @@ def check_onset(checks, folder):
         content["operation"]["speed_rpm"] = 0.93*known
         content["sweep"] = {"parameter": "speed_rpm", "values": (0.93*known, 1.04*known)}
         answer = solve(folder, "onset", content)
+        checks.that(f"{one['name']}: the summary begins with it", list(answer.summary)[2] == "onset_speed_rpm")
         checks.below(f"{one['name']}: onset speed", answer["onset_speed_rpm"]/known - 1.0, 2.0e-4)
         with h5py.File(f"{answer.stem}.h5", "r") as file:
             growth = file["history/growth_rate"][...]

@@ -12,7 +12,7 @@ module gfb_bearing_writing
   use gfb_shape_rules, only: thin
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
-                                 show_closing_block
+                                 show_closing_block, asked_first
   use gfb_film_notes, only: show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
   use gfb_bearing_record, only: bearing_record_type, analysis_name, add_row
@@ -69,9 +69,10 @@ contains
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
+      summary = asked_first(summary)
       columns = columns_of(scene, sweep)
       if (scene%sweep%present) call show_points(scene, record%history, log)
-      call show_closing_block(log, converged, place_on_sweep(scene, record%history, converged), answer, &
+      call show_closing_block(log, summary, converged, place_on_sweep(scene, record%history, converged), answer, &
                               bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
       call show_film_notes(scene, bearing%pad(1)%film%law, bearing%pad(1)%whole, bearing%point%speed, &
                            answer%minimum_gap, [answer%minimum_pressure, answer%maximum_pressure], log)
