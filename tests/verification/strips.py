@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import re
 import sys
 import tempfile
 
@@ -154,6 +155,30 @@ def check_modes(checks, folder):
     checks.within("top foil: first bending over a beam's", plate["frequency_1"]/beam, 0.99, 1.05)
 
 
+def check_numbers(checks, folder):
+    """Contacts too soft and a stick length too long are told after the answer with what they are off by; defaults are not."""
+    def squeezed(name, **contact):
+        return solve(folder, name, bump_foil={"bumps": 2, "fixed_edge": "none"}, model={"reduction": "guyan"},
+                     mesh={"arc_elements": 6, "flat_elements": 2, "axial_elements": 4},
+                     contact={"friction_top": 0.2, "friction_sleeve": 0.2, **contact},
+                     strip_load={"kind": "plates", "maximum_force": 60.0, "steps_up": 6, "steps_down": 6})
+
+    plain = squeezed("plain")
+    checks.that("contacts by default: no warning", "warning: contacts" not in plain.log and "warning: stick_length" not in plain.log)
+    soft = squeezed("soft", normal_stiffness=1.0e9)
+    off = 100.0*(soft["maximum_deflection"]/plain["maximum_deflection"] - 1.0)
+    told = re.search(r"contacts give way by up to \S+ um, (\S+) % of the deflection .*: normal_stiffness = 1e9 in &contact", soft.log)
+    checks.within(f"soft contacts: {off:.2g} % off, and the warning says so", off/float(told[1]) if told else 0.0, 0.5, 2.0)
+    drawn = squeezed("drawn", stick_length=2.0e-7)
+    lost = 100.0*(1.0 - drawn["dissipated_energy"]/plain["dissipated_energy"])
+    told = re.search(r"warning: stick_length = 2e-7 m .*: about (\S+) % of the energy", drawn.log)
+    checks.within(f"long stick length: {lost:.2g} % of the energy lacking, and the warning says so",
+                  lost/float(told[1]) if told else 0.0, 0.3, 3.0)
+    late = squeezed("late", stick_length=2.0e-5)
+    checks.that("stick length as long as the slip: the answer is off, and that is told", "friction comes up so late" in late.log
+                and late["maximum_deflection"]/plain["maximum_deflection"] > 1.005)
+
+
 def check_reader(checks, folder, strip):
     """VTK's own reader opens the foil's file."""
     try:
@@ -177,6 +202,7 @@ def main():
         check_same(checks, folder, strip)
         check_convergence(checks, folder)
         check_modes(checks, folder)
+        check_numbers(checks, folder)
         check_reader(checks, folder, strip)
     checks.close()
 

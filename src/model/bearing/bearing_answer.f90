@@ -3,6 +3,8 @@ module gfb_bearing_answer
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
+                                  measures_of, extremes, summed
   use gfb_film_load, only: film_forces
   use gfb_film_measures, only: force_without_suction, film_drag, film_integral, film_peclet, &
                                film_midplane_gap
@@ -40,6 +42,7 @@ module gfb_bearing_answer
     real(wp) :: maximum_solid_pressure = 0.0_wp    !! [Pa]
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
     real(wp) :: maximum_deflection = 0.0_wp        !! of the foil away from the shaft [m]
+    type(contact_measures_type) :: contact         !! of the foil, what judges their laws' numbers
     real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
     real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
@@ -57,8 +60,8 @@ contains
 
     real(wp) :: unknown(bearing%local_size())
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
-    real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(8, size(bearing%pad))
-    real(wp) :: total(size(sums, 1)), largest(size(most, 1))
+    real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(8 + extremes, size(bearing%pad))
+    real(wp) :: total(size(sums, 1)), largest(size(most, 1)), contact(summed, size(bearing%pad))
     logical :: whole
     integer :: i
 
@@ -73,9 +76,12 @@ contains
                        gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), whole, &
                        sums(:, i), most(:, i))
         if (whole) most(8, i) = maxval(pad%foil%deflection(unknown(pad%first + 1:pad%last)))
+        if (whole) most(9:, i) = contact_extremes(pad%foil%contacts)
+        if (whole) contact(:, i) = contact_sums(pad%foil%contacts)
       end associate
     end do
     sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    if (whole) contact = reshape(sum_over_ranks(pack(contact, .true.)), shape(contact))
     most = reshape(largest_over_ranks(pack(most, .true.)), shape(most))
     total = sums(:, 1)
     do i = 2, size(bearing%pad)
@@ -101,6 +107,7 @@ contains
     answer%maximum_peclet = largest(6)
     answer%rough_peclet = largest(7)
     answer%maximum_deflection = largest(8)
+    if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
   end function bearing_answer
 
   !> Sums and largest values of this rank's part of a pad's film.

@@ -12,6 +12,7 @@ module gfb_mesh_plan
     logical :: upwind = .false.    !! SUPG instead of Galerkin
     logical :: may_upwind = .false. !! SUPG is allowed where Galerkin finds no answer
     logical :: floats = .false.    !! the shaft's position is unknown
+    real(wp) :: peclet = 0.0_wp    !! cell Peclet number of the concentric film [1]
     integer :: order = 1           !! of film elements: bilinear, biquadratic
     !> of two equal bearings that carry a rotor which tilts; 0: one bearing [m]
     real(wp) :: bearing_distance = 0.0_wp

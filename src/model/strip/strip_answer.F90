@@ -5,7 +5,8 @@ module gfb_strip_answer
   use gfb_kinds, only: wp
   use gfb_memory, only: memory_type
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, measures_of
   use gfb_contact_law, only: state_open, state_slip
   use gfb_quad_mesh, only: node_set
   use gfb_bump_contacts, only: contact_top, crest_name, line_shares
@@ -29,6 +30,7 @@ module gfb_strip_answer
     real(wp) :: strain_energy = 0.0_wp        !! [J]
     real(wp) :: penalty_energy = 0.0_wp       !! in the penetrations [J]
     real(wp) :: friction_work = 0.0_wp        !! since the start [J]
+    type(contact_measures_type) :: contact    !! what its contacts say of the numbers of their laws
     real(wp) :: round_off = 0.0_wp            !! of the deflections, relative, where it was looked for [1]
   end type strip_answer_type
 
@@ -98,6 +100,8 @@ contains
     end if
     answer%external_work = recorder%last%external_work + done
     answer%strain_energy = widths*strip%strain_energy()
+    answer%contact = measures_of(largest_over_ranks(contact_extremes(strip%contacts)), &
+                                 sum_over_ranks(contact_sums(strip%contacts)))
     associate (sums => sum_over_ranks([strip%contacts%penalty_energy(), &
                                        strip%contacts%friction_work(displacement)]))
       answer%penalty_energy = widths*sums(1)
@@ -172,6 +176,9 @@ contains
     call memory%visit('strain_energy', answer%strain_energy)
     call memory%visit('penalty_energy', answer%penalty_energy)
     call memory%visit('friction_work', answer%friction_work)
+    call memory%visit('penetration', answer%contact%penetration)
+    call memory%visit('slip', answer%contact%slip)
+    call memory%visit('lacking', answer%contact%lacking)
     call memory%visit('round_off', answer%round_off)
   end subroutine remember_answer
 end module gfb_strip_answer

@@ -120,6 +120,8 @@ contains
     memory = sum_over_ranks([peak_memory()])
     result%converged = self%converged
     result%upwind = self%plan%upwind
+    result%peclet = self%plan%peclet
+    result%cells = self%plan%circumferential
     result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, self%factorizations_finest, &
                             wall_time() - context%start_time, memory(1))
     result%ranks = rank_count()

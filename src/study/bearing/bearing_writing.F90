@@ -13,6 +13,7 @@ module gfb_bearing_writing
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, &
                                  show_closing_block, asked_first
+  use gfb_contact_notes, only: show_contact_notes
   use gfb_film_notes, only: show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
   use gfb_bearing_record, only: bearing_record_type, analysis_name, add_row
@@ -30,6 +31,8 @@ module gfb_bearing_writing
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]
   real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height [1]
+  real(wp), parameter :: still_bears = 0.01_wp    !! film over the clearance [1]
+  real(wp), parameter :: nearly = 2.0_wp          !! film over touch_down_gap at the end of a run that it has ended [1]
   real(wp), parameter :: micrometre = 1.0e-6_wp   !! [m]
   real(wp), parameter :: neutral = 5.0e-4_wp      !! force over a lift by C that hardly holds an edge, over load and p_a D L [1]
 
@@ -37,6 +40,8 @@ module gfb_bearing_writing
   type, public :: bearing_result_type
     logical :: converged = .false.                   !! the state is the answer
     logical :: upwind = .false.                      !! SUPG was planned
+    real(wp) :: peclet = 0.0_wp                      !! cell Peclet number of the concentric film [1]
+    integer :: cells = 0                             !! film elements along the motion
     type(cost_type) :: cost
     integer :: ranks = 1                             !! that computed it
     type(quantity_type), allocatable :: origin(:)    !! what the files say of it
@@ -80,11 +85,10 @@ contains
         call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance, size(bearing%pad) == 1)
       end if
       call show_tilt_response(log, record%tilted)
-      if (answer%rough_peclet > rough_limit .and. .not. result%upwind) then
-        call log%warning('cell Peclet number '//text(answer%rough_peclet, 3)//' where the gap changes from '// &
-                         'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
-      end if
+      if (.not. result%upwind) call show_unresolved(log, result, answer%rough_peclet)
       call show_large_deflection(log, scene, answer%maximum_deflection)
+      if (.not. converged) call show_early_end(log, scene, answer%minimum_gap)
+      call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)
@@ -92,6 +96,37 @@ contains
                             grids, context%csv, log, error, columns, record%series)
     end associate
   end subroutine write_bearing
+
+  !> Warns of cells so long, and without upwinding, that the pressure may oscillate, or that it does not fall behind the film as
+  !> it should.
+  subroutine show_unresolved(log, result, rough)
+    type(run_log_type), intent(in) :: log
+    type(bearing_result_type), intent(in) :: result
+    real(wp), intent(in) :: rough !! Peclet number of cells along which the gap changes [1]
+
+    if (rough > rough_limit) then
+      call log%warning('cell Peclet number '//text(rough, 3)//' where the gap changes from '// &
+                       'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
+    else if (result%peclet > rough_limit) then
+      call log%warning('cell Peclet number '//text(result%peclet, 3)//' of the concentric film, without upwinding: the smallest '// &
+                       'pressure may be 1 to 5 % too low, forces keep their digits; circumferential_elements = '// &
+                       text(ceiling(result%cells*result%peclet/rough_limit))//', or film_scheme = ''supg'' with film_order = 1')
+    end if
+  end subroutine show_unresolved
+
+  !> Warns where a run has ended at a film that touch_down_gap calls closed and that may still bear.
+  subroutine show_early_end(log, scene, gap)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: gap !! smallest of the last state [m]
+
+    associate (ends => scene%solver%touch_down_gap, clearance => scene%bearing%clearance)
+      if (.not. ends > still_bears*clearance .or. gap > nearly*ends .or. scene%shaft_contact%present) return
+      call log%warning('touch_down_gap = '//text(ends)//' m in &solver is '//text(100.0_wp*ends/clearance, 3)// &
+                       ' % of the clearance, and has ended the run: thinner films still bear; without the key the run goes on to '// &
+                       'a hundredth of a per cent')
+    end associate
+  end subroutine show_early_end
 
   !> Warns of a foil that gives way more than displacements that are taken to be small.
   subroutine show_large_deflection(log, scene, deflection)

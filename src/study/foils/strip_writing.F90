@@ -19,6 +19,7 @@ module gfb_strip_writing
   use gfb_strip_summary, only: answer_quantities, cost_quantities
   use gfb_strip_record, only: strip_run_type
   use gfb_strip_companions, only: strip_companions, show_companions, companion_arrays
+  use gfb_contact_notes, only: show_contact_notes, show_loop_note
   use gfb_contact_record, only: contact_arrays
   use gfb_provenance, only: blas_in_use
   use gfb_run_context, only: run_context_type
@@ -52,6 +53,8 @@ contains
       run%companions = strip_companions(scene, run%full%force)
       call show_closing_block(context%log, run, plates)
       call warn(context%log, scene, run%full)
+      call show_contact_notes(context%log, scene%contact, run%full%contact, max(run%full%travel, maxval(run%full%deflection)))
+      if (run%full%factor > run%last%factor) call show_loop_note(context%log, scene%contact, run%full%contact%slip)
     end associate
     call write_files(scene, context, steps, summary, error)
   end subroutine write_strip

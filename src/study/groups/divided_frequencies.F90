@@ -218,6 +218,8 @@ contains
     call terminal%take_case(scene%name, error)
     result%converged = all(shares%status == 0)
     result%upwind = study%plan%upwind
+    result%peclet = study%plan%peclet
+    result%cells = study%plan%circumferential
     result%cost = cost_type(study%unknowns, sum(shares%iterations), sum(shares%factorizations), &
                             sum(shares%factorizations_finest), wall_time() - job%begun, memory)
     result%ranks = job%ranks

@@ -235,6 +235,8 @@ contains
     end if
     result%converged = all(stretches%status == 0)
     result%upwind = study%plan%upwind
+    result%peclet = study%plan%peclet
+    result%cells = study%plan%circumferential
     result%cost = cost_type(study%unknowns, sum(stretches%iterations), sum(stretches%factorizations), &
                             sum(stretches%factorizations_finest), &
                             wall_time() - job%begun, memory)

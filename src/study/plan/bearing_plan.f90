@@ -183,8 +183,8 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
-    real(wp) :: peclet
 
+    plan%peclet = concentric_peclet(scene, plan)
     if (plan%order == film_order_biquadratic) then
       call log%line('film: Galerkin, because upwinding is for bilinear elements')
       return
@@ -196,10 +196,10 @@ contains
                     ', as film_scheme asks')
       return
     end if
-    peclet = concentric_peclet(scene, plan)
-    plan%upwind = peclet > galerkin_limit
+    plan%upwind = plan%peclet > galerkin_limit
     call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))// &
-                  ', because the cell Peclet number of the concentric film is '//text(peclet, 3)// &
+                  ', because the cell Peclet number of the concentric film is '// &
+                  text(plan%peclet, 3)// &
                   trim(merge(' > ', ' < ', plan%upwind))//' '//text(galerkin_limit))
   end subroutine choose_scheme
 
