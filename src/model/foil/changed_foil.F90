@@ -7,7 +7,6 @@ module gfb_changed_foil
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: share_failure
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
@@ -315,8 +314,10 @@ contains
     real(wp), allocatable, intent(out) :: moved(:) !! [m], [rad]
     type(local_exchange_type) :: exchange
     real(wp) :: there(count(number > 0))
+    PetscInt, allocatable :: global(:)
 
-    call create_exchange(int(pack(number, number > 0) - 1, pint), foil%state, exchange)
+    global = pack(number, number > 0) - 1
+    call create_exchange(global, foil%state, exchange)
     call exchange%get(foil%state, there)
     call exchange%destroy()
     moved = unpack(there, number > 0, 0.0_wp)
@@ -328,8 +329,10 @@ contains
     integer, intent(in) :: number(:)
     real(wp), intent(in) :: force(:) !! [N], [N m]
     type(local_exchange_type) :: exchange
+    PetscInt, allocatable :: global(:)
 
-    call create_exchange(int(pack(number, number > 0) - 1, pint), foil%force, exchange)
+    global = pack(number, number > 0) - 1
+    call create_exchange(global, foil%force, exchange)
     call exchange%add(pack(force, number > 0), foil%force)
     call exchange%destroy()
   end subroutine add_up
