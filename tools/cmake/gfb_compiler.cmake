@@ -38,9 +38,10 @@ endif()
 set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-99999999 -finit-derived
                      -ffpe-trap=invalid,zero,overflow -fbacktrace)
 
-# Arrays that the compiler makes for itself say so where they get no memory (-fcheck=mem). Stacks may be small: what is large,
-# such as a scene, a bearing or its solver, is allocated [bytes].
-set(gfb_release -O2 -g1 -fcheck=mem -Wframe-larger-than=20000)
+# Arrays that the compiler makes for itself say so where they get no memory (-fcheck=mem).
+set(gfb_release -O2 -g1 -fcheck=mem)
+# Stacks may be small: what is large, such as a scene, a bearing or its solver, is allocated [bytes]. Tests are no concern.
+set(gfb_frame -Wframe-larger-than=20000)
 
 # What the sanitizers find ends the program.
 set(gfb_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all)
@@ -50,12 +51,16 @@ function(gfb_compile_options target)
   if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL GNU)
     return()
   endif()
+  set(frame)
+  if(CMAKE_CURRENT_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR)
+    set(frame ${gfb_frame})
+  endif()
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:Fortran>:${gfb_warnings} -ffree-line-length-none>
     $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
     ${gfb_werror}
     $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Debug>>:${gfb_debug_checks}>
-    "$<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:${gfb_release}>"
+    "$<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:${gfb_release};${frame}>"
     "$<$<CONFIG:Sanitize>:${gfb_sanitizers};-O1;-g;-fno-omit-frame-pointer>")
   # Sources that need no preprocessor are standard Fortran; PETSc's headers are not.
   get_target_property(sources ${target} SOURCES)
