@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The forms in which others write namelists say the same as the plain one: to gfb, and in its echo of every value used.
 
-    namelist_forms.py ECHO_EXECUTABLE                   the legal forms of Fortran, and marks of other systems
+    namelist_forms.py ECHO_EXECUTABLE                   the legal forms of Fortran, and marks of other systems; the echo of every
+                                                        file of inputs/ is a case that has the same echo
     namelist_forms.py --f90nml GFB_EXECUTABLE ECHO_EXECUTABLE
                                                         every file of inputs/, read and written again by f90nml (PyPI, into build/f90nml)
 """
@@ -94,6 +95,25 @@ def check_forms(program):
         return wrong, len(cases)
 
 
+def values_of(text):
+    """Lines of an echo without what they mean and whether they are defaults."""
+    return [line.split(" ! ")[0] for line in text.splitlines() if not line.strip().startswith("!")]
+
+
+def check_echoes(program):
+    """What is wrong with the echoes of all inputs as case files, one a line."""
+    wrong, inputs = [], sorted((ROOT/"inputs").glob("*.nml"))
+    with tempfile.TemporaryDirectory() as name:
+        path = pathlib.Path(name)/"used.nml"
+        for source in inputs:
+            first = echo(program, source)
+            path.write_text(first, encoding="utf-8")
+            again = echo(program, path)
+            if "&scene" not in first or values_of(again) != values_of(first):
+                wrong.append(f"the echo of {source.name}: {again if again.startswith('status') else 'another echo'}")
+    return wrong, len(inputs)
+
+
 def rewrite(folder):
     """In f90nml's Python: reads every input and writes it again, as it is, and with its lists as sections."""
     import f90nml
@@ -145,6 +165,8 @@ def main():
             sys.exit(77)
     else:
         wrong, number = check_forms(sys.argv[1])
+        more, inputs = check_echoes(sys.argv[1])
+        wrong, number = wrong + more, number + inputs
     for line in wrong:
         print("FAILED", line)
     print(f"{number} files, {len(wrong)} failed")

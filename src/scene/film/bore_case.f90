@@ -88,7 +88,7 @@ contains
   subroutine read_waves(keys, profile)
     type(case_keys_type), intent(inout) :: keys
     type(bore_profile_type), intent(inout) :: profile
-    logical :: waves, amplitude, angle
+    logical :: waves, amplitude
 
     call keys%integer_key('waves', profile%waves, 'waves of the bore around the circle; 0: none', &
                           from_to(0.0_wp, most_waves), given=waves)
@@ -97,9 +97,11 @@ contains
                        'half of their height from trough to crest', positive, waves, &
                        default='required with waves', given=amplitude)
     call keys%real_key('wave_angle', profile%wave_angle, 'rad', 'angle of a crest, where the '// &
-                       'bore is nearest to the shaft', any_value, given=angle)
+                       'bore is nearest to the shaft', any_value)
     if (amplitude .and. .not. waves) call keys%complain(group, 'wave_amplitude', 'needs waves')
-    if (angle .and. .not. waves) call keys%complain(group, 'wave_angle', 'needs waves')
+    if (keys%meant(group, 'wave_angle') .and. .not. waves) then
+      call keys%complain(group, 'wave_angle', 'needs waves')
+    end if
   end subroutine read_waves
 
   !> Shims: each list has one value a shim; of arcs, ramps and heights one may stand for all.

@@ -49,7 +49,9 @@ contains
     logical, intent(out), optional :: given !! the file has it
     character(len=:), allocatable :: words
     integer, allocatable :: elements(:)
+    real(wp) :: before
 
+    before = value
     call self%describe(name, real_words, unit, meaning)
     words = self%notes%numbers_shown([value])
     call self%begin_key(words, single, elements, required, default, given)
@@ -57,7 +59,7 @@ contains
       call self%take_real(elements(1), 0, value, rule)
       words = self%notes%numbers_shown([value])
     end if
-    call self%end_key(words, abs(value) > 0.0_wp)
+    call self%end_key(words, abs(value) > 0.0_wp, .not. abs(value - before) > 0.0_wp)
   end subroutine real_key
 
   !> A fixed number of real numbers; all of them must be given.
@@ -71,8 +73,10 @@ contains
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
+    real(wp) :: before(size(values))
     integer :: i
 
+    before = values
     call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
     call self%begin_key(self%notes%numbers_shown(values), size(values), elements, required, &
                         default, given)
@@ -84,7 +88,8 @@ contains
         call self%take_real(elements(i), i, values(i), rule)
       end do
     end if
-    call self%end_key(self%notes%numbers_shown(values), any(abs(values) > 0.0_wp))
+    call self%end_key(self%notes%numbers_shown(values), any(abs(values) > 0.0_wp), &
+                      .not. any(abs(values - before) > 0.0_wp))
   end subroutine real_vector_key
 
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
@@ -109,7 +114,7 @@ contains
     do i = 1, size(values)
       call self%take_real(elements(i), i, values(i), rule)
     end do
-    call self%end_key(self%notes%numbers_shown(values), size(values) > 0)
+    call self%end_key(self%notes%numbers_shown(values), size(values) > 0, .false.)
   end subroutine real_list_key
 
   !> One whole number.
@@ -124,8 +129,9 @@ contains
     logical, intent(out), optional :: given !! the file has it
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
-    integer :: number
+    integer :: number, before
 
+    before = value
     call self%describe(name, 'integer', '1', meaning)
     call self%begin_key(text(value), single, elements, required, default, given)
     if (size(elements) == 1) then
@@ -137,7 +143,7 @@ contains
       if (problem == '') value = number
       call self%complain_value(elements(1), 0, problem)
     end if
-    call self%end_key(text(value), value /= 0)
+    call self%end_key(text(value), value /= 0, value == before)
   end subroutine integer_key
 
   !> Yes or no.
@@ -149,8 +155,9 @@ contains
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
-    logical :: truth
+    logical :: truth, before
 
+    before = value
     call self%describe(name, 'logical', '', meaning)
     call self%begin_key(text(value), single, elements, default=default)
     if (size(elements) == 1) then
@@ -161,7 +168,7 @@ contains
       if (problem == '') value = truth
       call self%complain_value(elements(1), 0, problem)
     end if
-    call self%end_key(text(value), .true.)
+    call self%end_key(text(value), .true., value .eqv. before)
   end subroutine logical_key
 
   !> Free text.
@@ -171,8 +178,9 @@ contains
     character(len=:), allocatable, intent(inout) :: value !! the default on entry
     character(len=*), intent(in) :: meaning !! of the key, a sentence
     integer, allocatable :: elements(:)
-    character(len=:), allocatable :: problem, words
+    character(len=:), allocatable :: problem, words, before
 
+    before = value
     call self%describe(name, 'string', '', meaning)
     call self%begin_key(quoted(value), single, elements)
     if (size(elements) == 1) then
@@ -187,7 +195,7 @@ contains
       end if
       call self%complain_value(elements(1), 0, problem)
     end if
-    call self%end_key(quoted(value), .true.)
+    call self%end_key(quoted(value), .true., value == before)
   end subroutine string_key
 
   !> One of several words, as its number in their list.
@@ -199,12 +207,14 @@ contains
     character(len=*), intent(in) :: meaning !! of the key, a sentence
     logical, intent(in), optional :: required !! a case without it is wrong
     integer, allocatable :: elements(:)
+    integer :: before
 
+    before = value
     call self%describe(name, '`'//choices(words)//'`', '', meaning)
     call self%begin_key(chosen_word(words, value), single, elements, required)
     if (self%key%given) value = 0
     if (size(elements) == 1) call self%take_choice(elements(1), 0, words, value)
-    call self%end_key(chosen_word(words, value), value > 0)
+    call self%end_key(chosen_word(words, value), value > 0, value == before)
   end subroutine choice_key
 
   !> One of several words, or the names of keys of the case file.
@@ -239,7 +249,7 @@ contains
     end if
     chosen = quoted(keys)
     if (keys == '') chosen = chosen_word(words, value)
-    call self%end_key(chosen, value > 0)
+    call self%end_key(chosen, value > 0, .false.)
   end subroutine choice_or_keys_key
 
   !> Several of several words.
@@ -250,8 +260,10 @@ contains
     character(len=*), intent(in) :: words(:)    !! blank-padded
     character(len=*), intent(in) :: meaning !! of the key, a sentence
     integer, allocatable :: elements(:)
+    logical :: before(size(chosen))
     integer :: i, choice
 
+    before = chosen
     call self%describe(name, 'list of `'//choices(words)//'`', '', meaning)
     call self%begin_key(chosen_words(words, chosen), most_words, elements)
     if (size(elements) > 0) chosen = .false.
@@ -260,7 +272,7 @@ contains
       call self%take_choice(elements(i), i, words, choice)
       if (choice > 0) chosen(choice) = .true.
     end do
-    call self%end_key(chosen_words(words, chosen), any(chosen))
+    call self%end_key(chosen_words(words, chosen), any(chosen), all(chosen .eqv. before))
   end subroutine words_key
 
   !> Names of real keys of the case file, which may stand in one string or in several.
@@ -285,7 +297,7 @@ contains
       if (i > 1) names = names//', '
       names = names//lower_case(trim(self%file%value_text(elements(i))))
     end do
-    call self%end_key(quoted(names), names /= '')
+    call self%end_key(quoted(names), names /= '', .false.)
   end subroutine names_key
 
   !> A key that the rest of the scene has no use for: its echo must not show a value.
@@ -298,6 +310,6 @@ contains
     call self%describe(name, 'string', '', meaning)
     call self%begin_key('', longest_list, elements, default=no_default)
     if (self%key%given) call self%complain(self%notes%group, name, why)
-    call self%end_key('', .false.)
+    call self%end_key('', .false., .false.)
   end subroutine useless_key
 end module gfb_case_keys

@@ -5,7 +5,7 @@ module gfb_case_reader
   use gfb_errors, only: error_type, fail, status_input
   use gfb_key_book, only: key_book_type
   use gfb_key_elements, only: find_elements, is_entry_of
-  use gfb_key_notes, only: key_type, key_notes_type, choices
+  use gfb_key_notes, only: key_type, key_notes_type, no_default, choices
   use gfb_namelist_file, only: namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_namelist_values, only: read_real, value_string, value_number
@@ -236,7 +236,8 @@ contains
     line = self%book%group_line(group)
   end subroutine find_place
 
-  !> Whether a key stands in the file, be it misspelt; not before `finish`.
+  !> Whether a key stands in the file with another value than its default, be it misspelt; not before
+  !> `finish`.
   function meant(self, group, key)
     class(case_reader_type), intent(in) :: self !! the case file being read
     character(len=*), intent(in) :: group, key !! names in the case file
@@ -311,10 +312,15 @@ contains
   end subroutine begin_key
 
   !> Writes the echo of the key.
-  subroutine end_key(self, value_words, is_set)
+  subroutine end_key(self, value_words, is_set, same)
     class(case_reader_type), intent(inout) :: self !! the case file being read
     character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set  !! a value that is a default is more than a placeholder
+    logical, intent(in) :: same    !! the value is the one that it came with
+
+    ! An echo that is read again gives all defaults: they ask for nothing.
+    if (self%key%given .and. same .and. .not. self%key%required .and. &
+        self%key%default /= no_default) call self%book%take_for_default()
     call self%notes%add_line(self%key, value_words, is_set)
   end subroutine end_key
 

@@ -17,6 +17,7 @@ module gfb_key_book
     integer :: line = 0              !! of a group in the file, 0 where it is absent
     logical :: missing = .false.     !! required and absent
     logical :: given = .false.       !! it stands in the file
+    logical :: is_default = .false.  !! of a key: it stands there with the value that holds without it
     logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
     logical :: unread = .false.      !! of a key: its values could not be told apart
     logical :: is_real = .false.     !! of a key: its value is one real number
@@ -36,6 +37,7 @@ module gfb_key_book
   contains
     procedure :: add_group
     procedure :: add_key
+    procedure :: take_for_default
     procedure :: is_unread
     procedure :: check_names
     procedure :: is_meant
@@ -166,13 +168,19 @@ contains
     end if
   end subroutine look_up_real
 
-  !> Whether a key stands in the file, be it misspelt.
+  !> The key added last has the value that holds without it.
+  pure subroutine take_for_default(self)
+    class(key_book_type), intent(inout) :: self !! the known groups and keys
+    self%keys(self%count)%is_default = .true.
+  end subroutine take_for_default
+
+  !> Whether a key stands in the file with another value than its default, be it misspelt.
   pure function is_meant(self, group, key) result(meant)
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
     meant = any(self%key_groups == group .and. self%key_names == key .and. &
-                (self%keys%given .or. self%keys%misspelt))
+                ((self%keys%given .and. .not. self%keys%is_default) .or. self%keys%misspelt))
   end function is_meant
 
   !> Complains about unknown groups and keys, and about missing ones that no misspelling explains.
