@@ -11,8 +11,8 @@ static const int status_machine = 3;
 /* What the start of MPI and PETSc takes of a limit of addresses [bytes]; where they do not get it, they end in many ways. */
 static const size_t room_to_start = 96u << 20;
 
-/* BLAS needs microseconds of the processor for what is asked of it here, under valgrind a thousand times that [us]. */
-static const int patience = 2000000;
+/* BLAS needs microseconds of the processor for what is asked of it here, under valgrind a thousand times that [s]. */
+static const int patience = 2;
 
 static const char no_memory[] = "gfb: no memory: the run needs more than this machine, or a limit on it (ulimit -v), gives\n";
 
@@ -61,7 +61,7 @@ void gfb_start_blas(void)
   const double     one = 1.0, none = 0.0;
   const int        n = order;
   double           a[order*order] = {0.0}, c[order*order] = {0.0};
-  struct itimerval wait = {{0, 0}, {0, patience}}, before;
+  struct itimerval wait = {{0, 0}, {patience, 0}}, before = {{0, 0}, {0, 0}};
   struct sigaction action, former;
 
   memset(&action, 0, sizeof action);
