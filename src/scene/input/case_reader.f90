@@ -319,7 +319,7 @@ contains
     logical, intent(in) :: same    !! the value is the one that it came with
 
     ! An echo that is read again gives all defaults: they ask for nothing.
-    if (self%key%given .and. same .and. .not. self%key%required .and. &
+    if (self%last_key_is_right() .and. same .and. .not. self%key%required .and. &
         self%key%default /= no_default) call self%book%take_for_default()
     call self%notes%add_line(self%key, value_words, is_set)
   end subroutine end_key
