@@ -104,11 +104,11 @@ def check_limit_cycle(checks, folder):
 def check_foil(checks, folder):
     """A branch that comes to the foil before its end has not reached what it was asked for; its orbits are kept."""
     content, _ = periodic_case(0.3, (-60.0, 0.0), {"unbalance": 1.0e-6, "steps_per_turn": 24, "parameter": "unbalance",
-                                                   "final_value": 1.0e-4, "step": 0.2}, mesh=(24, 3))
+                                                   "final_value": 9.4e-6, "step": 0.2}, mesh=(24, 3))
     content["solver"] = {"touch_down_gap": 5.0e-6}
     answer = solve(folder, "foil", content, status=2)
     checks.that("to the foil: not reached", answer["ending"] == "the shaft touches down" and answer["converged"] == "false"
-                and answer["not_reached"] == "unbalance 1e-4 kg m" and "not reached: unbalance 1e-4 kg m: the shaft" in answer.log)
+                and answer["not_reached"] == "unbalance 9.4e-6 kg m" and "not reached: unbalance 9.4e-6 kg m: the shaft" in answer.log)
     gap = orbits(answer)["minimum_gap"]
     checks.that(f"to the foil: {len(gap)} orbits, the last with a film of {gap[-1]*1.0e6:.2f} um", len(gap) > 1 and gap[-1] > 5.0e-6)
 
