@@ -44,7 +44,7 @@ contains
   !> $$ \sum (\mu f_n - |t|) |s|, \qquad \sum f_n $$
   !>
   !> The first is nothing where Coulomb's law holds: a contact that has slid feels its whole
-  !> friction, one that sticks has not slid.
+  !> friction, one that sticks has not slid. In motion it says nothing: what turns back sticks.
   pure function contact_sums(contacts) result(sums)
     type(contact_set_type), intent(in) :: contacts !! this rank's, linearised at the answer
     real(wp) :: sums(summed) !! [J], [N]
@@ -57,6 +57,7 @@ contains
       associate (point => contacts%point(i))
         pressing = max(0.0_wp, merge(point%pressing, point%force(3), point%pressed))
         lacking = contacts%law(point%law)%friction*pressing - norm2(point%force(:2))
+        if (contacts%keeps_friction) lacking = 0.0_wp
         sums = sums + [max(0.0_wp, lacking)*norm2(point%place(:2)), pressing]
       end associate
     end do
