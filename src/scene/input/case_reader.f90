@@ -236,8 +236,8 @@ contains
     line = self%book%group_line(group)
   end subroutine find_place
 
-  !> Whether a key stands in the file with another value than its default, be it misspelt; not before
-  !> `finish`.
+  !> Whether a key stands in the file with another value than its default, be it misspelt; not
+  !> before `finish`.
   function meant(self, group, key)
     class(case_reader_type), intent(in) :: self !! the case file being read
     character(len=*), intent(in) :: group, key !! names in the case file

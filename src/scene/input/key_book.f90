@@ -17,7 +17,7 @@ module gfb_key_book
     integer :: line = 0              !! of a group in the file, 0 where it is absent
     logical :: missing = .false.     !! required and absent
     logical :: given = .false.       !! it stands in the file
-    logical :: is_default = .false.  !! of a key: it stands there with the value that holds without it
+    logical :: is_default = .false.  !! of a key: it is given the value that holds without it
     logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
     logical :: unread = .false.      !! of a key: its values could not be told apart
     logical :: is_real = .false.     !! of a key: its value is one real number
