@@ -63,13 +63,14 @@ void gfb_start_blas(void)
   double           a[order*order] = {0.0}, c[order*order] = {0.0};
   struct itimerval wait = {{0, 0}, {patience, 0}}, before = {{0, 0}, {0, 0}};
   struct sigaction action, former;
+  int              waits;
 
   memset(&action, 0, sizeof action);
   sigemptyset(&action.sa_mask);
   action.sa_handler = end_without_memory;
   sigaction(SIGPROF, &action, &former);
-  setitimer(ITIMER_PROF, &wait, &before);
+  waits = setitimer(ITIMER_PROF, &wait, &before) == 0;
   dsyrk_("L", "N", &n, &n, &one, a, &n, &none, c, &n);
-  setitimer(ITIMER_PROF, &before, NULL);
+  if (waits) (void)setitimer(ITIMER_PROF, &before, NULL);
   sigaction(SIGPROF, &former, NULL);
 }

@@ -6,6 +6,7 @@ module gfb_shape_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
   use gfb_periodic_case, only: follow_unbalance
+  use gfb_rotor_case, only: rotor_case_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
@@ -161,6 +162,7 @@ contains
         call must_be_less(keys, 'transient', 'orbit_radius', scene%transient%orbit_radius, room, &
                           'what the position leaves of the clearance')
         call check_unbalance('transient', 'unbalance', scene%transient%unbalance, mass, clearance)
+        call check_couple(scene%transient%couple_unbalance, scene%rotor, clearance)
       end if
       if (.not. scene%periodic%present) return
       call check_unbalance('periodic', 'unbalance', scene%periodic%unbalance, mass, clearance)
@@ -183,6 +185,22 @@ contains
                          ' m off the axis, with mass = '//text(mass)//' kg in &rotor; this '// &
                          'must be less than '//text(clearance)//' m, the clearance')
     end subroutine check_unbalance
+
+    !> Complains about a principal axis that leaves the clearance at the bearings. It is tilted by
+    !> the couple over the difference of both inertias, which is at most the transverse one.
+    subroutine check_couple(couple, rotor, clearance)
+      real(wp), intent(in) :: couple !! [kg m^2]
+      type(rotor_case_type), intent(in) :: rotor
+      real(wp), intent(in) :: clearance !! [m]
+      real(wp) :: offset !! [m]
+
+      if (.not. rotor%transverse_inertia > 0.0_wp) return
+      offset = 0.5_wp*rotor%bearing_distance*couple/rotor%transverse_inertia
+      if (offset < clearance) return
+      call keys%complain('transient', 'couple_unbalance', 'puts the principal axis '// &
+                         text(offset)//' m or more off the axis at the bearings; this must be '// &
+                         'less than '//text(clearance)//' m, the clearance')
+    end subroutine check_couple
   end subroutine check_motion
 
   !> Complains about a size that is not less than its limit; none where the limit is not known.

@@ -80,8 +80,8 @@ contains
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
     end if
     if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
-      call add_whirl(log, bearing, response, found)
-      if (scene%rotor%present) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
+      call add_whirl(log, bearing, response, found, record%problem)
+      if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
     record%point = [record%point, point]
     newton%factorizations = newton%factorizations + response%factorizations
@@ -200,21 +200,20 @@ contains
     type(whirl_type) :: whirl
 
     excess = 0.0_wp
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      call find_whirl(scene, bearing, newton, whirl, problem)
+      excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
+      return
+    end if
     call start_response(scene, bearing, build, response, problem)
     if (allocated(problem)) return
-    if (scene%dynamics%loss_factor > 0.0_wp) then
-      call find_critical_mass(bearing, response, whirl)
-      if (.not. whirl%searched) problem = response_failure(response)
-      excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
+    call find_rotor_modes(bearing, response, rotor_of(scene), answer)
+    if (.not. answer%found) then
+      problem = 'modes were not found: '//answer%reason
+    else if (answer%decides == 0) then
+      problem = 'no mode is the rotor''s'
     else
-      call find_rotor_modes(bearing, response, rotor_of(scene), answer)
-      if (.not. answer%found) then
-        problem = 'modes were not found: '//answer%reason
-      else if (answer%decides == 0) then
-        problem = 'no mode is the rotor''s'
-      else
-        excess = real(answer%mode(answer%decides)%rate, wp)
-      end if
+      excess = real(answer%mode(answer%decides)%rate, wp)
     end if
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements
@@ -234,16 +233,18 @@ contains
   end function mass_excess
 
   !> The mass above which a rigid shaft whirls at an answer.
-  subroutine find_whirl(scene, bearing, newton, whirl)
+  subroutine find_whirl(scene, bearing, newton, whirl, problem)
     type(scene_type), intent(in) :: scene !! whose `&dynamics` says what the foil does
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
-    type(whirl_type), intent(out) :: whirl !! what was found; not searched where a matrix could not be factorized
+    type(whirl_type), intent(out) :: whirl !! what was found
+    character(len=:), allocatable, intent(out) :: problem !! why it was not searched
     type(dynamic_response_type) :: response
 
     call create_response(bearing, vibration_of(scene), response)
     call choose_mass(scene, bearing, response)
     call find_critical_mass(bearing, response, whirl)
+    if (.not. whirl%searched) problem = response_failure(response)
     newton%factorizations = newton%factorizations + response%factorizations
     newton%enlargements = newton%enlargements + response%enlargements
     call destroy_response(response)
@@ -345,14 +346,14 @@ contains
   end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.
-  subroutine add_whirl(log, bearing, response, found)
+  subroutine add_whirl(log, bearing, response, found, problem)
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
     type(quantity_type), allocatable, intent(inout) :: found(:)
+    character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
     type(whirl_type) :: whirl
 
-    if (.not. bearing%point%speed > 0.0_wp) return
     call find_critical_mass(bearing, response, whirl)
     if (whirl%found) then
       call log%line('critical mass '//text(whirl%critical_mass, 5)//' kg on this bearing: heavier rigid shafts whirl, at '// &
@@ -362,7 +363,7 @@ contains
     else if (whirl%searched) then
       call log%line('no critical mass: no rigid shaft whirls between 0.05 and 1.2 times the speed')
     else
-      call log%line('no critical mass: a matrix of the search could not be factorized')
+      problem = 'the search for the critical mass: '//response_failure(response)
     end if
   end subroutine add_whirl
 end module gfb_dynamics

@@ -176,7 +176,7 @@ contains
     type(quantity_type), allocatable, intent(inout) :: found(:) !! gets what it is
     type(scene_type) :: vibrating
     type(whirl_type) :: whirl
-    character(len=:), allocatable :: words
+    character(len=:), allocatable :: words, problem
 
     if (.not. bearing%floats .or. bearing%shaft_fixed) return
     if (.not. bearing%point%speed > 0.0_wp) return
@@ -185,9 +185,9 @@ contains
     vibrating%dynamics%foundation_damping = scene%transient%foundation_damping
     vibrating%dynamics%arm = scene%transient%arm
     vibrating%dynamics%foil_modes = scene%transient%foil_modes
-    call find_whirl(vibrating, bearing, newton, whirl)
+    call find_whirl(vibrating, bearing, newton, whirl, problem)
     call log%is_at('')
-    if (.not. whirl%searched) return
+    if (allocated(problem)) return
     associate (point => bearing%point, mass => scene%rotor%mass)
       words = 'the first point, '//text(point%speed/rpm)//' rpm under ('// &
               text(point%load(1), digits)//', '//text(point%load(2), digits)//') N, is linearly '
