@@ -32,6 +32,7 @@ contains
   end function inner
 end module gfb_gap
 """
+TEST = "module gap_test\n  use gfb_kinds, only: wp\n  use gfb_gap, only: gap\nend module gap_test\n"
 FOIL = """module gfb_asks
   use gfb_gap, only: gap
 contains
@@ -46,13 +47,15 @@ end module gfb_asks
 class Structure(unittest.TestCase):
     """The tool on sources of three modules."""
 
-    def run_tool(self, *options, files=None):
+    def run_tool(self, *options, files=None, test=TEST):
         """Output and exit status."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in (files or {"base/kinds.f90": KINDS, "film/gap.f90": GAP}).items():
                 path = pathlib.Path(folder, "src", name)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
+            pathlib.Path(folder, "tests/unit/film").mkdir(parents=True)
+            pathlib.Path(folder, "tests/unit/film/gap_test.pf").write_text(test)
             run = subprocess.run([sys.executable, TOOL, "--sources", f"{folder}/src", *options],
                                  capture_output=True, text=True, check=False)
         return run.stdout + run.stderr, run.returncode
@@ -70,6 +73,13 @@ class Structure(unittest.TestCase):
         self.assertEqual(self.run_tool("--check")[1], 1)
         whole = GAP.replace(":: tilt(2)", ":: tilt(2) !! of the shaft [rad]")
         self.assertEqual(self.run_tool("--check", files={"base/kinds.f90": KINDS, "film/gap.f90": whole})[1], 0)
+
+    def test_modules_without_a_unit_test_are_counted_and_named(self):
+        one = TEST.replace("  use gfb_gap, only: gap\n", "")
+        self.assertIn("  modules that a unit test names: 50.0 % (at least 50 %), 1 that none names", self.run_tool(test=one)[0])
+        self.assertEqual(self.run_tool("--untested", test=one)[0].strip(), "src/film/gap.f90: gfb_gap")
+        self.assertEqual(self.run_tool("--untested", "base", test=one)[0], "")
+        self.assertIn("! modules that a unit test names: 0.0 %", self.run_tool(test="module gap_test\nend module gap_test\n")[0])
 
     def test_chains_and_types_of_foils_are_seen(self):
         words, _ = self.run_tool(files={"base/kinds.f90": KINDS, "film/gap.f90": GAP, "run/asks.f90": FOIL})
