@@ -2,17 +2,18 @@
 module gfb_scene
   use gfb_accuracy_case, only: accuracy_case_type
   use gfb_bearing_case, only: bearing_case_type
+  use gfb_bore_case, only: bore_case_type
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_capacity_case, only: capacity_case_type
   use gfb_contact_case, only: contact_case_type
   use gfb_dynamics_case, only: dynamics_case_type
-  use gfb_film_cases, only: bore_case_type, gas_case_type
+  use gfb_gas_case, only: gas_case_type
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type
   use gfb_modes_case, only: modes_case_type
-  use gfb_motion_cases, only: periodic_case_type, transient_case_type
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
+  use gfb_periodic_case, only: periodic_case_type
   use gfb_rotor_case, only: rotor_case_type
   use gfb_sample_case, only: sample_case_type
   use gfb_scene_case, only: scene_case_type
@@ -22,6 +23,7 @@ module gfb_scene
   use gfb_strip_load_case, only: strip_load_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_top_foil_case, only: top_foil_case_type
+  use gfb_transient_case, only: transient_case_type
   implicit none (type, external)
   private
 

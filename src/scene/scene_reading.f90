@@ -1,20 +1,18 @@
 !> Reads a case file into a scene, once more for each value of a sweep over its keys.
 module gfb_scene_reading
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_changed_text, only: changed_text, changed_list_text
   use gfb_case_text, only: read_case_text
+  use gfb_changed_text, only: changed_text, changed_list_text
+  use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
-  use gfb_listed_keys, only: list_length
   use gfb_key_notes, only: noted_key_type
+  use gfb_named_key_rules, only: list_length, check_sensitivity, check_swept_keys
   use gfb_plausible_values, only: check_plausible
   use gfb_scene, only: scene_type
-  use gfb_scene_checks, only: check_groups
-  use gfb_sensitivity_rules, only: check_sensitivity
-  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
-  use gfb_swept_key_rules, only: check_swept_keys
   use gfb_scene_groups, only: read_groups
+  use gfb_scene_rules, only: check_groups
+  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
   use gfb_text, only: text
   implicit none (type, external)
   private

@@ -1,34 +1,101 @@
-!> What the groups of a scene ask of each other.
+!> What the groups of a scene ask of each other, all called in one place.
 module gfb_scene_rules
   use gfb_kinds, only: wp
+  use gfb_accuracy_case, only: check_accuracy
   use gfb_bearing_case, only: bearing_case_type, leading_edge_periodic, pad_angle, pad_turn, &
-                              preload_angle
+                              preload_angle, check_pads
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
                                 has_flats, bumps_overlap, has_sizes, one_bump
+  use gfb_capacity_case, only: check_capacity
   use gfb_case_keys, only: case_keys_type
-  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_contact_case, only: contact_case_type
+  use gfb_count_rules, only: check_counts
+  use gfb_dynamics_case, only: check_dynamics
+  use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_foil_motion_keys, only: check_foil_mass
+  use gfb_foil_rules, only: check_assembly, check_crest_gaps, check_bump_sizes, check_own_strips
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type, foil_rigid, foil_elastic_foundation, foil_word, &
-                            meshes_foils, half_width_yes, reduction_guyan
+                            meshes_foils, half_width_yes, reduction_guyan, coupling_partitioned
   use gfb_modes_case, only: modes_case_type, part_flat, part_strip, part_top_foil
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
+  use gfb_periodic_case, only: check_periodic
+  use gfb_rotor_case, only: check_rotor
+  use gfb_sample_rules, only: check_sample
+  use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_modes, is_bearing
+  use gfb_shaft_contact_case, only: check_shaft_contact
+  use gfb_shape_rules, only: check_shape
   use gfb_solver_case, only: solver_case_type, linear_solver_direct, linear_solver_iterative
   use gfb_strip_load_case, only: strip_load_case_type, load_plates
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
-                            sweep_load_angle, sweep_tilt_x, sweep_tilt_y, &
-                            sweep_eccentricity_x, sweep_eccentricity_y
+                            sweep_load_angle, sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, &
+                            sweep_eccentricity_y
   use gfb_text, only: join, text
+  use gfb_top_foil_case, only: top_foil_case_type, top_foil_trailing
+  use gfb_transient_case, only: check_transient
   implicit none (type, external)
   private
-  public :: check_sweep, check_foundation, check_half_width, check_rigid_position, check_strip
-  public :: check_shell_bearing, check_friction_memory
-  public :: check_plates, check_stability, check_restart, check_linear_solver, is_symmetric
+  public :: check_groups, is_symmetric
 
 contains
+
+  !> Checks what the groups ask of each other.
+  subroutine check_groups(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    call check_sweep(keys, scene%sweep, scene%operation, scene%general%analysis, &
+                     scene%shaft_contact%present)
+    call check_shaft_contact(keys, scene%shaft_contact, scene%model, scene%operation, scene%sweep, &
+                             scene%general%analysis)
+    call check_friction_memory(keys, scene%sweep, scene%model, scene%contact)
+    call check_foundation(keys, scene%model)
+    call check_half_width(keys, scene%model, scene%mesh, scene%operation, scene%sweep)
+    call check_rigid_position(keys, scene%model, scene%bearing, scene%operation, scene%sweep)
+    call check_dynamics(keys, scene%dynamics, scene%operation, scene%model, &
+                        scene%contact%may_rub, scene%contact%law_in_motion(), scene%sweep, &
+                        scene%accuracy%present)
+    call check_pads(keys, scene%bearing, scene%operation)
+    if (scene%transient%present) then
+      call check_foil_mass(keys, 'transient', scene%transient%foil_mass, scene%model, &
+                           scene%top_foil, scene%bump_foil)
+    end if
+    if (scene%dynamics%present) then
+      call check_foil_mass(keys, 'dynamics', scene%dynamics%foil_mass, scene%model, &
+                           scene%top_foil, scene%bump_foil)
+    end if
+    call check_rotor(keys, scene%rotor, scene%operation, scene%sweep, scene%dynamics%present)
+    call check_strip(keys, scene%bump_foil, scene%mesh, scene%modes, scene%general%analysis, &
+                     scene%model)
+    call check_shell_bearing(keys, scene%bump_foil, scene%bearing, scene%model, &
+                             scene%general%analysis)
+    call check_crest_gaps(keys, scene)
+    call check_bump_sizes(keys, scene)
+    call check_own_strips(keys, scene)
+    call check_plates(keys, scene%strip_load, scene%general%analysis)
+    call check_assembly(keys, scene)
+    call check_edge_lift(keys, scene%operation, scene%model, scene%top_foil, scene%general%analysis)
+    call check_turn_folds(keys, scene%sweep, scene%model)
+    call check_load_angles(keys, scene%sweep)
+    call check_stability(keys, scene%solver, scene%model, scene%general%analysis)
+    call check_restart(keys, scene%output, scene%general%analysis, &
+                       scene%sweep%present .or. scene%transient%present)
+    call check_linear_solver(keys, scene%solver, scene%model, scene%general%analysis)
+    call check_accuracy(keys, scene%accuracy, scene%sweep, scene%output, scene%general%analysis, &
+                        scene%dynamics%present)
+    call check_capacity(keys, scene%capacity, scene%operation, scene%model, scene%solver, &
+                        scene%sweep, scene%accuracy, scene%shaft_contact%present)
+    call check_sample(keys, scene)
+    call check_transient(keys, scene%transient, scene%operation, scene%rotor, scene%model, &
+                         scene%general%analysis)
+    call check_periodic(keys, scene%periodic, scene%operation, scene%rotor, scene%model, &
+                        scene%contact%may_rub)
+    call check_shape(keys, scene)
+    call check_counts(keys, scene)
+  end subroutine check_groups
 
   !> A sweep needs an analysis that fits to its parameter.
   subroutine check_sweep(keys, sweep, operation, analysis, may_rest)
@@ -362,4 +429,79 @@ contains
       approach = maxval(-eccentricity(1)*cos(edge) - eccentricity(2)*sin(edge))
     end if
   end function approach_at_end
+
+  !> A branch can be asked for by the lift of an edge that is free to lift.
+  subroutine check_edge_lift(keys, operation, model, top_foil, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(top_foil_case_type), intent(in) :: top_foil !! what `&top_foil` asks for
+    integer, intent(in) :: analysis  !! 0 where it is not known
+    character(len=:), allocatable :: problem
+
+    problem = ''
+    if (analysis /= analysis_equilibrium) then
+      problem = "needs analysis = 'equilibrium'"
+    else if (.not. meshes_foils(model%foil)) then
+      problem = "needs foil = 'shell' in &model, or 'beam': no other foil has an edge that lifts"
+    else if (top_foil%fixed_edge /= top_foil_trailing) then
+      problem = "needs fixed_edge = 'trailing' in &top_foil: a fixed edge does not lift"
+    else if (model%coupling == coupling_partitioned) then
+      problem = "needs coupling = 'monolithic' in &model"
+    end if
+    if (problem == '' .or. analysis == 0 .or. model%foil == 0) return
+    if (size(operation%leading_edge_lift) > 0) then
+      call keys%complain('operation', 'leading_edge_lift', problem)
+    end if
+    if (size(operation%leading_edge_lift_edge) > 0) then
+      call keys%complain('operation', 'leading_edge_lift_edge', problem)
+    end if
+  end subroutine check_edge_lift
+
+  !> A branch is followed round its folds between two values, with all its points in equilibrium.
+  subroutine check_turn_folds(keys, sweep, model)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+    real(wp), allocatable :: change(:)
+
+    if (.not. sweep%turn_folds) return
+    if (sweep%friction_memory) then
+      call keys%complain('sweep', 'turn_folds', 'has no use beside friction_memory: what slid '// &
+                         'must not depend on the path round a fold')
+    end if
+    if (sweep%parameter == sweep_load_angle) then
+      call keys%complain('sweep', 'turn_folds', 'has no use with parameter = ''load_angle'': '// &
+                         'between two angles the load goes straight, not round')
+    end if
+    if (model%coupling == coupling_partitioned) then
+      call keys%complain('sweep', 'turn_folds', "needs coupling = 'monolithic' in &model")
+    end if
+    if (.not. allocated(sweep%values)) return
+    if (size(sweep%values) == 1) then
+      call keys%complain('sweep', 'turn_folds', 'needs two values at least, the ends of the path')
+    else if (size(sweep%values) > 1) then
+      change = sweep%values(2:) - sweep%values(:size(sweep%values) - 1)
+      if (any(change*change(1) <= 0.0_wp)) then
+        call keys%complain('sweep', 'values', 'must all rise or all fall with turn_folds')
+      end if
+    end if
+  end subroutine check_turn_folds
+
+  !> Between two angles the load goes straight, and must not come near zero.
+  subroutine check_load_angles(keys, sweep)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
+    real(wp), parameter :: circle = 360.0_wp, farthest = 90.0_wp !! [deg]
+    integer :: point
+
+    if (sweep%parameter /= sweep_load_angle .or. .not. allocated(sweep%values)) return
+    do point = 2, size(sweep%values)
+      associate (turn => modulo(sweep%values(point) - sweep%values(point - 1), circle))
+        if (min(turn, circle - turn) <= farthest) cycle
+      end associate
+      call keys%complain('sweep', 'values', 'must be within 90 degrees of the angle before: '// &
+                         'between them the load goes straight', point)
+    end do
+  end subroutine check_load_angles
 end module gfb_scene_rules

@@ -7,8 +7,7 @@ module gfb_foil_mass_choice
   use gfb_model_case, only: foil_rigid, meshes_foils
   use gfb_operation_case, only: angular_speed
   use gfb_dynamics_case, only: frequencies_at
-  use gfb_foil_mass_words, only: mass_on, mass_off
-  use gfb_foil_mass_case, only: has_densities
+  use gfb_foil_motion_keys, only: mass_on, mass_off, has_densities
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
   use gfb_foil_inertia, only: foil_inertia_type, destroy_inertia

@@ -2,10 +2,10 @@
 module gfb_accuracy_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
+  use gfb_output_case, only: output_case_type
   use gfb_result_names, only: asked_names, is_of
   use gfb_result_table, only: name_length, bearing, strip
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
-  use gfb_output_case, only: output_case_type
   use gfb_sweep_case, only: sweep_case_type
   use gfb_value_rules, only: between, from_to
   implicit none (type, external)

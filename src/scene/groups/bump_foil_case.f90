@@ -2,32 +2,42 @@
 module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
-  use gfb_bump_list, only: bump_list_key, complain_of_bumps
+  use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_height_deviation_keys, only: read_height_deviation, height_deviation_type, &
-                                       draw_gaps, largest_gap
-  use gfb_strip_sizes, only: strip_sizes_type, read_strip_sizes, refuse_strip_sizes, &
-                             gives_strips, sizes_differ
+  use gfb_foil_sizes, only: bump_list_key, complain_of_bumps, strip_sizes_type, read_strip_sizes, &
+                            refuse_strip_sizes, gives_strips, sizes_differ
   use gfb_text, only: text
-  use gfb_value_rules, only: between, from_to, not_negative, positive
+  use gfb_value_rules, only: between, from_to, not_negative, positive, at_least
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, &
-            gap_of_corner
-  public :: solid_width, has_sizes, one_bump, one_strip, strips_differ
-  public :: bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, draw_gaps, largest_gap
+            gap_of_corner, solid_width, has_sizes, one_bump, one_strip, strips_differ, &
+            bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, draw_gaps, &
+            largest_gap
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
   integer, parameter, public :: fixed_edge_none = 3
 
+  character(len=*), parameter :: group = 'bump_foil'
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'leading', 'trailing', 'none']
   !> In the order of `gfb_fixed_lines`.
   character(len=*), parameter :: line_words(*) = [character(len=9) :: 'corner', 'flat', 'half_flat']
+  character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
 
   real(wp), parameter :: most_bumps = 1.0e6_wp, most_strips = 1.0e5_wp !! of a foil
+  real(wp), parameter :: most_heights = 1.0e6_wp !! drawn for a scene
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
+
+  !> How the heights deviate.
+  type :: height_deviation_type
+    real(wp) :: deviation = 0.0_wp !! standard deviation; 0: none was asked for [m]
+    integer :: seed = 1            !! chooses the heights
+    !> (bumps, strips of all pads) what the gaps of each strip are more than those of the first,
+    !> pad by pad; not allocated: there is one strip [m]
+    real(wp), allocatable :: further_gap(:, :)
+  end type height_deviation_type
 
   !> The bump strip. A number that is not given is zero.
   type :: bump_foil_case_type
@@ -75,7 +85,7 @@ contains
     real(wp) :: lowest !! height [m]
     logical :: gaps    !! are given
 
-    call keys%start_group('bump_foil', required=as_shell, optional=.true., &
+    call keys%start_group(group, required=as_shell, optional=.true., &
                           present_in_file=foil%present)
     call length_key('thickness', foil%thickness, 'thickness of the foil', 'bump_thickness')
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
@@ -92,7 +102,7 @@ contains
                           as_shell, default=no_default)
     if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
     call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       with_pitch .and. .not. keys%holds('bump_foil', 'bump_pitch') .and. &
+                       with_pitch .and. .not. keys%holds(group, 'bump_pitch') .and. &
                        .not. gives_strips(keys, 'pitch'), &
                        default='length of the pad / `bumps`')
     call read_sizes(keys, foil)
@@ -127,7 +137,7 @@ contains
       character(len=*), intent(in), optional :: list !! key that says it bump by bump
       logical :: required
       required = as_shell
-      if (present(list)) required = required .and. .not. keys%holds('bump_foil', list) .and. &
+      if (present(list)) required = required .and. .not. keys%holds(group, list) .and. &
                                     .not. gives_strips(keys, name)
       call keys%real_key(name, value, 'm', meaning, positive, required, default=no_default)
     end subroutine length_key
@@ -159,7 +169,7 @@ contains
     if (.not. right .or. .not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
     if (foil%cut_width < strip) return
-    call keys%complain('bump_foil', 'cut_width', 'must be less than the width of a strip, '// &
+    call keys%complain(group, 'cut_width', 'must be less than the width of a strip, '// &
                        text(max(0.0_wp, strip), 4)//' m: so much is left of '// &
                        text(foil%width)//' m for each of '//text(foil%strips))
   end subroutine read_cuts
@@ -187,8 +197,8 @@ contains
 
       call bump_list_key(keys, 'bump_'//name, list, foil%bumps, 'm', meaning, positive, &
                          '`'//name//'` of all bumps')
-      if (keys%key%given .and. keys%holds('bump_foil', name)) then
-        call keys%complain('bump_foil', 'bump_'//name, 'contradicts '//name//': give one of them')
+      if (keys%key%given .and. keys%holds(group, name)) then
+        call keys%complain(group, 'bump_'//name, 'contradicts '//name//': give one of them')
       end if
     end subroutine size_list
   end subroutine read_sizes
@@ -358,17 +368,17 @@ contains
       call check_bumps(keys, foil)
     else if (foil%half_length > 0.0_wp) then
       if (foil%height > foil%half_length) then
-        call keys%complain('bump_foil', 'height', 'must not exceed half_length = '// &
+        call keys%complain(group, 'height', 'must not exceed half_length = '// &
                            text(foil%half_length)//' m: a bump is at most half a circle')
       end if
       if (foil%pitch > 0.0_wp .and. bumps_overlap(foil)) then
-        call keys%complain('bump_foil', 'pitch', 'must be at least 2 half_length = '// &
+        call keys%complain(group, 'pitch', 'must be at least 2 half_length = '// &
                            text(2.0_wp*foil%half_length)//' m, and is '//text(foil%pitch)//' m')
       end if
     end if
     if (bearing%radius > 0.0_wp .and. &
         foil%bumps*foil%pitch > pad_length(bearing)*(1.0_wp + rounding)) then
-      call keys%complain('bump_foil', 'bumps', text(foil%bumps)//' bumps of the '// &
+      call keys%complain(group, 'bumps', text(foil%bumps)//' bumps of the '// &
                          trim(merge('mean pitch', 'pitch     ', allocated(foil%bump_pitch)))// &
                          ' '//text(foil%pitch)//' m are longer than the pad, '// &
                          text(pad_length(bearing))//' m')
@@ -397,4 +407,97 @@ contains
                            'must be at least 2 half_length, or bumps overlap', &
                            '2 half_length', 2.0_wp*half_length)
   end subroutine check_bumps
+
+  !> The gaps that random heights leave. Each strip of each pad has heights of its own, the numbers
+  !> of the seed one after the other; at rest its highest crest touches.
+  pure subroutine draw_gaps(law, bumps, strips, gap)
+    type(height_deviation_type), intent(inout) :: law !! gets gaps of further strips
+    integer, intent(in) :: bumps  !! of a strip
+    integer, intent(in) :: strips !! of all pads
+    real(wp), allocatable, intent(out) :: gap(:) !! of the first strip, one a bump [m]
+    real(wp) :: height(bumps, strips)
+    integer :: strip
+
+    height = law%deviation*reshape(normal_deviations(law%seed, size(height)), shape(height))
+    gap = crest_gaps(height(:, 1))
+    if (allocated(law%further_gap)) deallocate (law%further_gap)
+    if (strips == 1) return
+    allocate (law%further_gap(bumps, strips))
+    do strip = 1, strips
+      law%further_gap(:, strip) = crest_gaps(height(:, strip)) - gap
+    end do
+  end subroutine draw_gaps
+
+  !> The largest gap of all strips [m].
+  pure function largest_gap(law, gap) result(largest)
+    type(height_deviation_type), intent(in) :: law !! with the gaps of further strips
+    real(wp), intent(in) :: gap(:) !! of the first strip, one a bump [m]
+    real(wp) :: largest
+
+    largest = maxval(gap)
+    if (.not. allocated(law%further_gap)) return
+    largest = maxval(law%further_gap + spread(gap, 2, size(law%further_gap, 2)))
+  end function largest_gap
+
+  !> Reads the law of the heights, and the gaps that they leave where none are given.
+  subroutine read_height_deviation(keys, in_file, gaps, bumps, strips, height, law, gap)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    logical, intent(in) :: in_file !! the file has the group
+    logical, intent(in) :: gaps    !! and gives the gaps themselves
+    integer, intent(in) :: bumps   !! of a strip, 0 where not known
+    integer, intent(in) :: strips  !! of all pads
+    real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
+    type(height_deviation_type), intent(out) :: law !! of the heights, where they are random
+    real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
+    character(len=:), allocatable :: key
+    logical :: random, right
+
+    key = 'crest_gap'
+    call keys%real_key('height_deviation', law%deviation, 'm', 'standard deviation of the '// &
+                       'bumps'' heights; at rest the highest crest touches', positive, &
+                       default=no_default, given=random)
+    right = keys%last_key_is_right()
+    call read_law(keys, in_file .and. .not. random, law%seed, right)
+    if (gaps .and. random) then
+      call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
+                         'from the heights; give one of them')
+    else if (right .and. real(bumps, wp)*real(strips, wp) > most_heights) then
+      call keys%complain(group, 'height_deviation', text(bumps)//' bumps on '//text(strips)// &
+                         ' strips of all pads have more than '//text(nint(most_heights))// &
+                         ' heights')
+      law%deviation = 0.0_wp ! none is drawn
+      return
+    else if (right .and. bumps > 0) then
+      key = 'height_deviation'
+      call draw_gaps(law, bumps, strips, gap)
+    end if
+    if (.not. allocated(gap) .or. .not. height > 0.0_wp) return
+    if (largest_gap(law, gap) < height) return
+    call keys%complain(group, key, 'leaves a gap of '//text(largest_gap(law, gap), 4)//' m, '// &
+                       'which must be less than the height of the bumps, '//text(height)//' m')
+  end subroutine read_height_deviation
+
+  !> The law of random heights, and what chooses them.
+  subroutine read_law(keys, useless, seed, right)
+    type(case_keys_type), intent(inout) :: keys
+    logical, intent(in) :: useless   !! heights do not deviate
+    integer, intent(out) :: seed
+    logical, intent(inout) :: right  !! the heights are known so far
+    character(len=*), parameter :: seed_meaning = 'chooses the random heights: the same seed '// &
+      'gives the same ones'
+    character(len=*), parameter :: law_meaning = 'law of the random heights'
+    integer :: law
+
+    seed = 1
+    law = 1
+    if (useless) then
+      call keys%useless_key('seed', seed_meaning, 'needs height_deviation')
+      call keys%useless_key('deviation_law', law_meaning, 'needs height_deviation')
+      return
+    end if
+    call keys%integer_key('seed', seed, seed_meaning, at_least(0.0_wp))
+    right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
+    call keys%choice_key('deviation_law', law, law_words, law_meaning)
+    right = right .and. law > 0
+  end subroutine read_law
 end module gfb_bump_foil_case

@@ -3,8 +3,8 @@ module gfb_solver_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_value_rules, only: between, from_to, positive
   use gfb_text, only: text
+  use gfb_value_rules, only: between, from_to, positive
   implicit none (type, external)
   private
   public :: solver_case_type, read_solver_case

@@ -3,8 +3,7 @@ module gfb_changed_text
   use gfb_kinds, only: wp
   use gfb_case_reader, only: longest_list
   use gfb_complaints, only: complaints_type
-  use gfb_key_elements, only: find_elements
-  use gfb_namelist_file, only: namelist_file_type
+  use gfb_namelist_file, only: find_elements, namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_text, only: exact_text, text
   implicit none (type, external)

@@ -1,14 +1,32 @@
-!> A namelist file as scanned: groups, keys and raw values with their lines.
+!> A namelist file as scanned: groups, keys and raw values with their lines, and which value of the
+!> file fills which element of a key's list.
 module gfb_namelist_file
+  use gfb_kinds, only: long
   use gfb_complaints, only: complaints_type, shown
   use gfb_foreign_characters, only: foreign_type, foreign_words
-  use gfb_namelist_sections, only: section_type
-  use gfb_namelist_values, only: value_string
-  use gfb_text, only: lower_case, text
+  use gfb_namelist_values, only: value_string, value_number, value_word
+  use gfb_text, only: text, lower_case
   implicit none (type, external)
   private
-  public :: namelist_file_type, namelist_group_type, namelist_entry_type, namelist_value_type
-  public :: complain_about_foreign
+  public :: section_type, section_of, namelist_file_type, namelist_group_type, &
+            namelist_entry_type, namelist_value_type, complain_about_foreign, find_elements, &
+            is_entry_of
+
+  integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
+
+  !> Which elements of a list an entry gives: all from the first on, those from an index on, or those
+  !> of a section such as `(1:3)` or `(5:1:-2)`.
+  type :: section_type
+    integer :: element = 0       !! index given with the key, 0 if none, or `bad_index`
+    integer :: last = 0          !! of a section; 0: as far as its values go
+    integer :: step = 1          !! from element to element
+    logical :: ranges = .false.  !! a section was typed, not one index
+  contains
+    procedure :: place => section_place
+    procedure :: size => section_size
+    procedure :: holds => section_holds
+    procedure :: shown => section_shown
+  end type section_type
 
   !> A group as it stands in the file.
   type :: namelist_group_type
@@ -52,6 +70,115 @@ module gfb_namelist_file
   end type namelist_file_type
 
 contains
+
+  !> An index, or a section with its ends and its step, as typed between parentheses.
+  pure function section_of(words) result(section)
+    character(len=*), intent(in) :: words !! without the parentheses
+    type(section_type) :: section !! with `bad_index` where the words are neither
+    integer :: first, second
+
+    first = index(words, ':')
+    if (first == 0) then
+      section%element = number_of(words)
+      if (section%element < 1) section%element = bad_index
+      return
+    end if
+    section%ranges = .true.
+    section%element = 1
+    second = first + index(words(first + 1:), ':')
+    if (second == first) second = len(words) + 1
+    if (bare(words(:first - 1)) /= '') section%element = number_of(words(:first - 1))
+    if (bare(words(first + 1:second - 1)) /= '') then
+      section%last = number_of(words(first + 1:second - 1))
+      if (section%last < 1) section%element = bad_index
+    end if
+    if (second <= len(words)) section%step = signed_number_of(words(second + 1:))
+    if (section%element < 1 .or. section%step == 0) section = section_type(bad_index)
+  end function section_of
+
+  !> Element of the list that takes a value.
+  elemental function section_place(self, value) result(element)
+    class(section_type), intent(in) :: self !! the elements
+    integer(long), intent(in) :: value !! its number among those of the entry
+    integer(long) :: element
+    integer(long), parameter :: far = 2_long**31 !! beyond every list, and no product overflows
+    element = max(1, self%element) + (min(value, far) - 1)*self%step
+  end function section_place
+
+  !> How many elements there are where both ends are known, else none.
+  pure function section_size(self) result(elements)
+    class(section_type), intent(in) :: self !! the elements
+    integer(long) :: elements
+
+    elements = 0
+    if (self%last > 0) elements = max(0_long, (int(self%last, long) - self%element + self%step)/ &
+                                            self%step)
+  end function section_size
+
+  !> Whether there are so many elements.
+  pure function section_holds(self, values) result(holds)
+    class(section_type), intent(in) :: self !! the elements
+    integer(long), intent(in) :: values !! of the entry
+    logical :: holds
+    holds = self%last == 0 .or. self%size() == values
+  end function section_holds
+
+  !> The index or section behind a key; nothing where none was typed.
+  pure function section_shown(self) result(words)
+    class(section_type), intent(in) :: self !! the elements
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (self%element < 1) return
+    words = text(self%element)
+    if (self%ranges) words = words//':'
+    if (self%last > 0) words = words//text(self%last)
+    if (self%step /= 1) words = words//':'//text(self%step)
+    words = '('//words//')'
+  end function section_shown
+
+  !> A number with blanks about it; 0 where it is none from 1 on, `huge` where it is too large.
+  pure function number_of(words) result(number)
+    character(len=*), intent(in) :: words
+    integer :: number
+    integer, parameter :: most = 9 !! digits that an integer holds
+    character(len=:), allocatable :: plain
+
+    number = 0
+    plain = bare(words)
+    if (plain == '' .or. verify(plain, '0123456789') > 0) return
+    if (len(plain) > most) then
+      number = huge(number)
+    else
+      read (plain, *) number
+    end if
+  end function number_of
+
+  !> A number that may have a sign; 0 where it is none.
+  pure function signed_number_of(words) result(number)
+    character(len=*), intent(in) :: words
+    integer :: number
+    character(len=:), allocatable :: plain
+    integer :: sign
+
+    plain = bare(words)
+    sign = 1
+    if (index(plain, '-') == 1) sign = -1
+    if (scan(plain, '+-') == 1) plain = plain(2:)
+    number = sign*number_of(plain)
+  end function signed_number_of
+
+  !> Words without the blanks before and behind them.
+  pure function bare(words)
+    character(len=*), intent(in) :: words
+    character(len=:), allocatable :: bare
+    character(len=*), parameter :: blanks = ' '//achar(9)//achar(10)//achar(12)//achar(13)
+    integer :: first
+
+    bare = ''
+    first = verify(words, blanks)
+    if (first > 0) bare = words(first:verify(words, blanks, back=.true.))
+  end function bare
 
   !> Name of a group in lower case.
   pure function group_name(self, group) result(name)
@@ -179,4 +306,205 @@ contains
       if (place > last + 1) entry = 0
     end associate
   end function entry_at
+
+  !> Finds the values of a key, in entries with and without index.
+  !>
+  !> There are no elements where the key is absent, and where a mistake was complained about.
+  subroutine find_elements(file, group, key, most, elements, given, complaints, wrong)
+    type(namelist_file_type), intent(in) :: file !! the case file, scanned
+    character(len=*), intent(in) :: group, key !! names in the case file
+    integer, intent(in) :: most                      !! values at most; 0: one, without index
+    integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
+    logical, intent(out), optional :: given          !! the key stands in the file
+    type(complaints_type), intent(inout), optional :: complaints !! the mistakes found so far
+    logical, intent(out), optional :: wrong !! the scanner has complained about it
+    type(complaints_type) :: found
+    integer, allocatable :: filled(:), owner(:)
+    integer :: entry, mistakes, last
+    logical :: is_wrong
+
+    if (.not. stands_in(file, group, key)) then
+      allocate (elements(0))
+      if (present(given)) given = .false.
+      if (present(wrong)) wrong = .false.
+      return
+    end if
+    allocate (filled(max(1, most)), owner(max(1, most)), source=0)
+    if (present(complaints)) found = complaints
+    mistakes = found%count
+    is_wrong = .false.
+    do entry = 1, size(file%entries)
+      if (.not. is_entry_of(file, entry, group, key)) cycle
+      associate (item => file%entries(entry))
+        is_wrong = is_wrong .or. item%wrong .or. &
+                   any(file%values(item%first_value:item%last_value)%wrong)
+      end associate
+      call fill(file, entry, most, filled, owner, found)
+      if (file%entries(entry)%wrong) mistakes = -1
+    end do
+    last = findloc(filled > 0, .true., dim=1, back=.true.)
+    if (any(filled(:last) == 0) .and. found%count == mistakes) then
+      call found%add(file%entries(owner(last))%line, '&'//group//': '//key//'('// &
+                     text(findloc(filled, 0, dim=1))//') is not given, but '//key//'('// &
+                     text(last)//') is')
+    end if
+    if (found%count /= mistakes) last = 0
+    elements = filled(:last)
+    if (present(given)) given = .true.
+    if (present(wrong)) wrong = is_wrong
+    if (present(complaints)) complaints = found
+  end subroutine find_elements
+
+  !> Whether an entry of the file belongs to a key.
+  pure function is_entry_of(file, entry, group, key) result(belongs)
+    type(namelist_file_type), intent(in) :: file !! the scanned file
+    integer, intent(in) :: entry !! number of the key in the file
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical :: belongs
+
+    belongs = .false.
+    associate (item => file%entries(entry))
+      if (item%last - item%first + 1 /= len(key)) return
+      if (file%key_name(entry) /= key) return
+      belongs = file%group_name(item%group) == group
+    end associate
+  end function is_entry_of
+
+  !> Whether a key stands in the file.
+  pure function stands_in(file, group, key) result(stands)
+    type(namelist_file_type), intent(in) :: file
+    character(len=*), intent(in) :: group, key
+    logical :: stands
+    integer :: entry
+
+    stands = .true.
+    do entry = 1, size(file%entries)
+      if (is_entry_of(file, entry, group, key)) return
+    end do
+    stands = .false.
+  end function stands_in
+
+  !> Fills the elements that one entry gives.
+  subroutine fill(file, entry, most, filled, owner, complaints)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: entry
+    integer, intent(in) :: most
+    integer, intent(inout) :: filled(:)  !! value of each element, 0 where none yet
+    integer, intent(inout) :: owner(:)   !! entry that gave it
+    type(complaints_type), intent(inout) :: complaints
+    integer(long) :: n, first, last
+    integer :: value, repeat_number, element
+
+    associate (item => file%entries(entry), section => file%entries(entry)%section)
+      n = 0
+      do value = item%first_value, item%last_value
+        n = n + file%values(value)%repeats
+      end do
+      if (item%wrong .or. n == 0) return
+      first = section%place(1_long)
+      last = section%place(n)
+      if (most == 0 .and. section%element > 0) then
+        call complain('is a single value and takes no index')
+      else if (.not. section%holds(n)) then
+        call complain('the section has '//text(section%size())//' place(s) for '//text(n)// &
+                      ' value(s)')
+      else if (max(first, min(first, last)) > size(filled) .or. min(first, last) < 1) then
+        call complain('the index must lie between 1 and '//text(most))
+      else if (max(first, last) > size(filled)) then
+        call complain('takes '//most_words(size(filled))//', not '//text(max(first, last))// &
+                      missing_equals(file, item%first_value + 1, item%last_value)// &
+                      decimal_comma(file, item%first_value, item%last_value))
+      else
+        n = 0
+        do value = item%first_value, item%last_value
+          do repeat_number = 1, file%values(value)%repeats
+            n = n + 1
+            element = int(section%place(n))
+            if (filled(element) > 0) then
+              ! A group that stands there twice has been complained about.
+              if (file%entries(owner(element))%group == item%group) call complain_twice(element)
+              return
+            end if
+            filled(element) = value
+            owner(element) = entry
+          end do
+        end do
+      end if
+    end associate
+
+  contains
+
+    !> Complains about this entry.
+    subroutine complain(rule)
+      character(len=*), intent(in) :: rule
+      associate (item => file%entries(entry))
+        call complaints%add(item%line, '&'//file%group_name(item%group)//': '// &
+                            file%key_name(entry)//item%section%shown()//' = '// &
+                            file%values_shown(item%first_value, item%last_value)//': '//rule)
+      end associate
+    end subroutine complain
+
+    !> Complains that an earlier entry gave this element.
+    subroutine complain_twice(element)
+      integer, intent(in) :: element
+      call complain('the key is given twice, first in line '// &
+                    text(file%entries(owner(element))%line))
+    end subroutine complain_twice
+  end subroutine fill
+
+  !> How many values a key takes.
+  pure function most_words(most) result(words)
+    integer, intent(in) :: most
+    character(len=:), allocatable :: words
+
+    words = 'one value'
+    if (most > 1) words = 'at most '//text(most)//' values'
+  end function most_words
+
+  !> A hint where two values look like one number with a comma: digits, comma, digits.
+  pure function decimal_comma(file, first, last) result(words)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: first, last
+    character(len=:), allocatable :: words
+    integer :: value
+
+    words = ''
+    do value = first, last - 1
+      associate (whole => file%values(value), part => file%values(value + 1))
+        if (whole%kind /= value_number .or. part%kind /= value_number) cycle
+        if (part%first /= whole%last + 2) cycle ! a blank beside the comma, or a repeat count
+        if (file%words(whole%last + 1:whole%last + 1) /= ',') cycle
+        if (verify(file%value_text(value), '+-0123456789') > 0) cycle
+        if (verify(file%words(part%first:part%first), '0123456789') > 0) cycle
+        words = '; a number has a decimal point, no comma: '//file%value_shown(value)//'.'// &
+                file%value_shown(value + 1)
+      end associate
+      return
+    end do
+  end function decimal_comma
+
+  !> A hint where a word among values looks like a unit, or like a key.
+  pure function missing_equals(file, first, last) result(words)
+    type(namelist_file_type), intent(in) :: file
+    integer, intent(in) :: first, last
+    character(len=:), allocatable :: words
+    character(len=*), parameter :: units(*) = [character(len=4) :: 'm', 'mm', 'cm', 'um', 'nm', &
+                                               'in', 'Pa', 'kPa', 'MPa', 'GPa', 'bar', 'N', &
+                                               'kN', 'rpm', 'krpm', 'rad', 'deg', 's', 'ms', &
+                                               'kg', 'K', 'Hz']
+    integer :: value
+
+    words = ''
+    do value = first, last
+      if (file%values(value)%kind /= value_word) cycle
+      if (any(file%value_text(value) == units)) then
+        words = "; write the number alone, '"//file%value_shown(value)//"' is no part of it"
+        return
+      end if
+      if (verify(file%value_text(value), 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_') &
+          > 0) cycle
+      words = "; is '=' missing after '"//file%value_shown(value)//"'?"
+      return
+    end do
+  end function missing_equals
 end module gfb_namelist_file

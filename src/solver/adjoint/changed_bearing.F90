@@ -8,7 +8,7 @@ module gfb_changed_bearing
   use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
-  use gfb_listed_keys, only: is_gap
+  use gfb_named_key_rules, only: is_gap
   use gfb_sensitivity_case, only: parameter_type
   use gfb_sweep_case, only: swept_key_type
   use gfb_operation_case, only: angular_speed

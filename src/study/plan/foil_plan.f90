@@ -7,10 +7,9 @@ module gfb_foil_plan
   use gfb_scene_case, only: analysis_strip
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan
   use gfb_modes_case, only: part_words, part_strip
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, &
-                                strips_differ
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ
   use gfb_strip_load_case, only: support_held, load_plates
-  use gfb_own_strip_rules, only: strips_mirror
+  use gfb_foil_rules, only: strips_mirror
   use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_estimate, only: strip_memory, modes_memory
   use gfb_memory_check, only: show_memory

@@ -4,7 +4,7 @@
 !> fitted to MUMPS' counts of 16 scenes, which docs/manual/linear_solvers.md has in a table.
 module gfb_reduction_choice
   use gfb_kinds, only: wp
-  use gfb_strip_sizes, only: sizes_mirror
+  use gfb_foil_sizes, only: sizes_mirror
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_strip, analysis_modes

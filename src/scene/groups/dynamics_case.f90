@@ -2,17 +2,16 @@
 module gfb_dynamics_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_contact_law, only: law_tanh_reset
+  use gfb_foil_motion_keys, only: mass_auto, mass_words, foil_modes_words, most_foil_modes, &
+                                  read_maxwell_keys, check_maxwell_keys
+  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_model_case, only: model_case_type, coupling_partitioned, foil_elastic_foundation, &
                             foil_rigid, meshes_foils
   use gfb_operation_case, only: operation_case_type, angular_speed
-  use gfb_contact_law, only: law_tanh_reset
-  use gfb_foil_mass_words, only: mass_auto, mass_words, foil_modes_words, most_foil_modes
-  use gfb_maxwell_arm, only: maxwell_arm_type
-  use gfb_maxwell_keys, only: read_maxwell_keys, check_maxwell_keys
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, analysis_transient, analysis_periodic, &
-                            asks_limit, &
-                            misplaced_group
+                            asks_limit, misplaced_group
   use gfb_sweep_case, only: sweep_case_type, sweep_speed
   use gfb_value_rules, only: from_to, positive, not_negative
   implicit none (type, external)

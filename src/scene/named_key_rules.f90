@@ -1,0 +1,359 @@
+!> Keys of a case file that `&sweep` and `&sensitivity` name: which there are, and what their values are.
+module gfb_named_key_rules
+  use gfb_kinds, only: wp
+  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_case_keys, only: case_keys_type
+  use gfb_foil_motion_keys, only: mass_off
+  use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sensitivity_case, only: parameter_type
+  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys, every_element, named_keys
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: list_length, is_gap, check_swept_keys, check_sensitivity
+
+  character(len=*), parameter :: word_needed = &
+    'needs a parameter that is a word, such as ''load'': '
+
+  character(len=*), parameter :: group = 'sensitivity', parameters = 'parameters'
+
+contains
+
+  !> How many values a list means to have whose one value stands for all; 0 where it has as many as
+  !> the file gives.
+  pure function list_length(key, foil) result(length)
+    type(swept_key_type), intent(in) :: key !! a list
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer :: length
+
+    length = 0
+    if (key%group /= 'bump_foil') return
+    if (is_gap(key) .or. index(key%name, 'bump_') == 1) length = foil%bumps
+    if (index(key%name, 'strip_') == 1) length = foil%strips
+  end function list_length
+
+  !> Whether a list has gaps at rest, which are 0 where it is absent.
+  pure function is_gap(key) result(gap)
+    type(swept_key_type), intent(in) :: key !! a list
+    logical :: gap
+    gap = key%group == 'bump_foil' .and. (key%name == 'crest_gap' .or. key%name == 'corner_gap')
+  end function is_gap
+
+  !> All values of a list; none where the file does not give it and it has no default.
+  function list_values(keys, key, foil) result(list)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(swept_key_type), intent(in) :: key !! a list
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp), allocatable :: list(:) !! [their unit]
+    character(len=:), allocatable :: words
+    integer :: i, k, status
+
+    allocate (list(0))
+    do i = 1, keys%notes%count
+      associate (met => keys%notes%met(i))
+        if (met%group /= key%group .or. met%key%name /= key%name .or. .not. met%key%given) cycle
+        words = met%value
+      end associate
+      do k = 1, len(words)
+        if (words(k:k) == new_line('a')) words(k:k) = ' '
+      end do
+      deallocate (list)
+      allocate (list(1 + count([(words(k:k) == ',', k=1, len(words))])), source=0.0_wp)
+      read (words, *, iostat=status) list
+      if (status /= 0) list = [real(wp) ::]
+    end do
+    if (size(list) == 0 .and. is_gap(key)) list = [0.0_wp]
+    if (size(list) == 1) list = spread(list(1), 1, max(1, list_length(key, foil)))
+  end function list_values
+
+  !> Why an index does not choose a value of a list; empty where it does.
+  function index_problem(keys, key, foil) result(problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(swept_key_type), intent(in) :: key !! a list, with an index
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    character(len=:), allocatable :: problem
+    integer :: length
+
+    problem = ''
+    length = size(list_values(keys, key, foil))
+    if (is_gap(key) .and. keys%meant('bump_foil', 'height_deviation')) then
+      problem = key%label()//' has no effect here: height_deviation gives the gaps'
+    else if (length == 0) then
+      problem = key%group//'%'//key%name//' is not given'
+    else if (key%element > length) then
+      problem = key%label()//' does not exist: the list has '//text(length)//' values'
+    end if
+  end function index_problem
+
+  !> Looks the sweep's keys up, notes their unit, and complains about those that cannot be swept;
+  !> nothing is done where the sweep changes no keys.
+  subroutine check_swept_keys(keys, scene, right)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(inout) :: scene !! gets the unit of its sweep
+    logical, intent(out) :: right !! the sweep changes keys, and can
+    type(swept_key_type), allocatable :: list(:)
+    character(len=:), allocatable :: problem, unit
+    integer :: i
+
+    right = scene%sweep%present .and. scene%sweep%parameter == sweep_keys
+    if (.not. right) return
+    list = swept_keys(scene%sweep)
+    do i = 1, size(list)
+      call look_up(keys, scene, list(i), unit, problem)
+      if (i == 1) scene%sweep%unit = unit
+      if (problem == '' .and. list(i)%element == every_element) then
+        problem = list(i)%label()//': the values of a sweep are those of one element'
+      end if
+      if (problem == '' .and. unit /= scene%sweep%unit .and. scene%sweep%unit /= '') then
+        problem = list(i)%label()//' is in '//unit//', the first key in '// &
+                  scene%sweep%unit//': one value cannot be both'
+      end if
+      if (problem == '') cycle
+      call keys%complain('sweep', 'parameter', problem)
+      right = .false.
+    end do
+    call check_beside_keys(keys, scene)
+    associate (sweep => scene%sweep)
+      right = right .and. .not. (sweep%turn_folds .or. sweep%friction_memory)
+      right = right .and. .not. sweep%hold_position
+    end associate
+  end subroutine check_swept_keys
+
+  !> Looks up a real key, or a value of a list, that answers of the scene follow.
+  subroutine look_up(keys, scene, key, unit, problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(swept_key_type), intent(in) :: key !! as it was typed
+    character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
+    character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
+
+    call keys%book%look_up_real(key%group, key%name, key%element /= 0, unit, problem)
+    if (problem == '') problem = use_problem(keys, scene, key%group, key%name)
+    if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
+  end subroutine look_up
+
+  !> What cannot stand beside keys, because the bearing is built anew for each value.
+  subroutine check_beside_keys(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    if (scene%sweep%turn_folds) then
+      call keys%complain('sweep', 'turn_folds', word_needed//'a branch is followed by its own '// &
+                         'length with the derivative by the parameter, and a key has none')
+    end if
+    if (scene%sweep%friction_memory) then
+      call keys%complain('sweep', 'friction_memory', word_needed//'where a key changes, the '// &
+                         'contacts are built anew and have no slip to remember')
+    end if
+    if (scene%sweep%hold_position) then
+      call keys%complain('sweep', 'hold_position', word_needed//'each value of a key makes '// &
+                         'another bearing, and the shaft stands elsewhere in it')
+    end if
+    if (scene%model%coupling == coupling_partitioned) then
+      call keys%complain('sweep', 'parameter', "keys need coupling = 'monolithic' in &model: "// &
+                         'loops do not start from the answer of a neighbour')
+    end if
+  end subroutine check_beside_keys
+
+  !> Why a key has no effect on the answers of this scene; empty where it has one.
+  function use_problem(keys, scene, group, key) result(problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), intent(in) :: group, key !! names in the case file
+    character(len=:), allocatable :: problem
+    logical :: foils, springs, computed
+
+    foils = meshes_foils(scene%model%foil)
+    springs = scene%model%foil == foil_elastic_foundation
+    computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
+    problem = ''
+    select case (group)
+    case ('bearing', 'pads')
+      return
+    case ('gas')
+      if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then
+        problem = 'a law or a table gives the viscosity'
+      end if
+    case ('bore')
+      if (.not. scene%bore%present) problem = 'the file has no group &bore'
+    case ('operation')
+      if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
+    case ('top_foil')
+      if (.not. foils) problem = needs_foils()
+    case ('bump_foil')
+      if (springs .and. .not. computed) problem = 'foundation_stiffness in &model is given'
+      if (computed .and. any(key == ['height', 'width '])) then
+        problem = 'the stiffness by Walowit-Anno does not depend on it'
+      end if
+      if (.not. foils .and. .not. springs) problem = needs_foils()
+    case ('contact')
+      if (.not. foils) problem = needs_foils()
+      if (foils .and. key == 'stick_length' .and. .not. scene%contact%may_rub) then
+        problem = 'there is no friction'
+      end if
+    case ('shaft_contact')
+      if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
+    case ('rotor')
+      if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
+    case ('capacity')
+      if (scene%capacity%question == 0) problem = 'no limit is looked for'
+    case ('dynamics')
+      if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
+    case ('model')
+      if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
+    case default
+      problem = 'it does not belong to the bearing, but to how it is computed'
+    end select
+    if (key == 'density' .and. scene%dynamics%foil_mass == mass_off) problem = "foil_mass = 'off'"
+    if (key == 'density' .and. .not. scene%dynamics%present) problem = 'nothing vibrates'
+    if (problem /= '') problem = group//'%'//key//' has no effect here: '//problem
+
+  contains
+
+    !> Says which foils have the key.
+    function needs_foils() result(words)
+      character(len=:), allocatable :: words
+      words = "it needs foil = 'shell' in &model, or 'beam', not '"// &
+              foil_word(scene%model%foil)//"'"
+    end function needs_foils
+  end function use_problem
+
+  !> Looks the keys up, notes units and values, and complains about those that no answer follows.
+  subroutine check_sensitivity(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(inout) :: scene !! gets the parameters
+    type(swept_key_type), allocatable :: list(:)
+    character(len=:), allocatable :: problem
+    real(wp) :: tolerance
+    integer :: i, k
+    logical :: tolerated
+
+    associate (asked => scene%sensitivity)
+      allocate (asked%parameter(0))
+      if (.not. asked%present) return
+      list = named_keys(asked%names)
+      if (asked%names == '') list = list(:0)
+      tolerated = size(asked%tolerances) == size(list)
+      tolerance = 0.0_wp
+      do i = 1, size(list)
+        if (tolerated) tolerance = asked%tolerances(i)
+        call add_parameter(keys, scene, list(i), tolerance, problem)
+        do k = 1, i - 1
+          if (.not. is_same(list(k), list(i))) cycle
+          problem = list(i)%label()//' is given twice'
+        end do
+        if (problem == '') cycle
+        if (asked%strings == size(list)) then
+          call keys%complain(group, parameters, problem, i)
+        else
+          call keys%complain(group, parameters, problem)
+        end if
+      end do
+      if (size(asked%tolerances) > 0 .and. .not. tolerated) then
+        call keys%complain(group, 'tolerances', 'must have one value a parameter: '// &
+                           text(size(list))//', not '//text(size(asked%tolerances)))
+      end if
+    end associate
+    call check_beside_derivatives(keys, scene)
+  end subroutine check_sensitivity
+
+  !> What answers rest on what was before: their derivatives would have to be carried along.
+  subroutine check_beside_derivatives(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    if (scene%sweep%friction_memory) then
+      call keys%complain('sweep', 'friction_memory', 'cannot stand beside &sensitivity: slip '// &
+                         'that is carried along depends on the parameters at all points before')
+    end if
+    if (scene%sweep%hold_position) then
+      call keys%complain('sweep', 'hold_position', 'cannot stand beside &sensitivity: the '// &
+                         'position that is held depends on the parameters, too')
+    end if
+    if (scene%sweep%turn_folds) then
+      call keys%complain('sweep', 'turn_folds', 'cannot stand beside &sensitivity: at a fold '// &
+                         'there is no derivative')
+    end if
+    if (scene%model%coupling == coupling_partitioned) then
+      call keys%complain('model', 'coupling', "must be 'monolithic' beside &sensitivity")
+    end if
+    if (scene%accuracy%present) then
+      call keys%complain(group, parameters, 'cannot stand beside &accuracy: its meshes '// &
+                         'change, and with them the nodes of smallest and largest values')
+    end if
+    if (scene%sample%present) then
+      call keys%complain(group, parameters, 'cannot stand beside &sample: derive one member '// &
+                         'by its seed')
+    end if
+  end subroutine check_beside_derivatives
+
+  !> Adds a parameter with its unit and value; of a whole list all its values.
+  subroutine add_parameter(keys, scene, key, tolerance, problem)
+    type(case_keys_type), intent(in) :: keys
+    type(scene_type), intent(inout) :: scene
+    type(swept_key_type), intent(in) :: key
+    real(wp), intent(in) :: tolerance !! of each value [its unit]
+    character(len=:), allocatable, intent(out) :: problem !! empty where it can be one
+    type(parameter_type) :: one
+    real(wp), allocatable :: value(:)
+    integer :: i
+
+    one%key = key
+    one%tolerance = tolerance
+    allocate (value(0))
+    if (key%label() == 'operation%load') then
+      one%unit = 'N'
+      value = [norm2(scene%operation%load)]
+      problem = ''
+      if (scene%general%analysis /= analysis_equilibrium) then
+        problem = 'operation%load has no effect here: the position is given'
+      end if
+    else
+      call look_up(keys, scene, key, one%unit, problem)
+      if (problem /= '') return
+      if (key%element == 0) then
+        value = [value_of(keys, key)]
+      else
+        value = list_values(keys, key, scene%bump_foil)
+      end if
+    end if
+    do i = 1, size(value)
+      if (key%element > 0 .and. key%element /= i) cycle
+      if (key%element /= 0) one%key%element = i
+      one%value = value(i)
+      if (problem == '' .and. .not. (abs(one%value) > 0.0_wp .or. is_gap(key))) then
+        problem = one%key%label()//' is 0: it has no size by which it could change'
+      end if
+      if (problem == '') scene%sensitivity%parameter = [scene%sensitivity%parameter, one]
+    end do
+  end subroutine add_parameter
+
+  !> Whether two names mean the same key, or one a value of the other.
+  pure function is_same(one, other) result(same)
+    type(swept_key_type), intent(in) :: one, other
+    logical :: same
+
+    same = one%group == other%group .and. one%name == other%name .and. &
+           (one%element == other%element .or. &
+            any([one%element, other%element] == every_element))
+  end function is_same
+
+  !> Value of a real key, given or by default; 0 where it has none.
+  function value_of(keys, key) result(value)
+    type(case_keys_type), intent(in) :: keys
+    type(swept_key_type), intent(in) :: key
+    real(wp) :: value !! [its unit]
+    integer :: i, status
+
+    value = 0.0_wp
+    do i = 1, keys%notes%count
+      associate (met => keys%notes%met(i))
+        if (met%group /= key%group .or. met%key%name /= key%name) cycle
+        read (met%value, *, iostat=status) value
+        if (status /= 0) value = 0.0_wp
+      end associate
+    end do
+  end function value_of
+end module gfb_named_key_rules
