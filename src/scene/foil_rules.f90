@@ -3,14 +3,18 @@
 !> strips side by side with sizes of their own need shells, and room for their bumps.
 module gfb_foil_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: pad_length
+  use gfb_bearing_case, only: pad_length, leading_edge_periodic
   use gfb_bump_foil_case, only: bump_pitches, bump_half_lengths, bump_heights, fixed_edge_none, &
-                                bump_foil_case_type, strips_differ, one_strip, bump_thicknesses
+                                fixed_edge_trailing, has_flats, bumps_overlap, has_sizes, &
+                                one_bump, bump_foil_case_type, strips_differ, one_strip, &
+                                bump_thicknesses
   use gfb_case_keys, only: case_keys_type
+  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_foil_sizes, only: complain_of_bumps, sizes_mirror
-  use gfb_model_case, only: coupling_partitioned, foil_elastic_foundation, foil_rigid, foil_shell, &
-                            foundation_pressure_local, meshes_foils, foil_beam, half_width_yes
-  use gfb_modes_case, only: part_strip, part_top_foil
+  use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
+                            foil_rigid, foil_shell, foundation_pressure_local, meshes_foils, &
+                            foil_word, foil_beam, half_width_yes
+  use gfb_modes_case, only: part_strip, part_top_foil, part_flat
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
   use gfb_shape_rules, only: thin, thin_in_bump, low_in_pad
@@ -19,10 +23,9 @@ module gfb_foil_rules
   use gfb_top_foil_case, only: initial_curvature
   implicit none (type, external)
   private
-  public :: check_crest_gaps, check_bump_sizes, check_assembly, check_own_strips, strips_mirror
+  public :: check_foils, strips_mirror
 
   character(len=*), parameter :: group = 'bump_foil'
-  character(len=*), parameter :: interference = 'assembly_interference'
   character(len=*), parameter :: monolithic = "needs coupling = 'monolithic' in &model: film"// &
                                  ' and foil in turns begin with a foil at rest without forces'
   real(wp), parameter :: steepest = 0.9_wp !! height of a bump of shells, over half its length [1]
@@ -32,44 +35,124 @@ module gfb_foil_rules
 
 contains
 
-  !> Complains about gaps where no crest can close one.
-  subroutine check_crest_gaps(keys, scene)
+  !> Checks the foils of a scene.
+  subroutine check_foils(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), parameter :: key(*) = [character(len=16) :: 'crest_gap', 'height_deviation']
-    character(len=:), allocatable :: words
 
-    words = ''
-    associate (analysis => scene%general%analysis)
-      if (is_bearing(analysis) .and. scene%model%foil > 0) then
-        if (.not. meshes_foils(scene%model%foil)) then
-          words = "needs foil = 'shell' in &model, or 'beam': no other foil has crests"
-        end if
-      else if (analysis == analysis_strip .and. scene%strip_load%kind /= load_plates) then
-        words = "needs kind = 'plates' in &strip_load: a force that is given acts on its crest "// &
-                'wherever that is'
-      else if (analysis == analysis_modes) then
-        words = 'needs a bearing or a strip between plates: modes are those of foils that '// &
-                'touch nothing'
-      end if
-    end associate
-    call complain_of(keys, key, words)
+    call check_strip(keys, scene)
+    call check_bearing(keys, scene)
+    call check_crest_gaps(keys, scene)
     call check_corner_gaps(keys, scene)
+    call check_bump_sizes(keys, scene)
+    call check_nested_strips(keys, scene)
+    call check_steepness(keys, scene)
+    call check_own_strips(keys, scene)
+    call check_plates(keys, scene)
+    call check_assembly(keys, scene)
+  end subroutine check_foils
+
+  !> Whether the scene is a bearing whose foils are known, and have no meshes of their own.
+  pure function lacks_bumps(scene) result(lacks)
+    type(scene_type), intent(in) :: scene
+    logical :: lacks
+    lacks = is_bearing(scene%general%analysis) .and. scene%model%foil > 0 .and. &
+            .not. meshes_foils(scene%model%foil)
+  end function lacks_bumps
+
+  !> A bump foil that is meshed: its flats, its strips.
+  subroutine check_strip(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: edge !! bump at the fixed one
+    logical :: whole !! the whole strip is meshed
+
+    associate (foil => scene%bump_foil, part => scene%modes%part, &
+               modes => scene%general%analysis == analysis_modes)
+      whole = scene%general%analysis == analysis_strip .or. &
+              (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil))
+      if (.not. (whole .or. modes) .or. (modes .and. part == part_top_foil)) return
+      whole = whole .or. part == part_strip
+      ! A pitch that is shorter is complained about elsewhere.
+      if (foil%half_length > 0.0_wp .and. .not. (has_flats(foil) .or. bumps_overlap(foil))) then
+        if (modes .and. part == part_flat) then
+          call keys%complain('modes', 'part', 'there are no flats: pitch in &bump_foil is 2 '// &
+                             'half_length')
+        else
+          call keys%rule(group, 'fixed_line', whole .and. foil%fixed_line > fixed_line_corner, &
+                         'there are no flats: pitch is 2 half_length')
+        end if
+      end if
+      if (whole .and. has_sizes(foil) .and. has_flats(foil) .and. &
+          foil%fixed_line > fixed_line_corner .and. foil%bumps > 0) then
+        edge = merge(foil%bumps, 1, foil%fixed_edge == fixed_edge_trailing)
+        call keys%rule(group, 'fixed_line', .not. has_flats(one_bump(foil, edge)), 'the bump '// &
+                       'at the fixed edge, '//text(edge)//', has no flat: its pitch is 2 '// &
+                       'half_length')
+      end if
+      call keys%rule(group, 'strips', foil%strips > scene%mesh%axial_elements, &
+                     'must not be more than axial_elements = '//text(scene%mesh%axial_elements)// &
+                     ' in &mesh: each strip has its share of them')
+    end associate
+  end subroutine check_strip
+
+  !> A bearing of shells or beams: its strip is fixed at an edge and as wide as it, its pad open.
+  subroutine check_bearing(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    associate (foil => scene%bump_foil, bearing => scene%bearing)
+      if (.not. (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil))) return
+      call keys%rule(group, 'fixed_edge', foil%fixed_edge == fixed_edge_none, &
+                     "must be 'leading' or 'trailing' in a bearing")
+      call keys%rule('bearing', 'leading_edge_condition', bearing%leading_edge_condition == &
+                     leading_edge_periodic, "must be 'slit' with foil = '"// &
+                     foil_word(scene%model%foil)//"': a foil has edges")
+      call keys%rule(group, 'width', min(bearing%length, foil%width) > 0.0_wp .and. &
+                     abs(foil%width - bearing%length) > rounding*bearing%length, &
+                     'must be the length of the bearing, '//text(bearing%length)//' m')
+    end associate
+  end subroutine check_bearing
+
+  !> Plates are either forced or moved.
+  subroutine check_plates(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    logical :: forced, moved
+
+    if (scene%general%analysis /= analysis_strip .or. scene%strip_load%kind /= load_plates) return
+    forced = keys%meant('strip_load', 'maximum_force')
+    moved = keys%meant('strip_load', 'maximum_displacement')
+    call keys%rule('strip_load', 'maximum_displacement', forced .and. moved, &
+                   'has no use beside maximum_force: plates are either forced or moved')
+    call keys%rule('strip_load', 'kind', .not. (forced .or. moved), &
+                   'needs maximum_force or maximum_displacement')
+  end subroutine check_plates
+
+  !> Complains about gaps where no crest can close one.
+  subroutine check_crest_gaps(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: gaps = 'crest_gap, height_deviation'
+
+    call keys%refuse(group, gaps, lacks_bumps(scene), needs_meshes//'no other foil has crests')
+    call keys%refuse(group, gaps, scene%general%analysis == analysis_strip .and. &
+                     scene%strip_load%kind /= load_plates, "needs kind = 'plates' in "// &
+                     '&strip_load: a force that is given acts on its crest wherever that is')
+    call keys%refuse(group, gaps, scene%general%analysis == analysis_modes, 'needs a bearing '// &
+                     'or a strip between plates: modes are those of foils that touch nothing')
   end subroutine check_crest_gaps
 
   !> Complains about gaps at corners that touch nothing, are two bumps', or leave the strip in air.
   subroutine check_corner_gaps(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: key(*) = [character(len=10) :: 'corner_gap']
     character(len=:), allocatable :: words
 
-    words = ''
     associate (analysis => scene%general%analysis, foil => scene%bump_foil)
       if (.not. allocated(foil%corner_gap)) return
-      if (is_bearing(analysis) .and. scene%model%foil > 0 .and. &
-          .not. meshes_foils(scene%model%foil)) then
-        words = "needs foil = 'shell' in &model, or 'beam': no other foil has corners"
+      if (lacks_bumps(scene)) then
+        words = needs_meshes//'no other foil has corners'
       else if (analysis == analysis_modes) then
         words = 'needs a bearing or a strip under load: modes are those of foils that touch nothing'
       else if (analysis == analysis_strip .and. scene%strip_load%support == support_held) then
@@ -81,42 +164,35 @@ contains
         words = 'must be 0 for a bump at least, or nothing holds a strip that is fixed nowhere'
       else if (.not. maxval(foil%corner_gap) < foil%height .and. foil%height > 0.0_wp) then
         words = 'must be less than the height of the bumps, '//text(foil%height)//' m'
+      else
+        return
       end if
     end associate
-    call complain_of(keys, key, words)
+    call keys%refuse(group, 'corner_gap', .true., words)
   end subroutine check_corner_gaps
 
   !> Complains about sizes bump by bump where there is one bump, or none.
   subroutine check_bump_sizes(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), parameter :: key(*) = [character(len=16) :: 'bump_pitch', &
-                                             'bump_half_length', 'bump_height', 'bump_thickness']
-    character(len=:), allocatable :: words
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: sizes = 'bump_pitch, bump_half_length, bump_height, '// &
+                                   'bump_thickness'
+    logical :: several, modes
 
-    words = ''
-    associate (analysis => scene%general%analysis, part => scene%modes%part)
-      if (is_bearing(analysis) .and. scene%model%foil > 0) then
-        if (.not. meshes_foils(scene%model%foil)) then
-          words = "needs foil = 'shell' in &model, or 'beam': no other foil has bumps"
-          if (scene%bump_foil%strips > 1) call keys%complain(group, 'strips', words)
-        end if
-      else if (analysis == analysis_modes .and. part > 0) then
-        if (scene%bump_foil%strips > 1) then
-          call keys%complain(group, 'strips', 'must be 1 for modes: each strip has its own')
-        end if
-        if (part /= part_strip .and. part /= part_top_foil) then
-          words = "needs part = 'strip' in &modes: the other parts are those of one bump"
-        end if
-      else if (analysis == analysis_strip .and. scene%bump_foil%strips > 1 .and. &
-               scene%mesh%edge_refinement > 1.0_wp) then
-        call keys%complain('mesh', 'edge_refinement', 'must be 1 for strips side by side: each '// &
-                           'has equal rows')
-      end if
+    several = scene%bump_foil%strips > 1
+    associate (part => scene%modes%part)
+      modes = scene%general%analysis == analysis_modes .and. part > 0
+      call keys%rule(group, 'strips', several .and. lacks_bumps(scene), &
+                     needs_meshes//'no other foil has bumps')
+      call keys%rule(group, 'strips', several .and. modes, &
+                     'must be 1 for modes: each strip has its own')
+      call keys%rule('mesh', 'edge_refinement', several .and. scene%general%analysis == &
+                     analysis_strip .and. scene%mesh%edge_refinement > 1.0_wp, &
+                     'must be 1 for strips side by side: each has equal rows')
+      call keys%refuse(group, sizes, lacks_bumps(scene), needs_meshes//'no other foil has bumps')
+      call keys%refuse(group, sizes, modes .and. all(part /= [part_strip, part_top_foil]), &
+                       "needs part = 'strip' in &modes: the other parts are those of one bump")
     end associate
-    call complain_of(keys, key, words)
-    call check_nested_strips(keys, scene)
-    call check_steepness(keys, scene)
   end subroutine check_bump_sizes
 
   !> Complains about bumps of shells whose arcs stand nearly upright on the flats: a rotation about
@@ -162,51 +238,38 @@ contains
                        'refine each other')
   end subroutine check_nested_strips
 
-  !> Complains about keys of the bump foil that stand in the file; not where there are no words.
-  subroutine complain_of(keys, key, words)
-    type(case_keys_type), intent(inout) :: keys
-    character(len=*), intent(in) :: key(:), words
-    integer :: i
-
-    if (words == '') return
-    do i = 1, size(key)
-      if (.not. keys%meant(group, trim(key(i)))) cycle
-      call keys%complain(group, trim(key(i)), words)
-    end do
-  end subroutine complain_of
-
   !> Complains about a foil that cannot give way, and warns of one that rises by more than there
   !> is room for.
   subroutine check_assembly(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    logical :: partitioned
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: key = 'assembly_interference'
+    logical :: bearing, partitioned
 
+    bearing = is_bearing(scene%general%analysis)
     partitioned = scene%model%coupling == coupling_partitioned
     if (scene%bearing%interference > 0.0_wp) then
-      if (.not. is_bearing(scene%general%analysis)) then
-        call keys%complain('bearing', interference, 'needs a bearing with a film')
+      if (.not. bearing) then
+        call keys%complain('bearing', key, 'needs a bearing with a film')
       else if (scene%model%foil == foil_rigid) then
-        call keys%complain('bearing', interference, 'needs a foil that gives way: '// &
+        call keys%complain('bearing', key, 'needs a foil that gives way: '// &
                            "another one than 'rigid' in &model; a smaller clearance is the same")
       else if (partitioned) then
-        call keys%complain('bearing', interference, monolithic)
+        call keys%complain('bearing', key, monolithic)
       else if (scene%model%foil == foil_elastic_foundation .and. &
-               scene%model%foundation_pressure == foundation_pressure_local .and. &
-               scene%bearing%clearance > 0.0_wp .and. &
-               scene%bearing%interference >= scene%bearing%clearance) then
-        call keys%complain('bearing', interference, 'needs foundation_pressure = '// &
-                           "'axial_mean' in &model: under the local pressure the sides, at "// &
-                           'ambient pressure, never give way')
+               scene%model%foundation_pressure == foundation_pressure_local) then
+        call keys%rule('bearing', key, scene%bearing%clearance > 0.0_wp .and. &
+                       scene%bearing%interference >= scene%bearing%clearance, 'needs '// &
+                       "foundation_pressure = 'axial_mean' in &model: under the local pressure "// &
+                       'the sides, at ambient pressure, never give way')
       end if
     end if
     if (.not. scene%top_foil%free_radius > 0.0_wp) return
-    if (.not. is_bearing(scene%general%analysis)) then
+    if (.not. bearing) then
       call keys%complain('top_foil', 'free_radius', &
                          'needs a bearing: no other top foil lies in a bore')
-    else if (scene%model%foil > 0 .and. .not. meshes_foils(scene%model%foil)) then
-      call keys%complain('top_foil', 'free_radius', "needs foil = 'shell' in &model, or "// &
-                         "'beam': no other foil bends")
+    else if (lacks_bumps(scene)) then
+      call keys%complain('top_foil', 'free_radius', needs_meshes//'no other foil bends')
     else if (partitioned) then
       call keys%complain('top_foil', 'free_radius', monolithic)
     else if (scene%model%foil > 0) then
@@ -232,8 +295,8 @@ contains
 
   !> Complains about strips that the scene cannot have, all of them at once.
   subroutine check_own_strips(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
 
     associate (foil => scene%bump_foil)
       if (scene%model%half_width == half_width_yes) call check_mirrors(keys, scene)
@@ -288,30 +351,22 @@ contains
   subroutine check_models(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: one_section = 'must be alike for all strips, or needs foil '// &
+                                   "= 'shell' in &model: planar beams have one cross-section"
 
     associate (foil => scene%bump_foil)
       if (is_bearing(scene%general%analysis) .and. scene%model%foil == foil_beam) then
-        if (allocated(foil%strip%pitch)) call refuse('strip_pitch')
-        if (allocated(foil%strip%half_length)) call refuse('strip_half_length')
-        if (allocated(foil%strip%height)) call refuse('strip_height')
-        if (allocated(foil%strip%thickness)) call refuse('strip_thickness')
-        if (allocated(foil%strip%offset)) call refuse('strip_offset')
+        call keys%rule(group, 'strip_pitch', allocated(foil%strip%pitch), one_section)
+        call keys%rule(group, 'strip_half_length', allocated(foil%strip%half_length), one_section)
+        call keys%rule(group, 'strip_height', allocated(foil%strip%height), one_section)
+        call keys%rule(group, 'strip_thickness', allocated(foil%strip%thickness), one_section)
+        call keys%rule(group, 'strip_offset', allocated(foil%strip%offset), one_section)
       end if
-      if (scene%general%analysis == analysis_strip .and. &
-          scene%strip_load%kind /= load_plates .and. allocated(foil%strip%pitch)) then
-        call keys%complain(group, 'strip_pitch', 'must be alike for all strips, or needs '// &
-                           "kind = 'plates' in &strip_load: the force of a crest is shared evenly")
-      end if
+      call keys%rule(group, 'strip_pitch', scene%general%analysis == analysis_strip .and. &
+                     scene%strip_load%kind /= load_plates .and. allocated(foil%strip%pitch), &
+                     "must be alike for all strips, or needs kind = 'plates' in &strip_load: "// &
+                     'the force of a crest is shared evenly')
     end associate
-
-  contains
-
-    !> Complains about a key that planar beams cannot serve.
-    subroutine refuse(key)
-      character(len=*), intent(in) :: key
-      call keys%complain(group, key, 'must be alike for all strips, or needs foil = '// &
-                         "'shell' in &model: planar beams have one cross-section")
-    end subroutine refuse
   end subroutine check_models
 
   !> Bumps of a strip that overlap, are more than half a circle, or are no thin shells.
@@ -347,10 +402,8 @@ contains
     call check('thickness', thickness >= thickest, thickness, 'must be less than half of '// &
                'half_length: a bump is a thin shell', 'half of half_length', thickest)
     if (any(pitch < arc*(1.0_wp - rounding))) return
-    if (any(flats .neqv. spread(flats(:, 1), 2, foil%strips))) then
-      call keys%complain(group, key_of(keys, 'pitch'), 'must leave flats on all strips, or on '// &
-                         'none')
-    end if
+    call keys%rule(group, key_of(keys, 'pitch'), any(flats .neqv. spread(flats(:, 1), 2, &
+                   foil%strips)), 'must leave flats on all strips, or on none')
 
   contains
 

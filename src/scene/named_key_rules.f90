@@ -1,4 +1,4 @@
-!> Keys of a case file that `&sweep` and `&sensitivity` name: which there are, and what their values are.
+!> Keys of a case file that `&sweep` and `&sensitivity` name: which there are, and their values.
 module gfb_named_key_rules
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
@@ -12,7 +12,7 @@ module gfb_named_key_rules
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: list_length, is_gap, check_swept_keys, check_sensitivity
+  public :: list_length, check_swept_keys, check_sensitivity
 
   character(len=*), parameter :: word_needed = &
     'needs a parameter that is a word, such as ''load'': '
@@ -30,16 +30,9 @@ contains
 
     length = 0
     if (key%group /= 'bump_foil') return
-    if (is_gap(key) .or. index(key%name, 'bump_') == 1) length = foil%bumps
+    if (key%is_gap() .or. index(key%name, 'bump_') == 1) length = foil%bumps
     if (index(key%name, 'strip_') == 1) length = foil%strips
   end function list_length
-
-  !> Whether a list has gaps at rest, which are 0 where it is absent.
-  pure function is_gap(key) result(gap)
-    type(swept_key_type), intent(in) :: key !! a list
-    logical :: gap
-    gap = key%group == 'bump_foil' .and. (key%name == 'crest_gap' .or. key%name == 'corner_gap')
-  end function is_gap
 
   !> All values of a list; none where the file does not give it and it has no default.
   function list_values(keys, key, foil) result(list)
@@ -64,7 +57,7 @@ contains
       read (words, *, iostat=status) list
       if (status /= 0) list = [real(wp) ::]
     end do
-    if (size(list) == 0 .and. is_gap(key)) list = [0.0_wp]
+    if (size(list) == 0 .and. key%is_gap()) list = [0.0_wp]
     if (size(list) == 1) list = spread(list(1), 1, max(1, list_length(key, foil)))
   end function list_values
 
@@ -78,7 +71,7 @@ contains
 
     problem = ''
     length = size(list_values(keys, key, foil))
-    if (is_gap(key) .and. keys%meant('bump_foil', 'height_deviation')) then
+    if (key%is_gap() .and. keys%meant('bump_foil', 'height_deviation')) then
       problem = key%label()//' has no effect here: height_deviation gives the gaps'
     else if (length == 0) then
       problem = key%group//'%'//key%name//' is not given'
@@ -139,22 +132,16 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
 
-    if (scene%sweep%turn_folds) then
-      call keys%complain('sweep', 'turn_folds', word_needed//'a branch is followed by its own '// &
-                         'length with the derivative by the parameter, and a key has none')
-    end if
-    if (scene%sweep%friction_memory) then
-      call keys%complain('sweep', 'friction_memory', word_needed//'where a key changes, the '// &
-                         'contacts are built anew and have no slip to remember')
-    end if
-    if (scene%sweep%hold_position) then
-      call keys%complain('sweep', 'hold_position', word_needed//'each value of a key makes '// &
-                         'another bearing, and the shaft stands elsewhere in it')
-    end if
-    if (scene%model%coupling == coupling_partitioned) then
-      call keys%complain('sweep', 'parameter', "keys need coupling = 'monolithic' in &model: "// &
-                         'loops do not start from the answer of a neighbour')
-    end if
+    call keys%rule('sweep', 'turn_folds', scene%sweep%turn_folds, word_needed//'a branch is '// &
+                   'followed by its own length with the derivative by the parameter, and a key '// &
+                   'has none')
+    call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, word_needed// &
+                   'where a key changes, the contacts are built anew and have no slip to remember')
+    call keys%rule('sweep', 'hold_position', scene%sweep%hold_position, word_needed//'each '// &
+                   'value of a key makes another bearing, and the shaft stands elsewhere in it')
+    call keys%rule('sweep', 'parameter', scene%model%coupling == coupling_partitioned, 'keys '// &
+                   "need coupling = 'monolithic' in &model: loops do not start from the answer "// &
+                   'of a neighbour')
   end subroutine check_beside_keys
 
   !> Why a key has no effect on the answers of this scene; empty where it has one.
@@ -251,10 +238,9 @@ contains
           call keys%complain(group, parameters, problem)
         end if
       end do
-      if (size(asked%tolerances) > 0 .and. .not. tolerated) then
-        call keys%complain(group, 'tolerances', 'must have one value a parameter: '// &
-                           text(size(list))//', not '//text(size(asked%tolerances)))
-      end if
+      call keys%rule(group, 'tolerances', size(asked%tolerances) > 0 .and. .not. tolerated, &
+                     'must have one value a parameter: '//text(size(list))//', not '// &
+                     text(size(asked%tolerances)))
     end associate
     call check_beside_derivatives(keys, scene)
   end subroutine check_sensitivity
@@ -264,29 +250,19 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
 
-    if (scene%sweep%friction_memory) then
-      call keys%complain('sweep', 'friction_memory', 'cannot stand beside &sensitivity: slip '// &
-                         'that is carried along depends on the parameters at all points before')
-    end if
-    if (scene%sweep%hold_position) then
-      call keys%complain('sweep', 'hold_position', 'cannot stand beside &sensitivity: the '// &
-                         'position that is held depends on the parameters, too')
-    end if
-    if (scene%sweep%turn_folds) then
-      call keys%complain('sweep', 'turn_folds', 'cannot stand beside &sensitivity: at a fold '// &
-                         'there is no derivative')
-    end if
-    if (scene%model%coupling == coupling_partitioned) then
-      call keys%complain('model', 'coupling', "must be 'monolithic' beside &sensitivity")
-    end if
-    if (scene%accuracy%present) then
-      call keys%complain(group, parameters, 'cannot stand beside &accuracy: its meshes '// &
-                         'change, and with them the nodes of smallest and largest values')
-    end if
-    if (scene%sample%present) then
-      call keys%complain(group, parameters, 'cannot stand beside &sample: derive one member '// &
-                         'by its seed')
-    end if
+    call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, 'cannot stand '// &
+                   'beside &sensitivity: slip that is carried along depends on the parameters '// &
+                   'at all points before')
+    call keys%rule('sweep', 'hold_position', scene%sweep%hold_position, 'cannot stand beside '// &
+                   '&sensitivity: the position that is held depends on the parameters, too')
+    call keys%rule('sweep', 'turn_folds', scene%sweep%turn_folds, 'cannot stand beside '// &
+                   '&sensitivity: at a fold there is no derivative')
+    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
+                   "must be 'monolithic' beside &sensitivity")
+    call keys%rule(group, parameters, scene%accuracy%present, 'cannot stand beside &accuracy: '// &
+                   'its meshes change, and with them the nodes of smallest and largest values')
+    call keys%rule(group, parameters, scene%sample%present, 'cannot stand beside &sample: '// &
+                   'derive one member by its seed')
   end subroutine check_beside_derivatives
 
   !> Adds a parameter with its unit and value; of a whole list all its values.
@@ -323,7 +299,7 @@ contains
       if (key%element > 0 .and. key%element /= i) cycle
       if (key%element /= 0) one%key%element = i
       one%value = value(i)
-      if (problem == '' .and. .not. (abs(one%value) > 0.0_wp .or. is_gap(key))) then
+      if (problem == '' .and. .not. (abs(one%value) > 0.0_wp .or. key%is_gap())) then
         problem = one%key%label()//' is 0: it has no size by which it could change'
       end if
       if (problem == '') scene%sensitivity%parameter = [scene%sensitivity%parameter, one]

@@ -7,7 +7,7 @@ module gfb_foil_mass_choice
   use gfb_model_case, only: foil_rigid, meshes_foils
   use gfb_operation_case, only: angular_speed
   use gfb_dynamics_case, only: frequencies_at
-  use gfb_foil_motion_keys, only: mass_on, mass_off, has_densities
+  use gfb_foil_motion_keys, only: mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
   use gfb_foil_inertia, only: foil_inertia_type, destroy_inertia
@@ -62,7 +62,7 @@ contains
     integer :: wanted
 
     wanted = mass_asked(scene)
-    if (.not. has_densities(scene%top_foil, scene%bump_foil)) wanted = mass_off
+    if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) wanted = mass_off
   end function mass_wanted
 
   !> What the key of the analysis says.
@@ -112,7 +112,7 @@ contains
       line = 'left out'
     else if (mass_asked(scene) == mass_off) then
       line = "left out by foil_mass = 'off'"
-    else if (.not. has_densities(scene%top_foil, scene%bump_foil)) then
+    else if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) then
       line = 'left out, for a foil has no density'
     else if (.not. inertia%present) then
       line = 'left out: the foil alone has no natural frequency below '//lowest// &

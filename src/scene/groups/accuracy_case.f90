@@ -2,18 +2,16 @@
 module gfb_accuracy_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
-  use gfb_output_case, only: output_case_type
-  use gfb_result_names, only: asked_names, is_of
+  use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, bearing, strip
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
-  use gfb_sweep_case, only: sweep_case_type
   use gfb_value_rules, only: between, from_to
   implicit none (type, external)
   private
-  public :: accuracy_case_type, read_accuracy_case, check_accuracy, asked_name
+  public :: accuracy_case_type, read_accuracy_case, asked_name
 
   character(len=*), parameter, public :: all_coefficients = 'coefficients' !! not one number
-  character(len=*), parameter :: of_vibrations(*) = &
+  character(len=*), parameter, public :: of_vibrations(*) = &
     [character(len=13) :: 'critical_mass', 'whirl_ratio', 'stiffness_xx', 'stiffness_xy', &
      'stiffness_yx', 'stiffness_yy', 'damping_xx', 'damping_xy', 'damping_yx', 'damping_yy', &
      all_coefficients]
@@ -48,32 +46,6 @@ contains
                           from_to(2.0_wp, 8.0_wp))
     call keys%finish_group()
   end subroutine read_accuracy_case
-
-  !> The number must be one of the analysis, and of one answer.
-  subroutine check_accuracy(keys, accuracy, sweep, output, analysis, vibrates)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(accuracy_case_type), intent(in) :: accuracy !! what `&accuracy` asks for
-    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
-    type(output_case_type), intent(in) :: output !! what `&output` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
-    logical, intent(in) :: vibrates !! the case asks for 'linear_dynamics'
-
-    if (.not. accuracy%present .or. analysis == 0) return
-    if (accuracy%quantity > 0) then
-      if (.not. is_of(asked_name(accuracy), merge(bearing, strip, is_bearing(analysis)))) then
-        call keys%complain('accuracy', 'quantity', 'is no number of this analysis')
-      else if (.not. vibrates .and. any(asked_name(accuracy) == of_vibrations)) then
-        call keys%complain('accuracy', 'quantity', "needs analysis = 'linear_dynamics'")
-      end if
-    end if
-    if (sweep%present) then
-      call keys%complain('accuracy', 'quantity', 'needs a scene of one answer, without &sweep')
-    end if
-    if (output%restart_every > 0) then
-      call keys%complain('accuracy', 'quantity', 'is found on several meshes, which no restart '// &
-                         'file resumes: restart_every must be 0')
-    end if
-  end subroutine check_accuracy
 
   !> Name of the number that must be known so well.
   pure function asked_name(accuracy) result(name)

@@ -2,13 +2,12 @@
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_operation_case, only: operation_case_type
   use gfb_text, only: text
   use gfb_value_rules, only: at_least, positive, from_below, from_to
   implicit none (type, external)
   private
   public :: bearing_case_type, read_bearing_case, pad_angle, pad_length, pad_turn, preload_angle, &
-            read_pads_case, check_pads
+            read_pads_case
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
@@ -55,11 +54,10 @@ contains
     call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
                        'all around; more than `clearance` presses the foil back at rest', &
                        at_least(0.0_wp))
-    if (bearing%leading_edge_condition == leading_edge_periodic .and. &
-        bearing%leading_edge_angle > 0.0_wp) then
-      call keys%complain('bearing', 'leading_edge_angle', &
-                         "must be 0 with leading_edge_condition = 'periodic', a full ring")
-    end if
+    call keys%rule('bearing', 'leading_edge_angle', &
+                   bearing%leading_edge_condition == leading_edge_periodic .and. &
+                   bearing%leading_edge_angle > 0.0_wp, 'must be 0 with leading_edge_condition '// &
+                   "= 'periodic', a full ring")
     call keys%finish_group()
   end subroutine read_bearing_case
 
@@ -140,12 +138,11 @@ contains
     character(len=18) :: edge_key(4)
     integer :: i
 
-    if (keys%meant('bearing', 'leading_edge_angle') .and. &
-        keys%meant(group, 'first_leading_edge') .and. &
-        abs(first - bearing%leading_edge_angle) > rounding) then
-      call keys%complain(group, 'first_leading_edge', 'contradicts leading_edge_angle in '// &
-                         '&bearing, '//text(bearing%leading_edge_angle)//' rad: give one of them')
-    end if
+    call keys%rule(group, 'first_leading_edge', keys%meant('bearing', 'leading_edge_angle') .and. &
+                   keys%meant(group, 'first_leading_edge') .and. &
+                   abs(first - bearing%leading_edge_angle) > rounding, 'contradicts '// &
+                   'leading_edge_angle in &bearing, '//text(bearing%leading_edge_angle)// &
+                   ' rad: give one of them')
     if (bearing%leading_edge_condition /= leading_edge_periodic) return
     edge_key = [character(len=18) :: 'count', 'arc', 'gap', 'first_leading_edge']
     do i = 1, size(edge_key)
@@ -168,34 +165,10 @@ contains
     if (keys%meant(group, 'arc') .and. bearing%arc > share + rounding) then
       call keys%complain(group, 'arc', 'must not be longer than '//room//': the pads overlap')
     else if (keys%meant(group, 'arc') .and. keys%meant(group, 'gap')) then
-      if (abs(bearing%arc + gap - share) > rounding) then
-        call keys%complain(group, 'gap', 'contradicts arc: together they must be '//room// &
-                           '; give one of them')
-      end if
+      call keys%rule(group, 'gap', abs(bearing%arc + gap - share) > rounding, &
+                     'contradicts arc: together they must be '//room//'; give one of them')
     else if (gap >= share) then
       call keys%complain(group, 'gap', 'must be smaller than '//room//': it leaves no pad')
     end if
   end subroutine check_arc
-
-  !> Complains about lists that have neither one value for all pads nor one for each.
-  subroutine check_pads(keys, bearing, operation)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&pads` ask for
-    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
-
-    call check_length('leading_edge_lift', operation%leading_edge_lift)
-    call check_length('leading_edge_lift_edge', operation%leading_edge_lift_edge)
-
-  contains
-
-    !> Checks the length of a list.
-    subroutine check_length(key, list)
-      character(len=*), intent(in) :: key !! in `&operation`
-      real(wp), intent(in) :: list(:)     !! its values [m]
-
-      if (any(size(list) == [0, 1, bearing%pads])) return
-      call keys%complain('operation', key, 'has '//text(size(list))//' values, must have one '// &
-                         'for all pads or one for each of '//text(bearing%pads))
-    end subroutine check_length
-  end subroutine check_pads
 end module gfb_bearing_case

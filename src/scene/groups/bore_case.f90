@@ -40,16 +40,13 @@ contains
     call read_table(keys, bore%profile)
     call keys%finish_group()
     if (.not. bore%present) return
-    if (.not. allocated(bore%profile%shim_height) .and. bearing%clearance > 0.0_wp .and. &
-        shims >= bearing%clearance) then
-      call keys%complain(group, 'shim_height', 'must be less than the clearance of '// &
-                         text(bearing%clearance)//' m: no gap is left at rest')
-    end if
+    call keys%rule(group, 'shim_height', .not. allocated(bore%profile%shim_height) .and. &
+                   bearing%clearance > 0.0_wp .and. shims >= bearing%clearance, &
+                   'must be less than the clearance of '//text(bearing%clearance)// &
+                   ' m: no gap is left at rest')
     if (.not. bore%profile%present()) then
-      if (keys%mistakes() == mistakes) then
-        call keys%complain(group, 'waves', 'or shim_angle or profile_angle is needed: the '// &
-                           'group says nothing of the bore')
-      end if
+      call keys%rule(group, 'waves', keys%mistakes() == mistakes, 'or shim_angle or '// &
+                     'profile_angle is needed: the group says nothing of the bore')
       return
     end if
     peak = bore_peak(bore%profile)
@@ -99,9 +96,8 @@ contains
     call keys%real_key('wave_angle', profile%wave_angle, 'rad', 'angle of a crest, where the '// &
                        'bore is nearest to the shaft', any_value)
     if (amplitude .and. .not. waves) call keys%complain(group, 'wave_amplitude', 'needs waves')
-    if (keys%meant(group, 'wave_angle') .and. .not. waves) then
-      call keys%complain(group, 'wave_angle', 'needs waves')
-    end if
+    call keys%rule(group, 'wave_angle', keys%meant(group, 'wave_angle') .and. .not. waves, &
+                   'needs waves')
   end subroutine read_waves
 
   !> Shims: each list has one value a shim; of arcs, ramps and heights one may stand for all.

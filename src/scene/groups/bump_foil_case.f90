@@ -197,9 +197,8 @@ contains
 
       call bump_list_key(keys, 'bump_'//name, list, foil%bumps, 'm', meaning, positive, &
                          '`'//name//'` of all bumps')
-      if (keys%key%given .and. keys%holds(group, name)) then
-        call keys%complain(group, 'bump_'//name, 'contradicts '//name//': give one of them')
-      end if
+      call keys%rule(group, 'bump_'//name, keys%key%given .and. keys%holds(group, name), &
+                     'contradicts '//name//': give one of them')
     end subroutine size_list
   end subroutine read_sizes
 
@@ -367,14 +366,12 @@ contains
     else if (has_sizes(foil)) then
       call check_bumps(keys, foil)
     else if (foil%half_length > 0.0_wp) then
-      if (foil%height > foil%half_length) then
-        call keys%complain(group, 'height', 'must not exceed half_length = '// &
-                           text(foil%half_length)//' m: a bump is at most half a circle')
-      end if
-      if (foil%pitch > 0.0_wp .and. bumps_overlap(foil)) then
-        call keys%complain(group, 'pitch', 'must be at least 2 half_length = '// &
-                           text(2.0_wp*foil%half_length)//' m, and is '//text(foil%pitch)//' m')
-      end if
+      call keys%rule(group, 'height', foil%height > foil%half_length, 'must not exceed '// &
+                     'half_length = '//text(foil%half_length)//' m: a bump is at most half a '// &
+                     'circle')
+      call keys%rule(group, 'pitch', foil%pitch > 0.0_wp .and. bumps_overlap(foil), &
+                     'must be at least 2 half_length = '//text(2.0_wp*foil%half_length)// &
+                     ' m, and is '//text(foil%pitch)//' m')
     end if
     if (bearing%radius > 0.0_wp .and. &
         foil%bumps*foil%pitch > pad_length(bearing)*(1.0_wp + rounding)) then

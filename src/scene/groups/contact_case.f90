@@ -100,10 +100,9 @@ contains
                       'friction coefficient of the crests, on the top foil or the plate')
     call friction_key('friction_sleeve', contact%friction_sleeve, &
                       'friction coefficient of the corner lines, on the sleeve')
-    if (contact%friction_sleeve > 0.0_wp .and. load%support == support_held .and. strip) then
-      call keys%complain('contact', 'friction_sleeve', "has no use with support = 'held' in "// &
-                         '&strip_load: nothing presses on the sleeve')
-    end if
+    call keys%rule('contact', 'friction_sleeve', contact%friction_sleeve > 0.0_wp .and. &
+                   load%support == support_held .and. strip, "has no use with support = 'held' "// &
+                   'in &strip_load: nothing presses on the sleeve')
     contact%stick_length = merge(stick_in_bearing, stick_part, bearing)*deflection
     call scene_key('stick_length', contact%stick_length, 'm', &
                    'tangential displacement at which a contact goes from stick to slip', &
@@ -146,12 +145,10 @@ contains
       if (.not. right) value = 0.0_wp ! the echo could not be read again
       call keys%real_key(name, value, unit, meaning, positive, default=default, given=given)
       ! A foil whose numbers are missing or wrong is complained about elsewhere.
-      if ((strip .or. bearing) .and. bump_stiffness(foil) > 0.0_wp .and. deflection > 0.0_wp .and. &
-          .not. (right .or. given)) then
-        call keys%complain('contact', name, 'must be given: its default for these bumps and '// &
-                           trim(merge('this clearance', 'their load    ', bearing))// &
-                           ' is out of range')
-      end if
+      call keys%rule('contact', name, (strip .or. bearing) .and. &
+                     bump_stiffness(foil) > 0.0_wp .and. deflection > 0.0_wp .and. &
+                     .not. (right .or. given), 'must be given: its default for these bumps and '// &
+                     trim(merge('this clearance', 'their load    ', bearing))//' is out of range')
     end subroutine scene_key
   end subroutine read_contact_case
 

@@ -1,4 +1,4 @@
-!> Keys of `&bump_foil` that have one value a bump or one a strip of those side by side, or one for all.
+!> Keys of `&bump_foil` that have one value a bump, one a strip side by side, or one for all.
 module gfb_foil_sizes
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
@@ -133,9 +133,8 @@ contains
     type(case_keys_type), intent(inout) :: keys
     character(len=*), intent(in) :: name, other !! keys
 
-    if (keys%holds(group, other)) then
-      call keys%complain(group, name, 'contradicts '//other//': give one of them')
-    end if
+    call keys%rule(group, name, keys%holds(group, other), 'contradicts '//other// &
+                   ': give one of them')
   end subroutine refuse_both
 
   !> Reads the same keys where there is one strip: they have no use.

@@ -68,10 +68,9 @@ contains
                        'absolute pressure at the edges of the pad', positive, needed)
     call keys%choice_key('viscosity_law', said%viscosity_law, viscosity_words, &
                          'viscosity as given, or that of air at `temperature`')
-    if (by_law .and. needed .and. .not. given .and. .not. said%viscosities .and. &
-        said%viscosity_law == 1) then
-      call keys%complain(group, 'viscosity_law', 'needs the key viscosity, or another word')
-    end if
+    call keys%rule(group, 'viscosity_law', by_law .and. needed .and. .not. given .and. &
+                   .not. said%viscosities .and. said%viscosity_law == 1, 'needs the key '// &
+                   'viscosity, or another word')
     by_law = said%viscosities .or. said%viscosity_law == second_word
     gas%has_viscosity_law = by_law
     call keys%real_key('mean_free_path', gas%law%mean_free_path, 'm', 'mean free path of the '// &
@@ -85,11 +84,9 @@ contains
     call check_keys(keys, said, gas)
     if (keys%mistakes() > mistakes) return
     call make_law(said, gas)
-    if (gas%ambient_pressure >= gas%law%fluid%saturation) then
-      call keys%complain(group, 'ambient_pressure', 'must be below '// &
-                         text(gas%law%fluid%saturation, 4)//' Pa, at which the gas condenses '// &
-                         'at its temperature')
-    end if
+    call keys%rule(group, 'ambient_pressure', gas%ambient_pressure >= gas%law%fluid%saturation, &
+                   'must be below '//text(gas%law%fluid%saturation, 4)//' Pa, at which the gas '// &
+                   'condenses at its temperature')
     if (by_law .and. given) call check_viscosity(keys, gas)
     gas%viscosity = gas%law%viscosity
   end subroutine read_gas_case
@@ -225,21 +222,17 @@ contains
     type(gas_keys_type), intent(in) :: said
     type(gas_case_type), intent(in) :: gas
 
-    if (said%table .and. said%state == second_word) then
-      call keys%complain(group, 'equation_of_state', 'has no use with a table: '// &
-                         'density_table_density gives the density')
-    end if
+    call keys%rule(group, 'equation_of_state', said%table .and. said%state == second_word, &
+                   'has no use with a table: density_table_density gives the density')
     if (said%viscosities .and. said%viscosity_law == second_word) then
       call keys%complain(group, 'viscosity_law', 'has no use with density_table_viscosity, '// &
                          'which gives the viscosity')
     end if
     if (.not. said%table) return
-    if (gas%ambient_pressure < said%pressure(1) .or. &
-        gas%ambient_pressure > said%pressure(size(said%pressure))) then
-      call keys%complain(group, 'ambient_pressure', 'must lie in the table of the gas, '// &
-                         text(said%pressure(1))//' to '// &
-                         text(said%pressure(size(said%pressure)))//' Pa')
-    end if
+    call keys%rule(group, 'ambient_pressure', gas%ambient_pressure < said%pressure(1) .or. &
+                   gas%ambient_pressure > said%pressure(size(said%pressure)), &
+                   'must lie in the table of the gas, '//text(said%pressure(1))//' to '// &
+                   text(said%pressure(size(said%pressure)))//' Pa')
   end subroutine check_keys
 
   !> The gas that the keys describe.

@@ -47,10 +47,9 @@ contains
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
                           default='8 a pitch with bumps, otherwise 240; half of it with '// &
                           '`film_order = 2`', given=given)
-    if (.not. given .and. mesh%circumferential_elements > most_a_side) then
-      call keys%complain('bump_foil', 'pitch', '8 elements a pitch would be more than '// &
-                         text(most_a_side)//' along the pad: give circumferential_elements')
-    end if
+    call keys%rule('bump_foil', 'pitch', .not. given .and. &
+                   mesh%circumferential_elements > most_a_side, '8 elements a pitch would be '// &
+                   'more than '//text(most_a_side)//' along the pad: give circumferential_elements')
     call keys%integer_key('axial_elements', mesh%axial_elements, &
                           'elements of the whole width, also where one half is solved; by '// &
                           'default 16 with `film_order = 2`', &
@@ -61,9 +60,8 @@ contains
                        'always have', from_to(1.0_wp, 100.0_wp))
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
-    if (modulo(mesh%arc_elements, 2) /= 0) then
-      call keys%complain('mesh', 'arc_elements', 'must be even: a node lies on the crest')
-    end if
+    call keys%rule('mesh', 'arc_elements', modulo(mesh%arc_elements, 2) /= 0, &
+                   'must be even: a node lies on the crest')
     call keys%integer_key('flat_elements', mesh%flat_elements, &
                           'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
     can_align = meshes_foils(model%foil) .and. foil%bumps > 0 .and. foil%pitch > 0.0_wp .and. &
@@ -73,10 +71,9 @@ contains
                           'put lines of nodes of film and top foil above the crests; the '// &
                           'number of elements is then near circumferential_elements', &
                           default='`.true.` for shells and beams with bumps')
-    if (mesh%align_crests .and. .not. can_align .and. model%foil > 0) then
-      call keys%complain('mesh', 'align_crests', "needs foil = 'shell', and bumps, pitch, "// &
-                         "half_length and height in &bump_foil; 'beam' will do, too")
-    end if
+    call keys%rule('mesh', 'align_crests', mesh%align_crests .and. .not. can_align .and. &
+                   model%foil > 0, "needs foil = 'shell', and bumps, pitch, half_length and "// &
+                   "height in &bump_foil; 'beam' will do, too")
     call keys%finish_group()
   end subroutine read_mesh_case
 

@@ -26,6 +26,10 @@ module gfb_model_case
     foil_row_type('beam', .true., &
                   'as planar beams in contact, under the axial mean of the pressure')]
 
+  !> What most keys of bumps say to other foils, and then why.
+  character(len=*), parameter, public :: needs_meshes = &
+    "needs foil = 'shell' in &model, or 'beam': "
+
   integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
   integer, parameter, public :: reduction_auto = 3  !! whichever costs less
@@ -79,9 +83,8 @@ contains
     if (is_structure(analysis)) model%foil = foil_shell
     call keys%choice_key('foil', model%foil, foil_rows%word, 'model of the foils', &
                          is_bearing(analysis))
-    if (is_structure(analysis) .and. model%foil /= foil_shell .and. model%foil /= 0) then
-      call keys%complain('model', 'foil', "must be 'shell' for strips and modes")
-    end if
+    call keys%rule('model', 'foil', is_structure(analysis) .and. model%foil /= foil_shell .and. &
+                   model%foil /= 0, "must be 'shell' for strips and modes")
     call read_reduction(keys, model)
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane')
@@ -96,12 +99,11 @@ contains
     call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
                          'what deflects the foundation: the pressure at each point, which '// &
                          'leaves the edges undeflected, or its mean along the axis')
-    if (model%coupling == coupling_partitioned .and. model%foil == foil_elastic_foundation .and. &
-        model%foundation_pressure == foundation_pressure_local) then
-      call keys%complain('model', 'coupling', "cannot be 'partitioned' where "// &
-                         "foundation_pressure is 'local': springs under each "// &
-                         'pressure have no equations of their own')
-    end if
+    call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
+                   model%foil == foil_elastic_foundation .and. &
+                   model%foundation_pressure == foundation_pressure_local, 'cannot be '// &
+                   "'partitioned' where foundation_pressure is 'local': springs under each "// &
+                   'pressure have no equations of their own')
     call keys%finish_group()
   end subroutine read_model_case
 
@@ -136,10 +138,9 @@ contains
       return
     end if
     call keys%integer_key(name, model%film_order, meaning, from_to(1.0_wp, 2.0_wp))
-    if (model%film_order == film_order_biquadratic .and. model%film_scheme == film_scheme_supg) then
-      call keys%complain('model', name, "cannot be 2 where film_scheme is 'supg': upwinding is "// &
-                         'for bilinear elements')
-    end if
+    call keys%rule('model', name, model%film_order == film_order_biquadratic .and. &
+                   model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &
+                   "'supg': upwinding is for bilinear elements")
   end subroutine read_film_order
 
   !> Whether top foil and bumps have meshes of their own.

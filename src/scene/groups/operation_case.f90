@@ -57,11 +57,10 @@ contains
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
                        any_value, is_bearing(analysis))
     if (operation%speed_rpm < 0.0_wp) call keys%complain('operation', 'speed_rpm', other_sense)
-    if (analysis == analysis_equilibrium .and. keys%last_key_is_right() .and. &
-        .not. (operation%speed_rpm > 0.0_wp .or. may_rest)) then
-      call keys%complain('operation', 'speed_rpm', 'must be positive: a film without speed '// &
-                         'carries no load; &shaft_contact does')
-    end if
+    call keys%rule('operation', 'speed_rpm', analysis == analysis_equilibrium .and. &
+                   keys%last_key_is_right() .and. .not. (operation%speed_rpm > 0.0_wp .or. &
+                   may_rest), 'must be positive: a film without speed carries no load; '// &
+                   '&shaft_contact does')
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
                               required=analysis == analysis_equilibrium, &
                               default='required for an equilibrium', given=operation%load_given)

@@ -31,9 +31,8 @@ contains
     chosen = field_words == 'all'
     call keys%start_group('output')
     call keys%words_key('fields', chosen, field_words, 'fields that are written for ParaView')
-    if (any(chosen .and. field_words == 'none') .and. count(chosen) > 1) then
-      call keys%complain('output', 'fields', "'none' must stand alone")
-    end if
+    call keys%rule('output', 'fields', any(chosen .and. field_words == 'none') .and. &
+                   count(chosen) > 1, "'none' must stand alone")
     output%pressure = any(chosen .and. (field_words == 'all' .or. field_words == 'pressure'))
     output%gap = any(chosen .and. (field_words == 'all' .or. field_words == 'gap'))
     output%deflection = any(chosen .and. (field_words == 'all' .or. field_words == 'deflection'))

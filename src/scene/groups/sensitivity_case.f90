@@ -49,10 +49,9 @@ contains
                                                     analysis == analysis_fixed_position))
     call keys%words_key('quantity', sensitivity%quantity, quantity_words, &
                         'results whose derivatives are found')
-    if (sensitivity%present .and. .not. any(sensitivity%quantity) .and. &
-        (keys%last_key_is_right() .or. .not. keys%holds('sensitivity', 'quantity'))) then
-      call keys%complain('sensitivity', 'quantity', 'must name a result')
-    end if
+    call keys%rule('sensitivity', 'quantity', sensitivity%present .and. &
+                   .not. any(sensitivity%quantity) .and. (keys%last_key_is_right() .or. &
+                   .not. keys%holds('sensitivity', 'quantity')), 'must name a result')
     call keys%names_key('parameters', sensitivity%names, sensitivity%strings, &
                         'keys by which they are derived, such as `''bump_foil%thickness''`; '// &
                         'of a list a value, `''bump_foil%crest_gap(2)''`, or all, `(:)`; '// &

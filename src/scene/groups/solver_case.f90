@@ -63,10 +63,9 @@ contains
                        'film thickness below which an equilibrium is refused as touch-down', &
                        positive, &
                        default='1e-4 of the clearance; none with &shaft_contact')
-    if (bearing%clearance > 0.0_wp .and. solver%touch_down_gap >= bearing%clearance) then
-      call keys%complain('solver', 'touch_down_gap', 'must be less than the clearance, '// &
-                         text(bearing%clearance)//' m')
-    end if
+    call keys%rule('solver', 'touch_down_gap', bearing%clearance > 0.0_wp .and. &
+                   solver%touch_down_gap >= bearing%clearance, 'must be less than the '// &
+                   'clearance, '//text(bearing%clearance)//' m')
     call keys%logical_key('stability', solver%stability, &
                           'count the growing modes of the foils, with the shaft fixed')
     call keys%choice_key('linear_solver', solver%linear_solver, linear_words, &

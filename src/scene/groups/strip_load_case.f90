@@ -82,9 +82,8 @@ contains
 
       call keys%real_key(name, value, unit, meaning, positive, &
                          default='plates need one of force and displacement', given=given)
-      if (given .and. load%kind == load_crest_pressure) then
-        call keys%complain('strip_load', name, "needs kind = 'plates'")
-      end if
+      call keys%rule('strip_load', name, given .and. load%kind == load_crest_pressure, &
+                     "needs kind = 'plates'")
     end subroutine read_maximum
   end subroutine read_strip_load_case
 
@@ -129,10 +128,9 @@ contains
     if (keys%key%given .and. plates) then
       call keys%complain('strip_load', 'bump_pressure', not_with_plates)
     else if (table .and. bumps > 0 .and. keys%last_key_is_right()) then
-      if (size(load%bump_pressure) /= bumps) then
-        call keys%complain('strip_load', 'bump_pressure', 'must have one value a bump: '// &
-                           text(bumps)//', not '//text(size(load%bump_pressure)))
-      end if
+      call keys%rule('strip_load', 'bump_pressure', size(load%bump_pressure) /= bumps, &
+                     'must have one value a bump: '//text(bumps)//', not '// &
+                     text(size(load%bump_pressure)))
     else if (size(load%bump_pressure) > 0 .and. known .and. .not. table) then
       call keys%complain('strip_load', 'bump_pressure', "needs distribution = 'table'")
     end if

@@ -36,6 +36,7 @@ module gfb_sweep_case
     integer :: element = 0 !! of the list, or `every_element`; 0: no index is given
   contains
     procedure :: label
+    procedure :: is_gap
   end type swept_key_type
 
   !> The sweep.
@@ -145,6 +146,13 @@ contains
     if (self%element == every_element) words = words//'(:)'
     if (self%element > 0) words = words//'('//text(self%element)//')'
   end function label
+
+  !> Whether a key is a list of gaps at rest, which are 0 where it is absent.
+  pure function is_gap(self) result(gap)
+    class(swept_key_type), intent(in) :: self !! the key
+    logical :: gap
+    gap = self%group == 'bump_foil' .and. (self%name == 'crest_gap' .or. self%name == 'corner_gap')
+  end function is_gap
 
   !> The operating point with one of the sweep's values in it.
   pure function operation_at(operation, sweep, point) result(there)

@@ -33,6 +33,8 @@ module gfb_case_keys
     procedure :: words_key
     procedure :: names_key
     procedure :: useless_key
+    procedure :: rule
+    procedure :: refuse
   end type case_keys_type
 
 contains
@@ -312,4 +314,34 @@ contains
     if (self%key%given) call self%complain(self%notes%group, name, why)
     call self%end_key('', .false., .false.)
   end subroutine useless_key
+
+  !> A rule between keys: complains of a key, or of an element of its list, where it is broken.
+  subroutine rule(self, group, key, broken, words, element)
+    class(case_keys_type), intent(inout) :: self !! the keys, all read
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical, intent(in) :: broken !! the rule
+    character(len=*), intent(in) :: words !! what the key should be
+    integer, intent(in), optional :: element !! of a list
+    if (broken) call self%complain(group, key, words, element)
+  end subroutine rule
+
+  !> The same of those keys of a group that stand in the file: they have no use, or lack something.
+  subroutine refuse(self, group, names, broken, words)
+    class(case_keys_type), intent(inout) :: self !! the keys, all read
+    character(len=*), intent(in) :: group
+    character(len=*), intent(in) :: names !! of keys, with commas between them
+    logical, intent(in) :: broken !! the rule
+    character(len=*), intent(in) :: words !! why they must not be given
+    character(len=:), allocatable :: left, key
+    integer :: comma
+
+    if (.not. broken) return
+    left = names//','
+    do while (left /= '')
+      comma = index(left, ',')
+      key = trim(adjustl(left(:comma - 1)))
+      left = left(comma + 1:)
+      if (self%meant(group, key)) call self%complain(group, key, words)
+    end do
+  end subroutine refuse
 end module gfb_case_keys

@@ -14,8 +14,8 @@ module gfb_namelist_file
 
   integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
 
-  !> Which elements of a list an entry gives: all from the first on, those from an index on, or those
-  !> of a section such as `(1:3)` or `(5:1:-2)`.
+  !> Which elements of a list an entry gives: all from the first on, those from an index on, or
+  !> those of a section such as `(1:3)` or `(5:1:-2)`.
   type :: section_type
     integer :: element = 0       !! index given with the key, 0 if none, or `bad_index`
     integer :: last = 0          !! of a section; 0: as far as its values go

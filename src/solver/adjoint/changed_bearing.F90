@@ -8,7 +8,6 @@ module gfb_changed_bearing
   use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
-  use gfb_named_key_rules, only: is_gap
   use gfb_sensitivity_case, only: parameter_type
   use gfb_sweep_case, only: swept_key_type
   use gfb_operation_case, only: angular_speed
@@ -101,7 +100,7 @@ contains
         keeps = name == 'preload' .or. name == 'preload_offset'
       case ('top_foil', 'bump_foil')
         keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height' .or. &
-                name == 'free_radius' .or. is_gap(key)
+                name == 'free_radius' .or. key%is_gap()
         ! else the first crest stands as far from the weld as half a bump is long
         if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
       case default
@@ -153,7 +152,7 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first + 1, last => bearing%pad(i)%last)
         call add_contact_forces(pad%foil, unknown(first:last), value(first:last))
-        if (is_gap(key) .or. key%group == 'contact') cycle
+        if (key%is_gap() .or. key%group == 'contact') cycle
         call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(first:last), value(first:last), &
                                pieces, error)
       end associate

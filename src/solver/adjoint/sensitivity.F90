@@ -15,7 +15,6 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_sensitivity_case, only: parameter_type, quantity_words
-  use gfb_named_key_rules, only: is_gap
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
@@ -254,7 +253,7 @@ contains
     value = present_value(scene, parameter, bearing%point, at)
     difference = difference_of(parameter%key)
     step = difference%part*abs(value)
-    if (is_gap(parameter%key)) step = difference%part*scene%bearing%clearance
+    if (parameter%key%is_gap()) step = difference%part*scene%bearing%clearance
     problem = ''
     if (.not. step > 0.0_wp) problem = 'it is 0 here'
     do steps = -2, 2

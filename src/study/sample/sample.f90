@@ -16,7 +16,7 @@ module gfb_sample
   use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
-  use gfb_sample_rules, only: sample_member
+  use gfb_study_rules, only: sample_member
   use gfb_sample_writing, only: write_sample
   use gfb_scene, only: scene_type
   use gfb_signals, only: stop_words

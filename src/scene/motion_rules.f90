@@ -1,0 +1,417 @@
+!> What a scene must have, and cannot have, where something moves: a shaft that vibrates, that is
+!> followed over time, or that goes round an orbit which closes.
+module gfb_motion_rules
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type
+  use gfb_contact_law, only: law_tanh_reset
+  use gfb_dynamics_case, only: tangent_stick
+  use gfb_foil_motion_keys, only: mass_auto, mass_on, mass_off
+  use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
+                            foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils
+  use gfb_operation_case, only: angular_speed
+  use gfb_periodic_case, only: motion_free, follow_nothing, follow_speed, follow_unbalance, &
+                               follow_mass
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
+  use gfb_text, only: text
+  use gfb_transient_case, only: duration_of
+  implicit none (type, external)
+  private
+  public :: check_dynamics, check_foil_mass, check_rotor, check_transient, check_periodic
+
+  character(len=*), parameter :: on_springs = "needs foil = 'elastic_foundation' in &model"
+  real(wp), parameter :: least_steps = 20.0_wp !! of a turn, or of a pulse [1]
+
+contains
+
+  !> Checks a scene that asks for vibrations.
+  subroutine check_dynamics(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: group = 'dynamics'
+    logical :: frequencies, ratios, amplitudes
+
+    associate (asked => scene%dynamics, model => scene%model, sweep => scene%sweep)
+      if (.not. asked%present) return
+      frequencies = keys%meant(group, 'frequencies')
+      ratios = keys%meant(group, 'frequency_ratios')
+      amplitudes = keys%meant(group, 'vibration_amplitudes')
+      call keys%rule(group, 'frequency_ratios', frequencies .and. ratios, &
+                     'has no use beside frequencies: give one of them')
+      call keys%rule(group, 'frequency_ratios', ratios .and. .not. frequencies .and. &
+                     stands_still(keys, scene), 'needs a shaft that turns: give frequencies')
+      call keys%rule('scene', 'analysis', .not. (frequencies .or. ratios), &
+                     'needs frequencies or frequency_ratios in &dynamics')
+      if (scene%accuracy%present) then
+        call keys%rule(group, 'vibration_amplitudes', amplitudes, &
+                       'has no error estimate: leave &accuracy out and give the mesh')
+        call keys%rule(group, 'foil_mass', meshes_foils(model%foil) .and. &
+                       asked%foil_mass == mass_auto, "must be 'on' or 'off' with &accuracy: "// &
+                       "'auto' may choose differently on each mesh")
+      end if
+      if (sweep%parameter == sweep_speed .and. ratios) then
+        call keys%rule(group, 'frequency_ratios', any(.not. sweep%values > 0.0_wp), &
+                       'needs a shaft that turns at every point of the sweep: give frequencies')
+      end if
+      if (model%foil > 0) then
+        call check_coupling(keys, scene, 'linear_dynamics', 'film and foil vibrate together')
+        call keys%refuse(group, 'contact_tangent', .not. meshes_foils(model%foil), &
+                         needs_meshes//'nothing else rubs')
+        call keys%rule(group, 'loss_factor', asked%loss_factor > 0.0_wp .and. &
+                       model%foil == foil_rigid, "has no use with foil = 'rigid': nothing deflects")
+        call check_damping(keys, group, asked%foundation_damping, model%foil)
+      end if
+      if (amplitudes) call check_amplitudes(keys, scene)
+    end associate
+  end subroutine check_dynamics
+
+  !> Where amplitudes of the shaft count.
+  subroutine check_amplitudes(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'dynamics', name = 'vibration_amplitudes'
+
+    call keys%rule(group, name, scene%sweep%present, &
+                   'needs a scene of one answer, without &sweep')
+    call keys%rule(group, name, scene%dynamics%contact_tangent /= tangent_stick, 'needs '// &
+                   "contact_tangent = 'stick': contacts that have shaken down are their limit")
+    if (scene%model%foil == 0) return
+    if (.not. meshes_foils(scene%model%foil)) then
+      call keys%complain(group, name, needs_meshes//'nothing else rubs')
+    else if (.not. scene%contact%may_rub) then
+      call keys%complain(group, name, 'needs friction: give friction_top or friction_sleeve in '// &
+                         '&contact')
+    else if (scene%contact%law_in_motion() == law_tanh_reset) then
+      call keys%complain(group, name, "needs another friction_law than 'tanh_reset' in "// &
+                         "&contact, or friction_law_in_motion = 'coulomb': that one never "// &
+                         'shakes down')
+    end if
+  end subroutine check_amplitudes
+
+  !> Film, foil and shaft move together.
+  subroutine check_coupling(keys, scene, analysis, why)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), intent(in) :: analysis, why
+
+    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
+                   "must be 'monolithic' with analysis = '"//analysis//"': "//why)
+  end subroutine check_coupling
+
+  !> Dampers and Maxwell arms stand beside the springs of an elastic foundation.
+  subroutine check_damping(keys, group, damping, foil)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: group !! that has the keys
+    real(wp), intent(in) :: damping       !! [N s/m^3]
+    integer, intent(in) :: foil           !! the model's, 0 where it is not known
+    character(len=*), parameter :: stiffness = 'maxwell_stiffness', time = 'maxwell_time'
+
+    call keys%rule(group, 'foundation_damping', damping > 0.0_wp .and. &
+                   foil /= foil_elastic_foundation, on_springs)
+    call keys%refuse(group, stiffness, .not. keys%meant(group, time), &
+                     'needs '//time//' beside it')
+    call keys%refuse(group, stiffness, all(foil /= [0, foil_elastic_foundation]), on_springs)
+    call keys%refuse(group, time, .not. keys%meant(group, stiffness), &
+                     'needs '//stiffness//' beside it')
+    call keys%refuse(group, time, all(foil /= [0, foil_elastic_foundation]), on_springs)
+  end subroutine check_damping
+
+  !> The keys of the foil's mass have a use, and the foils a density.
+  subroutine check_foil_mass(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    if (scene%model%foil == 0) return
+    if (scene%transient%present) call check_mass('transient', scene%transient%foil_mass)
+    if (scene%dynamics%present) call check_mass('dynamics', scene%dynamics%foil_mass)
+
+  contains
+
+    !> The foil has a mass that can be asked for.
+    subroutine check_mass(group, wanted)
+      character(len=*), intent(in) :: group
+      integer, intent(in) :: wanted !! `mass_auto`, ...
+
+      if (keys%meant(group, 'foil_mass') .and. .not. meshes_foils(scene%model%foil)) then
+        call keys%complain(group, 'foil_mass', needs_meshes//'no other foil has a mass')
+      else
+        call keys%rule(group, 'foil_mass', wanted == mass_on .and. &
+                       .not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp, &
+                       'needs the density of both foils: give density in &top_foil and in '// &
+                       '&bump_foil')
+      end if
+      if (scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_none) then
+        call keys%refuse(group, 'foil_modes', .true., "needs foil = 'shell' and condensed "// &
+                         'bumps in &model: nothing else has modes of its own inside')
+      else
+        call keys%refuse(group, 'foil_modes', wanted == mass_off, &
+                         "has no use with foil_mass = 'off'")
+      end if
+    end subroutine check_mass
+  end subroutine check_foil_mass
+
+  !> Checks a scene with a rotor. Conical modes need bearings that mirror each other.
+  subroutine check_rotor(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: group = 'rotor', polar = 'polar_inertia', &
+                                   transverse = 'transverse_inertia', distance = 'bearing_distance'
+    logical :: tilts, apart
+
+    if (.not. scene%rotor%present) return
+    tilts = keys%meant(group, transverse)
+    apart = keys%meant(group, distance)
+    call keys%rule(group, 'mass', scene%dynamics%present .and. stands_still(keys, scene), &
+                   'needs a shaft that turns: nothing whirls at rest')
+    call keys%refuse(group, polar, .not. tilts, 'has no use without transverse_inertia: a '// &
+                     'rotor that does not tilt has no gyroscopic torque')
+    call keys%rule(group, transverse, tilts .and. .not. apart, &
+                   'needs bearing_distance: a rotor tilts on two bearings')
+    call keys%rule(group, distance, apart .and. .not. tilts, &
+                   'needs transverse_inertia: that of a rotor which tilts on two bearings')
+    call keys%rule(group, polar, tilts .and. &
+                   scene%rotor%polar_inertia > 2.0_wp*scene%rotor%transverse_inertia, &
+                   'must not be larger than twice transverse_inertia: no body has more')
+    call keys%refuse(group, distance, any(abs(scene%operation%tilt) > 0.0_wp) .or. &
+                     any(scene%sweep%parameter == [sweep_tilt_x, sweep_tilt_y]), 'needs an '// &
+                     'aligned shaft: with a tilt the two bearings do not mirror each other')
+  end subroutine check_rotor
+
+  !> Checks a scene with `&transient`.
+  subroutine check_transient(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: group = 'transient'
+
+    associate (transient => scene%transient)
+      if (.not. transient%present) return
+      call keys%rule(group, 'turns', keys%meant(group, 'turns') .eqv. keys%meant(group, &
+                     'duration'), 'or duration must say how long: give one of them')
+      call keys%refuse(group, 'time_tolerance', keys%meant(group, 'steps_per_turn'), &
+                       'has no use with steps_per_turn')
+      call keys%refuse(group, 'turns', .not. max(scene%operation%speed_rpm, &
+                       transient%final_speed_rpm) > 0.0_wp, &
+                       'needs a shaft that turns: give duration')
+      call keys%refuse(group, 'field_start', .not. transient%field_interval > 0.0_wp, &
+                       'has no use without field_interval')
+      if (scene%general%analysis == analysis_equilibrium) then
+        call check_free_shaft(keys, scene)
+      else
+        call check_given_orbit(keys)
+      end if
+      call check_pulse_and_base(keys, scene)
+      call check_ends(keys, scene)
+      call check_steps(keys, scene)
+      call check_neighbours(keys, group, ': final_speed_rpm in &transient changes the speed '// &
+                            'over the time')
+      call check_coupling(keys, scene, group, 'film, foil and shaft take their steps together')
+      call check_damping(keys, group, transient%foundation_damping, scene%model%foil)
+    end associate
+  end subroutine check_transient
+
+  !> A shaft that bears a load has a mass, and finds its orbit itself. A rotor that tilts needs the
+  !> whole width of its bearings, and what turns it needs such a rotor.
+  subroutine check_free_shaft(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'transient'
+    logical :: tilts
+
+    tilts = keys%meant('rotor', 'bearing_distance')
+    call keys%rule('scene', 'analysis', .not. scene%rotor%present, "'transient' needs the mass "// &
+                   'of the shaft, in &rotor; without one give an eccentricity, and its orbit, '// &
+                   'for the load')
+    call keys%refuse(group, 'orbit_radius, orbit_frequency', .true., &
+                     'needs an eccentricity in &operation instead of a load')
+    call keys%rule('model', 'half_width', tilts .and. scene%model%half_width == half_width_yes, &
+                   "must not be 'yes' where a rotor tilts on two bearings over time")
+    call keys%refuse(group, 'couple_unbalance, couple_unbalance_angle, couple_pulse', .not. tilts, &
+                     'needs transverse_inertia and bearing_distance in &rotor: a rotor that '// &
+                     'tilts on two bearings')
+  end subroutine check_free_shaft
+
+  !> A shaft whose place is given feels no force.
+  subroutine check_given_orbit(keys)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), parameter :: group = 'transient'
+
+    call keys%rule(group, 'orbit_radius', keys%meant(group, 'orbit_radius') .neqv. &
+                   keys%meant(group, 'orbit_frequency'), 'and orbit_frequency need each other')
+    call keys%refuse('rotor', 'mass', .true., 'has no use where the place of the shaft is given')
+    call keys%refuse(group, 'start_load, unbalance, couple_unbalance, couple_unbalance_angle, '// &
+                     'pulse, couple_pulse, base_time, steady_tolerance, largest_orbit', .true., &
+                     'needs a load in &operation, and a mass in &rotor')
+  end subroutine check_given_orbit
+
+  !> A pulse has a length, a table its columns.
+  subroutine check_pulse_and_base(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'transient'
+    logical :: pushed
+
+    pushed = keys%meant(group, 'pulse') .or. keys%meant(group, 'couple_pulse')
+    call keys%rule(group, 'pulse_length', pushed .and. .not. keys%meant(group, 'pulse_length'), &
+                   'must be given with pulse or couple_pulse')
+    call keys%refuse(group, 'pulse_start, pulse_length', .not. pushed, 'has no use without pulse')
+    call keys%refuse(group, 'ramp_time', .not. scene%transient%speed_changes, &
+                     'has no use without final_speed_rpm')
+    associate (time => scene%transient%base_time, along_x => scene%transient%base_acceleration_x, &
+               along_y => scene%transient%base_acceleration_y)
+      call keys%rule(group, 'base_acceleration_x', all(size(along_x) /= [0, size(time)]), &
+                     'must have as many values as base_time')
+      call keys%rule(group, 'base_acceleration_y', all(size(along_y) /= [0, size(time)]), &
+                     'must have as many values as base_time')
+      call keys%rule(group, 'base_time', any(time(2:) <= time(:size(time) - 1)), &
+                     'must rise from value to value')
+      call keys%rule(group, 'base_time', size(time) == 1, 'must have two times at least')
+      call keys%rule(group, 'base_time', size(time) > 0 .and. size(along_x) + size(along_y) == 0, &
+                     'has no use without base_acceleration_x or base_acceleration_y')
+    end associate
+  end subroutine check_pulse_and_base
+
+  !> What drives the shaft does so before the run ends.
+  subroutine check_ends(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'transient'
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of times, over them [1]
+    real(wp) :: end_time !! [s]
+
+    associate (transient => scene%transient, speed => scene%operation%speed_rpm)
+      if (.not. min(speed, transient%final_speed_rpm) >= 0.0_wp) return
+      if (.not. (transient%duration > 0.0_wp .or. (transient%turns > 0.0_wp .and. &
+                 max(speed, transient%final_speed_rpm) > 0.0_wp))) return
+      end_time = duration_of(transient, scene%operation)
+      if (.not. end_time < huge(end_time)) then
+        call keys%complain(group, 'turns', 'are never reached: the shaft stands still before; '// &
+                           'give duration')
+        return
+      end if
+      call keys%refuse(group, 'pulse_start', .not. transient%pulse_start < end_time, &
+                       'must lie before the end of the run, '//text(end_time, 6)//' s')
+      call keys%refuse(group, 'ramp_time', transient%ramp_time > (1.0_wp + rounding)*end_time, &
+                       'must not be longer than the run, '//text(end_time, 6)//' s')
+    end associate
+  end subroutine check_ends
+
+  !> Steps resolve a turn; longer ones are for a slow push, where nothing turns with the shaft.
+  subroutine check_steps(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: speed, steps
+    logical :: slow
+
+    associate (transient => scene%transient)
+      if (.not. transient%steps_per_turn > 0.0_wp .or. &
+          transient%steps_per_turn >= least_steps) return
+      speed = max(angular_speed(scene%operation%speed_rpm), &
+                  angular_speed(transient%final_speed_rpm))
+      steps = transient%pulse_length*speed/angular_speed(60.0_wp)*transient%steps_per_turn
+      slow = steps >= least_steps .and. size(transient%base_time) == 0 .and. .not. &
+             max(transient%unbalance, transient%couple_unbalance, transient%orbit_radius) > 0.0_wp
+      call keys%rule('transient', 'steps_per_turn', .not. slow, 'must be at least 20: fewer '// &
+                     'steps do not resolve a turn; or give a pulse alone, of 20 steps or more')
+    end associate
+  end subroutine check_steps
+
+  !> What cannot stand beside a motion.
+  subroutine check_neighbours(keys, analysis, instead)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: analysis
+    character(len=*), intent(in) :: instead !! of a sweep
+    character(len=:), allocatable :: useless
+
+    useless = "has no use with analysis = '"//analysis//"'"
+    call keys%refuse('sweep', 'parameter', .true., useless//instead)
+    call keys%refuse('accuracy', 'quantity', .true., useless)
+    call keys%refuse('sample', 'count', .true., useless)
+    call keys%refuse('sensitivity', 'quantity', .true., useless)
+  end subroutine check_neighbours
+
+  !> Checks a scene with `&periodic`.
+  subroutine check_periodic(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: group = 'periodic'
+
+    associate (periodic => scene%periodic)
+      if (.not. periodic%present) return
+      call keys%rule('operation', 'speed_rpm', stands_still(keys, scene), &
+                     "must be positive with analysis = 'periodic'")
+      call keys%rule('scene', 'analysis', .not. scene%rotor%present, &
+                     "'periodic' needs the mass of the shaft, in &rotor")
+      call keys%refuse('rotor', 'bearing_distance', scene%rotor%present, 'has no use with '// &
+                       "analysis = 'periodic': the shaft moves in x and y alone")
+      call check_motion(keys, scene)
+      call check_branch(keys, scene)
+      call check_damping(keys, group, periodic%foundation_damping, scene%model%foil)
+      call keys%rule('model', 'foil', meshes_foils(scene%model%foil) .and. &
+                     scene%contact%may_rub .and. (periodic%motion == motion_free .or. &
+                     periodic%parameter /= follow_nothing), 'needs friction_top and '// &
+                     "friction_sleeve of 0 with motion = 'free', and with parameter: where "// &
+                     'contacts stick, orbits lie side by side, and are no branch')
+      call check_coupling(keys, scene, group, 'film, foil and shaft take their steps together')
+      call check_neighbours(keys, group, ': parameter in &periodic follows the orbits')
+      call keys%refuse('output', 'restart_every', .true., "has no use with analysis = 'periodic'")
+    end associate
+  end subroutine check_periodic
+
+  !> A forced motion has its unbalance, a free one none.
+  subroutine check_motion(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'periodic'
+
+    associate (periodic => scene%periodic)
+      if (periodic%motion == motion_free) then
+        call keys%refuse(group, 'unbalance, unbalance_angle, period_turns, start_turns', .true., &
+                         "has no use with motion = 'free'")
+        call keys%rule(group, 'parameter', all(periodic%parameter /= [0, follow_speed, &
+                       follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
+                       'limit cycles are followed from the onset of whirl on')
+      else
+        call keys%refuse(group, 'first_amplitude', .true., "needs motion = 'free'")
+        call keys%rule(group, 'unbalance', .not. keys%meant(group, 'unbalance') .and. &
+                       periodic%parameter /= follow_unbalance, &
+                       "must be given with motion = 'forced'")
+      end if
+    end associate
+  end subroutine check_motion
+
+  !> A branch has an end, which is not its beginning.
+  subroutine check_branch(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'periodic'
+    real(wp) :: begin
+
+    associate (periodic => scene%periodic)
+      if (periodic%parameter == follow_nothing) then
+        call keys%refuse(group, 'final_value, points, step', .true., &
+                         "needs a parameter other than 'none'")
+        return
+      end if
+      begin = scene%operation%speed_rpm
+      if (periodic%parameter == follow_unbalance) begin = periodic%unbalance
+      if (periodic%parameter == follow_mass) begin = scene%rotor%mass
+      if (.not. keys%meant(group, 'final_value')) then
+        call keys%complain(group, 'final_value', 'must be given with parameter')
+      else if (.not. abs(periodic%final_value - begin) > 0.0_wp) then
+        call keys%complain(group, 'final_value', 'must differ from where the parameter begins')
+      else
+        call keys%rule(group, 'final_value', periodic%parameter /= follow_unbalance .and. &
+                       .not. periodic%final_value > 0.0_wp, 'must be positive')
+      end if
+    end associate
+  end subroutine check_branch
+
+  !> Whether the file says that the shaft does not turn.
+  function stands_still(keys, scene) result(still)
+    type(case_keys_type), intent(in) :: keys
+    type(scene_type), intent(in) :: scene
+    logical :: still
+    still = keys%meant('operation', 'speed_rpm') .and. .not. scene%operation%speed_rpm > 0.0_wp
+  end function stands_still
+end module gfb_motion_rules
