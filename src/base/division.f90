@@ -1,14 +1,14 @@
-!> Things in a row, divided as evenly as can be among some that take a stretch each.
+!> Things in a row, divided as evenly as can be among some that take a block each.
 module gfb_division
   implicit none (type, external)
   private
-  public :: stretch_of, owner_of
+  public :: block_ends, owner_of
 
 contains
 
-  !> First and last number of one's stretch; the first few take one more where it does not come out
+  !> First and last number of one's block; the first few take one more where it does not come out
   !> even, and there is nothing (a last before the first) for some where things are too few.
-  pure function stretch_of(items, takers, taker) result(ends)
+  pure function block_ends(items, takers, taker) result(ends)
     integer, intent(in) :: items  !! in the row, numbered from 1
     integer, intent(in) :: takers !! among whom they are shared
     integer, intent(in) :: taker  !! number of the one asked about, from 1
@@ -18,7 +18,7 @@ contains
       ends(1) = (taker - 1)*each + min(taker - 1, more) + 1
       ends(2) = taker*each + min(taker, more)
     end associate
-  end function stretch_of
+  end function block_ends
 
   !> Who takes a thing of the row.
   pure function owner_of(item, items, takers) result(taker)

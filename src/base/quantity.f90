@@ -2,9 +2,11 @@
 module gfb_quantity
   use gfb_kinds, only: wp
   use gfb_text, only: exact_text, text
+  use gfb_archive, only: archive_type
   implicit none (type, external)
   private
-  public :: number_quantity, count_quantity, word_quantity, truth_quantity, add_quantity
+  public :: number_quantity, count_quantity, word_quantity, truth_quantity, add_quantity, &
+            visit_description, are_alike
 
   integer, parameter, public :: quantity_number = 1, quantity_count = 2, quantity_word = 3, &
                                 quantity_truth = 4
@@ -106,4 +108,27 @@ contains
       line = self%name//' = '//exact_text(self%number)//' ['//self%unit//']'
     end select
   end function quantity_line
+
+  !> Whether all but the number of two quantities is the same; Fortran takes blanks at the end for
+  !> nothing.
+  pure function are_alike(one, other) result(alike)
+    type(quantity_type), intent(in) :: one, other !! any two
+    logical :: alike
+
+    alike = one%kind == other%kind .and. one%name == other%name .and. one%unit == other%unit .and. &
+      one%meaning == other%meaning .and. one%word == other%word
+    if (alike) alike = len(one%meaning) == len(other%meaning) .and. len(one%word) == len(other%word)
+  end function are_alike
+
+  !> Saves or restores all but the number of a quantity.
+  pure subroutine visit_description(archive, quantity)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(quantity_type), intent(inout) :: quantity !! written where the archive restores
+
+    call archive%visit('name', quantity%name)
+    call archive%visit('unit', quantity%unit)
+    call archive%visit('meaning', quantity%meaning)
+    call archive%visit('kind', quantity%kind)
+    call archive%visit('word', quantity%word)
+  end subroutine visit_description
 end module gfb_quantity

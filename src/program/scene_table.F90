@@ -2,7 +2,7 @@
 !> Several scenes side by side: every group of ranks takes the next one that is left.
 module gfb_scene_table
   use petscsys
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
@@ -11,7 +11,7 @@ module gfb_scene_table
   use gfb_result_phrases, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
-  use gfb_table_file, only: table_member_type, write_table_file, remember_member
+  use gfb_table_file, only: table_member_type, write_table_file, visit_member
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
   use gfb_text_file, only: write_unfinished_text
@@ -52,8 +52,8 @@ contains
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status                !! exit status of the program
 
-    type(memory_type) :: mine
-    type(memory_type), allocatable :: all(:)
+    type(archive_type) :: mine
+    type(archive_type), allocatable :: all(:)
     type(table_member_type), allocatable :: members(:)
     type(table_member_type) :: one
     type(error_type), allocatable :: error
@@ -70,7 +70,7 @@ contains
     do while (member <= size(scenes))
       call run_member(scenes(member), run_scene, context, job, one)
       call mine%visit('number', member)
-      call remember_member(mine, one)
+      call visit_member(mine, one)
       status = max(status, one%status)
       call job%next_member(member)
     end do
@@ -132,7 +132,7 @@ contains
 
   !> The members in the order of the command line, from what the groups have sent.
   subroutine read_members(all, number, members)
-    type(memory_type), intent(inout) :: all(:)
+    type(archive_type), intent(inout) :: all(:)
     integer, intent(in) :: number !! of members
     type(table_member_type), allocatable, intent(out) :: members(:)
     integer :: i, member
@@ -143,7 +143,7 @@ contains
         member = 0
         call all(i)%visit('number', member)
         if (member < 1 .or. member > number) error stop 'what a group of ranks has sent is no member of the table'
-        call remember_member(all(i), members(member))
+        call visit_member(all(i), members(member))
       end do
     end do
   end subroutine read_members

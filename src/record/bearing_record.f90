@@ -1,7 +1,7 @@
 !> What is kept of a bearing's answers: a row of the history and the contacts, for each.
 module gfb_bearing_record
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
   use gfb_results, only: add_result
   use gfb_result_names, only: result_unit, result_meaning
@@ -12,19 +12,16 @@ module gfb_bearing_record
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
-  use gfb_case_file, only: history_row_type
-  use gfb_grid_series, only: grid_series_type
-  use gfb_series_memory, only: remember_series
-  use gfb_row_memory, only: remember_rows
-  use gfb_petsc_session, only: wall_time
+  use gfb_case_file, only: history_row_type, visit_rows
+  use gfb_grid_series, only: grid_series_type, visit_series
   use gfb_bearing_summary, only: answer_quantities, add_counts
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
-  use gfb_dynamics_record, only: dynamics_record_type, remember_dynamics
-  use gfb_tilt_response, only: tilt_response_type, row_quantities, remember_response
+  use gfb_dynamics_record, only: dynamics_record_type, visit_dynamics
+  use gfb_tilt_response, only: tilt_response_type, row_quantities, visit_response
   implicit none (type, external)
   private
   public :: add_row, analysis_name, sweep_name, sweep_unit
-  public :: remember_record
+  public :: visit_record
 
   !> Answers of a scene, in the order in which they were found.
   type, public :: bearing_record_type
@@ -137,33 +134,26 @@ contains
     end do
   end subroutine move_on
 
-  !> Packs or unpacks a record but for the contacts.
-  subroutine remember_record(memory, record)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(bearing_record_type), intent(inout) :: record !! written where the memory unpacks
+  !> Saves or restores a record but for the contacts and the clock.
+  pure subroutine visit_record(archive, record)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(bearing_record_type), intent(inout) :: record !! written where the archive restores
     type(history_row_type), allocatable :: judged(:)
-    real(wp) :: elapsed ! since the first answer, on another clock
 
-    call memory%part('history')
-    call remember_rows(memory, record%history)
+    call archive%part('history')
+    call visit_rows(archive, record%history)
     allocate (judged(1))
     if (allocated(record%judged)) judged(1)%quantity = record%judged
-    call memory%part('judged')
-    call remember_rows(memory, judged)
-    call memory%part('tilted')
-    call remember_response(memory, record%tilted)
-    call memory%part('dynamics')
-    call remember_dynamics(memory, record%dynamics)
-    call memory%part('series')
-    call remember_series(memory, record%series)
-    elapsed = wall_time() - record%begun
-    call memory%visit('elapsed', elapsed)
-    if (memory%packs .or. memory%failed) return
-    record%begun = wall_time() - elapsed
-    if (size(judged) == 1) then
-      record%judged = judged(1)%quantity
-    else
-      memory%failed = .true.
-    end if
-  end subroutine remember_record
+    call archive%part('judged')
+    call visit_rows(archive, judged)
+    call archive%part('tilted')
+    call visit_response(archive, record%tilted)
+    call archive%part('dynamics')
+    call visit_dynamics(archive, record%dynamics)
+    call archive%part('series')
+    call visit_series(archive, record%series)
+    if (archive%saves) return
+    call archive%require(size(judged) == 1, 'the row of what else is known')
+    if (.not. archive%failed) record%judged = judged(1)%quantity
+  end subroutine visit_record
 end module gfb_bearing_record

@@ -1,20 +1,23 @@
 !> The contacts of a foil, step by step, for `/contact` of the result file.
 module gfb_contact_record
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: visit_field
   use gfb_petsc_session, only: fetch_entries, largest_number
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top, normal_line_force
+  use gfb_contact_memory, only: contact_order
   use gfb_bearing_system, only: bearing_system_type
   use gfb_pad_contacts, only: pad_contacts
   implicit none (type, external)
   private
-  public :: record_contacts, contact_arrays, record_foil_contacts, foil_contact_arrays
+  public :: record_contacts, contact_arrays, record_foil_contacts, foil_contact_arrays, &
+            visit_contact_record
 
   !> of a contact: force and friction along x and z, slip, state
-  integer, parameter, public :: record_fields = 6
-  integer, parameter :: fields = record_fields
+  integer, parameter, public :: fields = 6
 
   !> Contacts of this rank at every step.
   type, public :: contact_record_type
@@ -80,6 +83,30 @@ contains
     longer(:, :, :size(value, 3)) = value
     call move_alloc(longer, value)
   end subroutine make_room
+
+  !> Saves or restores the contacts of the steps so far, a column of numbers each. All ranks ask.
+  subroutine visit_contact_record(archive, contacts, rows, steps, record)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(contact_set_type), intent(in) :: contacts !! that were recorded
+    integer, intent(in) :: rows  !! nodes of a line
+    integer, intent(in) :: steps !! so far
+    !> of all steps; filled where the archive restores
+    type(contact_record_type), intent(inout) :: record
+    real(wp), allocatable :: column(:, :)
+    integer :: i
+
+    if (.not. archive%saves) then
+      allocate (record%value(fields, size(contacts%point), steps), source=0.0_wp)
+    end if
+    allocate (column(fields*steps, size(contacts%point)))
+    do i = 1, size(contacts%point)
+      column(:, i) = reshape(record%value(:, i, :steps), [size(column, 1)])
+    end do
+    call visit_field(archive, 'contacts_by_step', contact_order(contacts, rows), column)
+    do i = 1, size(contacts%point)
+      record%value(:, i, :steps) = reshape(column(:, i), [fields, steps])
+    end do
+  end subroutine visit_contact_record
 
   !> Everything about the contacts, on the first rank's behalf.
   function contact_arrays(contacts, slaves, record, steps) result(arrays)

@@ -6,13 +6,13 @@
 module gfb_dynamics_record
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_text, only: exact_text
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_case_file, only: case_array_type, fill_array, add_arrays
   implicit none (type, external)
   private
-  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, remember_dynamics, &
+  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, visit_dynamics, &
             coefficients_of
 
   !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense, foil's
@@ -325,44 +325,43 @@ contains
     end do
   end function matrix_text
 
-  !> Packs or unpacks a record.
-  pure subroutine remember_dynamics(memory, record)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(dynamics_record_type), intent(inout) :: record !! written where the memory unpacks
+  !> Saves or restores a record.
+  pure subroutine visit_dynamics(archive, record)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(dynamics_record_type), intent(inout) :: record !! written where the archive restores
     integer :: points, i
 
     points = 0
     if (allocated(record%point)) points = size(record%point)
-    call memory%visit('points', points)
-    call memory%visit('onset', record%onset)
-    if (memory%failed) return
-    if (.not. memory%packs) then
+    call archive%visit_count('points', points)
+    call archive%visit('onset', record%onset)
+    if (.not. archive%saves) then
       if (allocated(record%point)) deallocate (record%point)
-      allocate (record%point(max(0, points)))
+      allocate (record%point(points))
     end if
     do i = 1, points
-      call remember_point(memory, record%point(i))
-      if (memory%failed) return
+      call visit_point(archive, record%point(i))
+      if (archive%failed) return
     end do
-  end subroutine remember_dynamics
+  end subroutine visit_dynamics
 
-  !> Packs or unpacks one answer's.
-  pure subroutine remember_point(memory, point)
-    type(memory_type), intent(inout) :: memory
+  !> Saves or restores one answer's.
+  pure subroutine visit_point(archive, point)
+    type(archive_type), intent(inout) :: archive
     type(dynamics_point_type), intent(inout) :: point
     real(wp), allocatable :: parts(:, :)
     integer, parameter :: entries = shaft_coordinates**2
 
-    if (memory%packs) then
+    if (archive%saves) then
       allocate (parts(2*entries, size(point%frequency)))
       parts(:entries, :) = reshape(real(point%coefficient, wp), [entries, size(point%frequency)])
       parts(entries + 1:, :) = reshape(aimag(point%coefficient), [entries, size(point%frequency)])
     end if
-    call memory%visit_sized('frequency', point%frequency)
-    call memory%visit_sized('coefficient', parts)
-    call memory%visit_sized('mode', point%mode)
-    if (memory%packs .or. memory%failed) return
+    call archive%visit_sized('frequency', point%frequency)
+    call archive%visit_sized('coefficient', parts)
+    call archive%visit_sized('mode', point%mode)
+    if (archive%saves .or. archive%failed) return
     point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &
                                 [shaft_coordinates, shaft_coordinates, size(parts, 2)])
-  end subroutine remember_point
+  end subroutine visit_point
 end module gfb_dynamics_record

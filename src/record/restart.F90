@@ -1,10 +1,11 @@
 #include "gfb_petsc.h"
-!> `<case>.restart.h5`: from where a run that was stopped is resumed.
+!> `<case>.restart.h5`: from where a run that was stopped is resumed. It says where it comes from and holds archives,
+!> a group each.
 !>
 !> It is written after every so many steps where the scene asks for that. The solvers then forget their
 !> factors, so that what follows depends on what the file holds and on nothing else: a run that is resumed
 !> from it ends with the digits of one that was never stopped. Otherwise it is written once a minute and
-!> where a run is stopped; the solvers keep their factors, and the run its digits. What is of the mesh stands in an order that does not depend on the ranks.
+!> where a run is stopped; the solvers keep their factors, and the run its digits.
 module gfb_restart
   use petscsys
   use gfb_kinds, only: wp
@@ -16,13 +17,15 @@ module gfb_restart
   use gfb_scene, only: scene_type
   use gfb_scene_text, only: scene_difference
   use gfb_case_file, only: write_quantities
+  use gfb_archive, only: archive_type
+  use gfb_archive_file, only: write_archive, read_archive
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file, keep_result_file, &
                              drop_result_file
   use gfb_stored_file, only: stored_file_type, open_stored_file, close_stored_file
   use gfb_provenance, only: provenance, program_words
   implicit none (type)
   private
-  public :: find_restart, begin_restart_file, end_restart_file, open_restart, check_restart_file, drop_restart
+  public :: find_restart, save_restart, read_restart, end_reading, drop_restart
 
   !> Where a run's restart file is, and whether the run is resumed from it.
   type, public :: restart_type
@@ -31,6 +34,8 @@ module gfb_restart
     integer :: every = 0                     !! steps between files; 0: one a minute
     real(wp), private :: last_time = 0.0_wp  !! when the last one was written, or the run began [s]
     logical :: goes_on = .false.             !! from the file that is there
+    integer :: step = 0                      !! of a run that goes on: number of the step or point that was done
+    real(wp) :: elapsed = 0.0_wp             !! and how long after the first one [s]
   contains
     procedure :: is_due
     procedure :: is_due_after
@@ -38,6 +43,7 @@ module gfb_restart
     procedure :: tell
   end type restart_type
 
+  integer, parameter :: format = 2 !! of the file; the first one had none to say
   real(wp), parameter :: between_files = 60.0_wp !! where no number of steps is given [s]
 
 contains
@@ -124,23 +130,33 @@ contains
   subroutine compare_origin(scene, log, restart, error)
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
-    type(restart_type), intent(in) :: restart
+    type(restart_type), intent(inout) :: restart
     type(error_type), allocatable, intent(out) :: error
 
     type(stored_file_type) :: file
-    character(len=:), allocatable :: program, difference
+    character(len=:), allocatable :: program, own, difference
+    logical :: fits
     integer :: ranks
 
-    call open_restart(restart, file, error)
+    call open_file(restart, file, error)
     if (allocated(error)) return
     program = 'gfb '//file%words('/provenance/program_version')//' ('//file%words('/provenance/commit')//')'
-    difference = scene_difference(file%words('/scene/used'), scene%echo)
+    own = program_words()
+    difference = ''
     ranks = file%count('/provenance/ranks')
-    call check_restart_file(file, error)
-    call close_stored_file(file)
+    fits = file%has('/format')
+    if (fits) fits = file%count('/format') == format
+    if (fits) then
+      difference = scene_difference(file%words('/scene/used'), scene%echo)
+      restart%step = file%count('/step/number')
+      restart%elapsed = file%scalar('/step/elapsed')
+    else
+      own = own//', whose restart files are of another kind'
+    end if
+    call close_file(restart, file, error)
     if (allocated(error)) return
-    if (program /= program_words()) then
-      call fail(error, restart%path//': was written by '//program//', this is '//program_words()// &
+    if (program /= own) then
+      call fail(error, restart%path//': was written by '//program//', this is '//own// &
                 '; run without --restart to start from the beginning')
     else if (difference /= '') then
       call fail(error, restart%path//': belongs to another scene than '//scene%file//': '//difference// &
@@ -151,36 +167,33 @@ contains
     end if
   end subroutine compare_origin
 
-  !> Begins a restart file: where it comes from, and the step after which it is written.
-  !>
-  !> Fails when it cannot be made.
-  subroutine begin_restart_file(scene, restart, step, file, error)
+  !> Writes the file; it replaces the one before when it is whole. A run does not end because it cannot be written.
+  subroutine save_restart(scene, restart, log, step, elapsed, archive)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(restart_type), intent(in) :: restart !! name and origin of the file
+    type(run_log_type), intent(in) :: log !! where lines go
     integer, intent(in) :: step !! number of the step or point that is done
-    type(result_file_type), intent(out) :: file !! is opened
-    type(error_type), allocatable, intent(out) :: error !! why it failed
+    real(wp), intent(in) :: elapsed !! since the first one, where anybody asks [s]
+    type(archive_type), intent(in) :: archive(:) !! that have saved; one without a name is left out
+    type(result_file_type) :: file
+    type(error_type), allocatable :: error
+    integer :: i
 
     call open_result_file(restart%path, PETSC_COMM_WORLD, this_rank() == 0, file, error)
     call share_failure(error)
-    if (allocated(error)) return
-    file%compressed = .false.
-    call file%group('/scene')
-    call file%put_text('/scene/case_file', scene%verbatim, 'the case file as it was read')
-    call file%put_text('/scene/used', scene%echo, 'every key with the value used')
-    call write_quantities(file, '/provenance', provenance(restart%command))
-    call file%group('/step')
-    call file%put_scalar('/step/number', real(step, wp), '1', 'load steps, or points of the sweep, that are done')
-  end subroutine begin_restart_file
-
-  !> Ends a restart file; it replaces the one before when it is whole. A run does not end because
-  !> the file cannot be written.
-  subroutine end_restart_file(file, log, error)
-    type(result_file_type), intent(inout) :: file !! is closed
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(error_type), allocatable, intent(inout) :: error !! of `begin_restart_file`
-
     if (.not. allocated(error)) then
+      file%compressed = .false.
+      call file%put_scalar('/format', real(format, wp), '1', 'of restart files')
+      call file%group('/scene')
+      call file%put_text('/scene/case_file', scene%verbatim, 'the case file as it was read')
+      call file%put_text('/scene/used', scene%echo, 'every key with the value used')
+      call write_quantities(file, '/provenance', provenance(restart%command))
+      call file%group('/step')
+      call file%put_scalar('/step/number', real(step, wp), '1', 'load steps, or points of the sweep, that are done')
+      call file%put_scalar('/step/elapsed', elapsed, 's', 'since the first point was there')
+      do i = 1, size(archive)
+        if (allocated(archive(i)%name)) call write_archive(archive(i), file)
+      end do
       call close_result_file(file, error)
       call share_failure(error)
       if (.not. allocated(error)) call keep_result_file(file, error)
@@ -189,34 +202,79 @@ contains
     if (.not. allocated(error)) return
     call drop_result_file(file)
     call log%warning(error%message//'; the run continues without it')
-    deallocate (error)
-  end subroutine end_restart_file
+  end subroutine save_restart
+
+  !> Reads one of the archives of the file from which the run is resumed.
+  !>
+  !> Fails when it cannot be read.
+  subroutine read_restart(restart, name, archive, error, there)
+    type(restart_type), intent(in) :: restart !! name of the file
+    character(len=*), intent(in) :: name !! of the archive
+    type(archive_type), intent(out) :: archive !! will restore
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    logical, intent(out), optional :: there !! the file has it; without this argument it must
+    type(stored_file_type) :: file
+
+    if (present(there)) there = .false.
+    call open_file(restart, file, error)
+    if (allocated(error)) return
+    if (present(there)) there = file%has('/'//name)
+    call read_archive(name, this_rank(), rank_count(), file, archive)
+    if (present(there)) file%failed = file%failed .and. there
+    call close_file(restart, file, error)
+  end subroutine read_restart
+
+  !> Ends reading an archive.
+  !>
+  !> Fails naming what did not fit.
+  subroutine end_reading(restart, archive, error)
+    type(restart_type), intent(in) :: restart !! name of the file
+    type(archive_type), intent(inout) :: archive !! that has restored
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=:), allocatable :: why
+
+    call archive%finish()
+    why = 'the file is damaged at /'//archive%name
+    if (archive%failed) why = why//': '//archive%problem
+    if (any_rank(archive%failed)) call refuse(restart, why, error)
+  end subroutine end_reading
 
   !> Opens the file from which the run is resumed.
   !>
   !> Fails when it cannot be read.
-  subroutine open_restart(restart, file, error)
-    type(restart_type), intent(in) :: restart !! name of the file
-    type(stored_file_type), intent(out) :: file !! is opened
-    type(error_type), allocatable, intent(out) :: error !! why it failed
+  subroutine open_file(restart, file, error)
+    type(restart_type), intent(in) :: restart
+    type(stored_file_type), intent(out) :: file
+    type(error_type), allocatable, intent(out) :: error
 
     call open_stored_file(restart%path, PETSC_COMM_WORLD, this_rank() == 0, file, error)
     call share_failure(error)
-  end subroutine open_restart
+  end subroutine open_file
 
+  !> Closes it.
+  !>
   !> Fails where something could not be read.
-  subroutine check_restart_file(file, error)
-    type(stored_file_type), intent(in) :: file !! from which all was read
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    character(len=:), allocatable :: problem
+  subroutine close_file(restart, file, error)
+    type(restart_type), intent(in) :: restart
+    type(stored_file_type), intent(inout) :: file
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: why
 
-    if (any_rank(file%failed)) then
-      problem = 'the file is damaged'
-      if (file%refused /= '') problem = file%refused
-      call fail(error, file%path//': '//problem//'; run without --restart to start from the '// &
-                'beginning', status_machine)
-    end if
-  end subroutine check_restart_file
+    call close_stored_file(file)
+    why = 'the file is damaged'
+    if (file%lost /= '') why = why//': '//file%lost//' cannot be read'
+    if (file%refused /= '') why = file%refused
+    if (any_rank(file%failed)) call refuse(restart, why, error)
+  end subroutine close_file
+
+  !> Says why a file does not serve.
+  subroutine refuse(restart, why, error)
+    type(restart_type), intent(in) :: restart
+    character(len=*), intent(in) :: why
+    type(error_type), allocatable, intent(out) :: error
+
+    call fail(error, restart%path//': '//why//'; run without --restart to start from the beginning', status_machine)
+  end subroutine refuse
 
   !> Removes the file of a run that has ended well.
   subroutine drop_restart(restart)

@@ -1,14 +1,13 @@
 !> What is kept of a strip's load steps.
 module gfb_strip_record
-  use gfb_memory, only: memory_type
-  use gfb_strip_answer, only: strip_answer_type, remember_answer
+  use gfb_archive, only: archive_type
+  use gfb_strip_answer, only: strip_answer_type, visit_answer
   use gfb_strip_companions, only: companions_type
-  use gfb_case_file, only: history_row_type
-  use gfb_row_memory, only: remember_rows
+  use gfb_case_file, only: history_row_type, visit_rows
   use gfb_contact_record, only: contact_record_type
   implicit none (type, external)
   private
-  public :: remember_run
+  public :: visit_run
 
   !> What a run gathers.
   type, public :: strip_run_type
@@ -22,17 +21,17 @@ module gfb_strip_record
 
 contains
 
-  !> Packs or unpacks a run but for the contacts; one that is unpacked knows its number of bumps.
-  pure subroutine remember_run(memory, run)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(strip_run_type), intent(inout) :: run !! written where the memory unpacks
+  !> Saves or restores a run but for the contacts; one that is restored knows its number of bumps.
+  pure subroutine visit_run(archive, run)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(strip_run_type), intent(inout) :: run !! written where the archive restores
 
-    call memory%part('history')
-    call remember_rows(memory, run%history)
-    call memory%part('full')
-    call remember_answer(memory, run%full)
-    call memory%part('last')
-    call remember_answer(memory, run%last)
-    call memory%visit('steps', run%steps)
-  end subroutine remember_run
+    call archive%part('history')
+    call visit_rows(archive, run%history)
+    call archive%part('full')
+    call visit_answer(archive, run%full)
+    call archive%part('last')
+    call visit_answer(archive, run%last)
+    call archive%visit('steps', run%steps)
+  end subroutine visit_run
 end module gfb_strip_record

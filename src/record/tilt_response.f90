@@ -2,7 +2,7 @@
 !> the shaft is fixed.
 module gfb_tilt_response
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
@@ -12,13 +12,13 @@ module gfb_tilt_response
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, remember_answer
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, visit_answer
   use gfb_newton, only: newton_type
   use gfb_angular_stiffness, only: angular_stiffness
   implicit none (type, external)
   private
   public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response
-  public :: tilt_axis, remember_response
+  public :: tilt_axis, visit_response
 
   character(len=1), parameter :: axes(2) = ['x', 'y']
 
@@ -178,25 +178,25 @@ contains
     end do
   end subroutine add_slopes
 
-  !> Packs or unpacks what a sweep has told so far.
-  pure subroutine remember_response(memory, response)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(tilt_response_type), intent(inout) :: response !! written where the memory unpacks
+  !> Saves or restores what a sweep has told so far.
+  pure subroutine visit_response(archive, response)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(tilt_response_type), intent(inout) :: response !! written where the archive restores
 
-    call memory%visit('measured', response%measured)
-    call memory%visit('axis', response%axis)
-    call memory%visit('tilt', response%tilt)
-    call memory%visit('slope', response%slope)
-    call memory%visit('first_slope', response%first_slope)
-    call memory%visit('has_secant', response%has_secant)
-    call memory%visit('untilted', response%untilted)
-    call memory%visit('secant', response%secant)
-    call memory%visit('held', response%held)
-    call memory%visit('rubs', response%rubs)
-    call memory%visit('from_equilibrium', response%from_equilibrium)
-    call memory%part('equilibrium')
-    call remember_answer(memory, response%equilibrium)
-  end subroutine remember_response
+    call archive%visit('measured', response%measured)
+    call archive%visit('axis', response%axis)
+    call archive%visit('tilt', response%tilt)
+    call archive%visit('slope', response%slope)
+    call archive%visit('first_slope', response%first_slope)
+    call archive%visit('has_secant', response%has_secant)
+    call archive%visit('untilted', response%untilted)
+    call archive%visit('secant', response%secant)
+    call archive%visit('held', response%held)
+    call archive%visit('rubs', response%rubs)
+    call archive%visit('from_equilibrium', response%from_equilibrium)
+    call archive%part('equilibrium')
+    call visit_answer(archive, response%equilibrium)
+  end subroutine visit_response
 
   !> Lines of the closing block.
   subroutine show_tilt_response(log, response)

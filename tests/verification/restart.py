@@ -283,13 +283,23 @@ def check_refusals(checks, folder, content):
     with h5py.File(file, "r+") as stored:
         del stored["bearing/state"]
     seal(file)
-    refused("a field is missing", 3, "the file is damaged")
+    refused("a field is missing", 3, "the file is damaged: /bearing/state cannot be read")
     file.write_bytes(kept)
     with h5py.File(file, "r+") as stored:
         data = stored["bearing/words"]
         data[()] = data[()].replace(b"edge_height", b"edge_length")
     seal(file)
-    refused("a component has another name", 3, "the file is damaged")
+    refused("a component has another name", 3, "the file is damaged at /bearing: 'edge_height real 24' is missing, "
+            "there is 'edge_length real 24'")
+    for wrong in (None, 1.0, 3.0):
+        file.write_bytes(kept)
+        with h5py.File(file, "r+") as stored:
+            del stored["format"]
+            if wrong:
+                stored["format"] = wrong
+        seal(file)
+        refused(f"a file of the kind {wrong}", 1, "was written by gfb", "this is gfb", "whose restart files are of another kind",
+                "run without --restart")
     file.write_bytes(kept[:len(kept)//2])
     refused("half a file", 3, "cannot be read")
     file.write_bytes(kept)

@@ -1,7 +1,7 @@
 !> What an engineer reads off the bearing's state, over all ranks.
 module gfb_bearing_answer
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
                                   measures_of, extremes, summed
@@ -13,7 +13,7 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, remember_answer
+  public :: bearing_answer, visit_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -231,30 +231,30 @@ contains
     end associate
   end subroutine add_lifts
 
-  !> Packs or unpacks an answer.
-  pure subroutine remember_answer(memory, answer)
-    type(memory_type), intent(inout) :: memory !! packs or unpacks
-    type(bearing_answer_type), intent(inout) :: answer !! written where the memory unpacks
+  !> Saves or restores an answer.
+  pure subroutine visit_answer(archive, answer)
+    type(archive_type), intent(inout) :: archive !! saves or restores
+    type(bearing_answer_type), intent(inout) :: answer !! written where the archive restores
 
-    call memory%visit('eccentricity', answer%eccentricity)
-    call memory%visit('force', answer%force)
-    call memory%visit('force_without_suction', answer%force_without_suction)
-    call memory%visit('friction_torque', answer%friction_torque)
-    call memory%visit('power_loss', answer%power_loss)
-    call memory%visit('minimum_gap', answer%minimum_gap)
-    call memory%visit('minimum_gap_midplane', answer%minimum_gap_midplane)
-    call memory%visit('minimum_gap_edge', answer%minimum_gap_edge)
-    call memory%visit('maximum_pressure', answer%maximum_pressure)
-    call memory%visit('minimum_pressure', answer%minimum_pressure)
-    call memory%visit('maximum_peclet', answer%maximum_peclet)
-    call memory%visit('has_foils', answer%has_foils)
-    call memory%visit('leading_edge_lift', answer%leading_edge_lift)
-    call memory%visit('trailing_edge_lift', answer%trailing_edge_lift)
-    call memory%visit('lifted_length', answer%lifted_length)
-    call memory%visit('has_solid_contact', answer%has_solid_contact)
-    call memory%visit('solid_force', answer%solid_force)
-    call memory%visit('solid_torque', answer%solid_torque)
-    call memory%visit('maximum_solid_pressure', answer%maximum_solid_pressure)
-    call memory%visit('rough_peclet', answer%rough_peclet)
-  end subroutine remember_answer
+    call archive%visit('eccentricity', answer%eccentricity)
+    call archive%visit('force', answer%force)
+    call archive%visit('force_without_suction', answer%force_without_suction)
+    call archive%visit('friction_torque', answer%friction_torque)
+    call archive%visit('power_loss', answer%power_loss)
+    call archive%visit('minimum_gap', answer%minimum_gap)
+    call archive%visit('minimum_gap_midplane', answer%minimum_gap_midplane)
+    call archive%visit('minimum_gap_edge', answer%minimum_gap_edge)
+    call archive%visit('maximum_pressure', answer%maximum_pressure)
+    call archive%visit('minimum_pressure', answer%minimum_pressure)
+    call archive%visit('maximum_peclet', answer%maximum_peclet)
+    call archive%visit('has_foils', answer%has_foils)
+    call archive%visit('leading_edge_lift', answer%leading_edge_lift)
+    call archive%visit('trailing_edge_lift', answer%trailing_edge_lift)
+    call archive%visit('lifted_length', answer%lifted_length)
+    call archive%visit('has_solid_contact', answer%has_solid_contact)
+    call archive%visit('solid_force', answer%solid_force)
+    call archive%visit('solid_torque', answer%solid_torque)
+    call archive%visit('maximum_solid_pressure', answer%maximum_solid_pressure)
+    call archive%visit('rough_peclet', answer%rough_peclet)
+  end subroutine visit_answer
 end module gfb_bearing_answer

@@ -4,13 +4,18 @@ module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: sum_over_ranks, any_rank
+  use gfb_archive, only: archive_type
+  use gfb_text, only: text
+  use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
+  use gfb_natural_order, only: natural_order_type, visit_vector
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_contact_memory, only: visit_contacts
   use gfb_film_load, only: film_forces, acts_on
   use gfb_shaft_motion, only: no_shaft
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_momentum, only: foil_momentum_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
-  use gfb_operating_point, only: operating_point_type
+  use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_local_exchange, only: create_exchange
   use gfb_film_matrix, only: add_shaft_stiffness
   use gfb_pad, only: pad_place_type, complete_pad, place_pads
@@ -18,7 +23,7 @@ module gfb_bearing_system
   use gfb_pad_matrix, only: fill_pad_constant, fill_pad
   implicit none (type)
   private
-  public :: create_bearing_system, number_by
+  public :: create_bearing_system, number_by, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -396,4 +401,75 @@ contains
     PetscCallA(VecDestroy(self%state, ierr))
     deallocate (self%pad, self%unknown_scale)
   end subroutine destroy_bearing
+
+  !> Order of a bearing's state: of each pad film node by node, foil; shaft. All ranks ask.
+  function bearing_order(bearing) result(order)
+    type(bearing_system_type), intent(in) :: bearing !! with its numbering
+    type(natural_order_type) :: order
+    integer, allocatable :: film(:), foil(:)
+    integer :: i, k
+
+    film = film_numbers(bearing%pad(1)%mesh)
+    foil = bearing%pad(1)%foil%natural_numbers()
+    order%number = [film, largest_number(film) + foil]
+    order%total = largest_number(order%number)
+    order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
+    order%total = largest_number(order%number)
+    if (.not. bearing%floats) return
+    associate (scalars => bearing%blocks%border%scalars)
+      if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]
+      order%total = order%total + scalars
+    end associate
+  end function bearing_order
+
+  !> Order of a bearing's state with its path parameter behind it. All ranks ask.
+  function path_order(bearing) result(order)
+    type(bearing_system_type), intent(in) :: bearing !! with its numbering
+    type(natural_order_type) :: order
+
+    order = bearing_order(bearing)
+    order%total = order%total + 1
+    if (bearing%last_rank) order%number = [order%number, order%total]
+  end function path_order
+
+  !> Numbers of the film nodes this rank owns, in the order of the vectors.
+  pure function film_numbers(mesh) result(number)
+    type(local_mesh_type), intent(in) :: mesh
+    integer, allocatable :: number(:)
+    integer :: node, first
+
+    allocate (number(mesh%owned_unknowns), source=0)
+    first = minval(mesh%first_unknown, mesh%owned)
+    do node = 1, size(mesh%mesh_node)
+      if (mesh%owned(node)) number(mesh%first_unknown(node) - first + 1) = mesh%mesh_node(node)
+    end do
+  end function film_numbers
+
+  !> Saves or restores switches, operating point, state and what the contacts remember. All ranks ask.
+  subroutine visit_bearing(archive, bearing)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(bearing_system_type), intent(inout) :: bearing !! at an answer; put there where the archive restores
+    integer :: i
+
+    call visit_switches(archive, bearing)
+    call visit_vector(archive, 'state', bearing_order(bearing), bearing%state)
+    do i = 1, size(bearing%pad)
+      associate (contacts => bearing%pad(i)%foil%contacts)
+        call visit_contacts(archive, 'contacts_'//text(i), contacts%rows, contacts)
+      end associate
+    end do
+  end subroutine visit_bearing
+
+  !> Of these all that is no field.
+  pure subroutine visit_switches(archive, bearing)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(bearing_system_type), intent(inout) :: bearing !! written where the archive restores
+    integer :: i
+
+    call archive%visit('shaft_fixed', bearing%shaft_fixed)
+    do i = 1, size(bearing%pad)
+      call archive%visit('upwind', bearing%pad(i)%film%flow%upwind)
+    end do
+    call visit_point(archive, bearing%point)
+  end subroutine visit_switches
 end module gfb_bearing_system

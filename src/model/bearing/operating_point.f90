@@ -1,11 +1,11 @@
 !> Speed, load and position of the shaft.
 module gfb_operating_point
   use gfb_kinds, only: wp, most_pads
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_shaft_motion, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: point_between, remember_point
+  public :: point_between, visit_point
 
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
@@ -85,21 +85,21 @@ contains
     point%edge_height = first%edge_height + fraction*(last%edge_height - first%edge_height)
   end function point_between
 
-  !> Packs or unpacks a point.
-  pure subroutine remember_point(memory, point)
-    type(memory_type), intent(inout) :: memory !! packs or unpacks
-    type(operating_point_type), intent(inout) :: point !! written where the memory unpacks
+  !> Saves or restores a point.
+  pure subroutine visit_point(archive, point)
+    type(archive_type), intent(inout) :: archive !! saves or restores
+    type(operating_point_type), intent(inout) :: point !! written where the archive restores
 
-    call memory%visit('speed', point%speed)
-    call memory%visit('load', point%load)
-    call memory%visit('eccentricity', point%eccentricity)
-    call memory%visit('tilt', point%tilt)
-    call memory%visit('inertia', point%inertia)
-    call memory%visit('torque', point%torque)
-    call memory%visit('tilt_inertia', point%tilt_inertia)
-    call memory%visit('edge_pull', point%edge_pull)
-    call memory%visit('edge_tension', point%edge_tension)
-    call memory%visit('edge_hold', point%edge_hold)
-    call memory%visit('edge_height', point%edge_height)
-  end subroutine remember_point
+    call archive%visit('speed', point%speed)
+    call archive%visit('load', point%load)
+    call archive%visit('eccentricity', point%eccentricity)
+    call archive%visit('tilt', point%tilt)
+    call archive%visit('inertia', point%inertia)
+    call archive%visit('torque', point%torque)
+    call archive%visit('tilt_inertia', point%tilt_inertia)
+    call archive%visit('edge_pull', point%edge_pull)
+    call archive%visit('edge_tension', point%edge_tension)
+    call archive%visit('edge_hold', point%edge_hold)
+    call archive%visit('edge_height', point%edge_height)
+  end subroutine visit_point
 end module gfb_operating_point

@@ -3,7 +3,7 @@
 module gfb_strip_answer
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, measures_of
@@ -14,7 +14,7 @@ module gfb_strip_answer
   implicit none (type)
   private
   public :: start_recorder, resume_recorder, read_answer, destroy_recorder
-  public :: remember_answer
+  public :: visit_answer
 
   integer, parameter :: radial = 2, axial = 3
   integer, parameter :: states = state_slip - state_open + 1
@@ -162,23 +162,23 @@ contains
     PetscCallA(VecDestroy(recorder%change, ierr))
   end subroutine destroy_recorder
 
-  !> Packs or unpacks an answer; one that is unpacked knows its number of bumps.
-  pure subroutine remember_answer(memory, answer)
-    type(memory_type), intent(inout) :: memory !! packs or unpacks
-    type(strip_answer_type), intent(inout) :: answer !! written where the memory unpacks
+  !> Saves or restores an answer; one that is restored knows its number of bumps.
+  pure subroutine visit_answer(archive, answer)
+    type(archive_type), intent(inout) :: archive !! saves or restores
+    type(strip_answer_type), intent(inout) :: answer !! written where the archive restores
 
-    call memory%visit('factor', answer%factor)
-    call memory%visit('force', answer%force)
-    call memory%visit('travel', answer%travel)
-    call memory%visit('deflection', answer%deflection)
-    call memory%visit('count', answer%count)
-    call memory%visit('external_work', answer%external_work)
-    call memory%visit('strain_energy', answer%strain_energy)
-    call memory%visit('penalty_energy', answer%penalty_energy)
-    call memory%visit('friction_work', answer%friction_work)
-    call memory%visit('penetration', answer%contact%penetration)
-    call memory%visit('slip', answer%contact%slip)
-    call memory%visit('lacking', answer%contact%lacking)
-    call memory%visit('round_off', answer%round_off)
-  end subroutine remember_answer
+    call archive%visit('factor', answer%factor)
+    call archive%visit('force', answer%force)
+    call archive%visit('travel', answer%travel)
+    call archive%visit('deflection', answer%deflection)
+    call archive%visit('count', answer%count)
+    call archive%visit('external_work', answer%external_work)
+    call archive%visit('strain_energy', answer%strain_energy)
+    call archive%visit('penalty_energy', answer%penalty_energy)
+    call archive%visit('friction_work', answer%friction_work)
+    call archive%visit('penetration', answer%contact%penetration)
+    call archive%visit('slip', answer%contact%slip)
+    call archive%visit('lacking', answer%contact%lacking)
+    call archive%visit('round_off', answer%round_off)
+  end subroutine visit_answer
 end module gfb_strip_answer

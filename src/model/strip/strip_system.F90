@@ -8,7 +8,8 @@ module gfb_strip_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_petsc_session, only: any_rank
+  use gfb_petsc_session, only: any_rank, this_rank, rank_count, largest_number
+  use gfb_natural_order, only: natural_order_type
   use gfb_bump_contacts, only: contact_top
   use gfb_contact_set, only: contact_set_type
   use gfb_errors, only: error_type
@@ -21,7 +22,7 @@ module gfb_strip_system
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
-  public :: create_strip_system, destroy_strip_system
+  public :: create_strip_system, destroy_strip_system, strip_order
 
   integer, parameter, public :: plate_none = 0  !! the crests carry given forces
   integer, parameter, public :: plate_forced = 1
@@ -393,4 +394,16 @@ contains
     call destroy_foil_structure(strip%foil)
     strip%created = .false.
   end subroutine destroy_strip_system
+
+  !> Order of a strip's state: node by node, then the plate. All ranks ask.
+  function strip_order(strip) result(order)
+    type(strip_system_type), intent(in) :: strip !! with its numbering
+    type(natural_order_type) :: order
+
+    order%number = strip%foil%natural_numbers()
+    order%total = largest_number(order%number)
+    if (strip%plate /= plate_forced) return
+    order%total = order%total + 1
+    if (this_rank() == rank_count() - 1) order%number = [order%number, order%total]
+  end function strip_order
 end module gfb_strip_system

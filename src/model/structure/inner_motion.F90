@@ -12,6 +12,9 @@ module gfb_inner_motion
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_archive, only: archive_type
+  use gfb_petsc_session, only: largest_number
+  use gfb_natural_order, only: natural_order_type, visit_field
   use gfb_backward_difference, only: free_value, newest_rate
   use gfb_modal_step, only: modal_amplitude, modal_acceleration
   use gfb_inner_modes, only: inner_modes_type, inner_block, add_to_pieces
@@ -38,6 +41,7 @@ module gfb_inner_motion
     procedure :: carry
     procedure :: add_force
     procedure :: add_stiffness
+    procedure :: visit
     procedure :: destroy
     procedure, private :: driven_by
   end type inner_motion_type
@@ -198,6 +202,33 @@ contains
     end if
     PetscCallA(MatAXPY(jacobian, 1.0_wp, self%stiffness, SAME_NONZERO_PATTERN, ierr))
   end subroutine add_stiffness
+
+  !> Saves or restores amplitudes, then their rates, now and one step ago: piece by piece along the foil, pad by pad.
+  subroutine visit(self, archive)
+    class(inner_motion_type), intent(inout) :: self !! the modes, where there are any; written where the archive restores
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    character(len=*), parameter :: name(2) = [character(len=12) :: 'modes', 'modes_before']
+    type(natural_order_type) :: pieces
+    logical, allocatable :: has(:, :) ! (modes, pieces)
+    integer, allocatable :: modes(:)
+    real(wp), allocatable :: value(:, :)
+    integer :: step, most, i
+
+    if (.not. self%present) return
+    pieces%number = [(self%inner(i)%place, i=1, size(self%inner))]
+    pieces%total = largest_number(pieces%number)
+    modes = [(spread(size(self%inner(i)%eigenvalue), 1, size(self%inner(i)%place)), i=1, size(self%inner))]
+    most = largest_number(modes)
+    has = spread([(i, i=1, most)], 2, size(modes)) <= spread(modes, 1, most)
+    allocate (value(2*most, size(modes)))
+    do step = 1, 2
+      value(:most, :) = unpack(self%amplitude(:, step), has, 0.0_wp)
+      value(most + 1:, :) = unpack(self%rate(:, step), has, 0.0_wp)
+      call visit_field(archive, trim(name(step)), pieces, value)
+      self%amplitude(:, step) = pack(value(:most, :), has)
+      self%rate(:, step) = pack(value(most + 1:, :), has)
+    end do
+  end subroutine visit
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy(self)

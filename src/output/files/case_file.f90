@@ -3,13 +3,15 @@ module gfb_case_file
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_quantity, only: quantity_type, quantity_word, quantity_number
+  use gfb_archive, only: archive_type
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_number, visit_description, &
+                          are_alike
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   use gfb_text, only: exact_text, text
   implicit none (type, external)
   private
   public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
-            add_arrays, history_csv, history_values
+            add_arrays, history_csv, history_values, visit_rows, visit_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -244,4 +246,85 @@ contains
       words = words//summary(i)%line()//new_line('a')
     end do
   end function summary_text
+
+  !> Saves or restores rows: what a quantity says of its number is not repeated where the row before
+  !> says the same.
+  pure subroutine visit_rows(archive, rows)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    !> written where the archive restores
+    type(history_row_type), allocatable, intent(inout) :: rows(:)
+    real(wp), allocatable :: number(:)
+    integer, allocatable :: new(:) ! quantities that say something else than those of the row before
+    integer :: count, row, known, i
+
+    count = 0
+    if (allocated(rows)) count = size(rows)
+    call archive%visit_count('rows', count)
+    if (.not. archive%saves) then
+      if (allocated(rows)) deallocate (rows)
+      allocate (rows(count))
+    end if
+    known = 0
+    do row = 1, count
+      if (archive%saves) then
+        if (.not. allocated(rows(row)%quantity)) allocate (rows(row)%quantity(0))
+        number = rows(row)%quantity%number
+        new = [(i, i=1, size(number))]
+        if (row > 1) new = pack(new, [(is_new(rows(row - 1)%quantity, i, rows(row)%quantity(i)), &
+                                       i=1, size(number))])
+      end if
+      call archive%visit_sized('row', number)
+      call archive%visit_sized('new', new)
+      if (.not. archive%saves .and. .not. archive%failed) then
+        allocate (rows(row)%quantity(size(number)))
+        known = min(known, size(number))
+        if (row > 1) rows(row)%quantity(:known) = rows(row - 1)%quantity(:known)
+        call archive%require(all(new >= 1 .and. new <= size(number)) .and. &
+                             all([(any(new == i), i=known + 1, size(number))]), &
+                             'what a row says of its numbers')
+        known = size(number)
+      end if
+      if (archive%failed) return
+      do i = 1, size(new)
+        call visit_description(archive, rows(row)%quantity(new(i)))
+      end do
+      rows(row)%quantity%number = number
+    end do
+
+  contains
+
+    !> Whether a quantity of a row says something else than that of the row before.
+    pure logical function is_new(before, i, quantity)
+      type(quantity_type), intent(in) :: before(:), quantity
+      integer, intent(in) :: i !! its number in the row
+      is_new = i > size(before)
+      if (.not. is_new) is_new = .not. are_alike(before(i), quantity)
+    end function is_new
+  end subroutine visit_rows
+
+  !> Saves or restores arrays.
+  pure subroutine visit_arrays(archive, arrays)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    !> written where the archive restores
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    integer :: i, number
+
+    number = 0
+    if (allocated(arrays)) number = size(arrays)
+    call archive%visit_count('arrays', number)
+    if (.not. archive%saves) then
+      if (allocated(arrays)) deallocate (arrays)
+      allocate (arrays(number))
+    end if
+    do i = 1, number
+      call archive%visit('path', arrays(i)%path)
+      call archive%visit('unit', arrays(i)%unit)
+      call archive%visit('meaning', arrays(i)%meaning)
+      call archive%visit_sized('values', arrays(i)%values)
+      call archive%visit('by_step', arrays(i)%by_step)
+      call archive%visit('rows', arrays(i)%rows)
+      call archive%visit('order', arrays(i)%order)
+      if (archive%failed) return
+    end do
+  end subroutine visit_arrays
 end module gfb_case_file

@@ -11,11 +11,12 @@ module gfb_stored_file
   private
   public :: open_stored_file, close_stored_file
 
-  !> An open file. What cannot be read from it leaves `failed` behind, and zeros; of contents that
-  !> lie in another file, or are more than this one can hold, `refused` says which they are.
+  !> An open file. What cannot be read from it leaves `failed` behind, and zeros; `lost` says which
+  !> that was; of contents that lie in another file, or are more than this one can hold, `refused`.
   type, public :: stored_file_type
     character(len=:), allocatable :: path
     logical :: failed = .false. !! something could not be read on this rank
+    character(len=:), allocatable :: lost    !! path of what could not be read first, or empty
     character(len=:), allocatable :: refused !! what was not read on purpose, and why, or empty
     integer(hid_t), private :: file = -1
   contains
@@ -25,9 +26,10 @@ module gfb_stored_file
     procedure :: count => whole_number
     procedure :: numbers
     procedure :: block => block_of_rank
-    procedure, private :: entries_of
+    procedure :: find_shape
     procedure, private :: open_dataset
     procedure, private :: refuse
+    procedure, private :: lose
   end type stored_file_type
 
 contains
@@ -45,6 +47,7 @@ contains
 
     file%path = path
     file%refused = ''
+    file%lost = ''
     call compare_seal(path, communicator, first_rank, error)
     if (allocated(error)) return
     call h5open_f(status)
@@ -103,7 +106,7 @@ contains
     call self%open_dataset(path, .true., dataset, status)
     if (status /= 0) return
     call read_text(dataset, words, status)
-    if (status /= 0) self%failed = .true.
+    if (status /= 0) call self%lose(path)
     call h5dclose_f(dataset, ignored)
   end function words
 
@@ -123,7 +126,7 @@ contains
     address = c_loc(value)
     call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status)
     if (status == 0) number = value
-    if (status /= 0) self%failed = .true.
+    if (status /= 0) call self%lose(path)
     call h5dclose_f(dataset, ignored)
   end function scalar
 
@@ -140,39 +143,45 @@ contains
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     real(wp), allocatable :: list(:)
-    integer :: entries
+    integer :: components, entries
 
-    entries = self%entries_of(path)
+    call self%find_shape(path, components, entries)
+    if (components > 1) call self%lose(path)
     list = reshape(self%block(path, 1, 0, entries), [entries])
   end function numbers
 
-  !> Entries of a list; 0 where it cannot be read.
-  function entries_of(self, path) result(entries)
+  !> Components and entries of a list, which has one, or of a field; no entries where it cannot be
+  !> read.
+  subroutine find_shape(self, path, components, entries)
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer :: entries
+    integer, intent(out) :: components, entries !! of an entry; of all ranks
     integer(hid_t) :: dataset, space
-    integer(hsize_t) :: extent(1), most(1)
+    integer(hsize_t) :: extent(2), most(2)
     integer :: status, rank
 
+    components = 1
     entries = 0
     call self%open_dataset(path, .false., dataset, status)
     if (status /= 0) return
+    extent = 1
     call h5dget_space_f(dataset, space, status)
     call h5sget_simple_extent_ndims_f(space, rank, status)
-    if (status == 0 .and. rank == 1) then
-      call h5sget_simple_extent_dims_f(space, extent, most, status)
+    if (status == 0) status = merge(0, -1, rank == 1 .or. rank == 2)
+    if (status == 0) then
+      call h5sget_simple_extent_dims_f(space, extent(3 - rank:), most(3 - rank:), status)
     end if
-    if (status < 0 .or. rank /= 1) then ! the number of dimensions comes back as the status
-      self%failed = .true.
-    else if (extent(1) > huge(entries)) then
+    if (status < 0) then ! the number of dimensions comes back as the status
+      call self%lose(path)
+    else if (any(extent > huge(entries))) then
       call self%refuse(path, 'more numbers than can be counted')
     else
-      entries = int(extent(1))
+      components = int(extent(1))
+      entries = int(extent(2))
     end if
     call h5sclose_f(space, status)
     call h5dclose_f(dataset, status)
-  end function entries_of
+  end subroutine find_shape
 
   !> Consecutive entries of a field, for each rank its own; one component makes it a plain list.
   function block_of_rank(self, path, components, offset, entries) result(block)
@@ -201,7 +210,7 @@ contains
     if (status /= 0) return
     call h5dget_space_f(dataset, space, status)
     if (.not. has_shape(space, rank, components)) then
-      self%failed = .true.
+      call self%lose(path)
       call h5sclose_f(space, ignored)
       call h5dclose_f(dataset, ignored)
       return
@@ -216,7 +225,7 @@ contains
     address = c_loc(buffer)
     call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status, memory, space)
     if (status == 0) block = reshape(buffer(:components*entries), [components, entries])
-    if (status /= 0) self%failed = .true.
+    if (status /= 0) call self%lose(path)
     call h5sclose_f(memory, ignored)
     call h5sclose_f(space, ignored)
     call h5dclose_f(dataset, ignored)
@@ -239,7 +248,7 @@ contains
 
     call h5dopen_f(self%file, path, dataset, status)
     if (status /= 0) then
-      self%failed = .true.
+      call self%lose(path)
       return
     end if
     call h5dget_create_plist_f(dataset, laid, status)
@@ -253,7 +262,7 @@ contains
     home = name_of(self%file)
     there = name_of(dataset)
     if (status /= 0) then
-      self%failed = .true.
+      call self%lose(path)
     else if (others > 0 .or. layout == H5D_VIRTUAL_F .or. there /= home) then
       call self%refuse(path, 'its contents lie in another file, which is not read')
     else if (single .and. entries /= 1) then
@@ -275,6 +284,15 @@ contains
     self%failed = .true.
     if (self%refused == '') self%refused = path//': '//why
   end subroutine refuse
+
+  !> Notes what cannot be read: the first of several.
+  subroutine lose(self, path)
+    class(stored_file_type), intent(inout) :: self !! the file
+    character(len=*), intent(in) :: path !! of what is in the file
+
+    self%failed = .true.
+    if (self%lost == '') self%lost = path
+  end subroutine lose
 
   !> The file in which an object lies, as it was opened.
   function name_of(object) result(name)

@@ -1,15 +1,14 @@
 !> The result file of several scenes: a row a scene.
 module gfb_table_file
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: result_meaning
-  use gfb_case_file, only: history_row_type, write_quantities, write_history
-  use gfb_row_memory, only: remember_rows
+  use gfb_case_file, only: history_row_type, write_quantities, write_history, visit_rows
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   implicit none (type, external)
   private
-  public :: write_table_file, remember_member
+  public :: write_table_file, visit_member
 
   !> What a member of the table is, and how it ended.
   type, public :: table_member_type
@@ -66,21 +65,21 @@ contains
     end do
   end function longest
 
-  !> Packs or unpacks a member.
-  pure subroutine remember_member(memory, member)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(table_member_type), intent(inout) :: member !! written where the memory unpacks
+  !> Saves or restores a member.
+  pure subroutine visit_member(archive, member)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(table_member_type), intent(inout) :: member !! written where the archive restores
     type(history_row_type), allocatable :: rows(:)
 
-    call memory%visit('name', member%name)
-    call memory%visit('reason', member%reason)
-    call memory%visit('status', member%status)
-    call memory%visit('group', member%group)
+    call archive%visit('name', member%name)
+    call archive%visit('reason', member%reason)
+    call archive%visit('status', member%status)
+    call archive%visit('group', member%group)
     allocate (rows(1))
     rows(1) = member%row
-    call remember_rows(memory, rows)
-    if (memory%packs .or. memory%failed) return
-    memory%failed = size(rows) /= 1
-    if (.not. memory%failed) member%row = rows(1)
-  end subroutine remember_member
+    call visit_rows(archive, rows)
+    if (archive%saves) return
+    call archive%require(size(rows) == 1, 'the row of a member')
+    if (.not. archive%failed) member%row = rows(1)
+  end subroutine visit_member
 end module gfb_table_file

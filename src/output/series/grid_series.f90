@@ -6,11 +6,12 @@
 module gfb_grid_series
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int8_t, c_loc
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
   use gfb_grid, only: grid_type, grid_field_type, result_grid_type, block_bounds
   use gfb_rank_parts, only: gather_parts
   implicit none (type, external)
   private
-  public :: begin_step, add_surface, cut_series, join_series, forget_numbers
+  public :: begin_step, add_surface, cut_series, join_series, forget_numbers, visit_series
 
   !> Columns of numbers, with room for more.
   type, public :: columns_type
@@ -333,4 +334,70 @@ contains
     columns%number = columns%number(:, :0)
     columns%used = 0
   end subroutine empty
+
+  !> Saves or restores a series.
+  pure subroutine visit_series(archive, series)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(grid_series_type), intent(inout) :: series !! written where the archive restores
+    integer :: surfaces, i
+
+    call archive%visit('name', series%name)
+    call archive%visit('unit', series%unit)
+    call archive%visit_sized('value', series%value)
+    surfaces = 0
+    if (allocated(series%surface)) surfaces = size(series%surface)
+    call archive%visit_count('surfaces', surfaces)
+    if (.not. archive%saves) then
+      if (allocated(series%surface)) deallocate (series%surface)
+      allocate (series%surface(surfaces))
+    end if
+    do i = 1, surfaces
+      associate (surface => series%surface(i))
+        call archive%visit('surface', surface%name)
+        call visit_columns(archive, 'point', surface%point)
+        call visit_columns(archive, 'cell', surface%cell)
+        call archive%visit_sized('points', surface%points)
+        call archive%visit_sized('cells', surface%cells)
+        call archive%visit_sized('grid', surface%grid)
+        call visit_fields(archive, 'point_fields', surface%point_field)
+        call visit_fields(archive, 'cell_fields', surface%cell_field)
+      end associate
+    end do
+  end subroutine visit_series
+
+  !> Saves or restores fields.
+  pure subroutine visit_fields(archive, name, field)
+    type(archive_type), intent(inout) :: archive
+    character(len=*), intent(in) :: name
+    type(series_field_type), allocatable, intent(inout) :: field(:)
+    integer :: fields, i
+
+    fields = 0
+    if (allocated(field)) fields = size(field)
+    call archive%visit_count(name, fields)
+    if (.not. archive%saves) then
+      if (allocated(field)) deallocate (field)
+      allocate (field(fields))
+    end if
+    do i = 1, fields
+      call archive%visit('name', field(i)%name)
+      call archive%visit('unit', field(i)%unit)
+      call archive%visit('meaning', field(i)%meaning)
+      call visit_columns(archive, 'value', field(i)%value)
+      call archive%visit_sized('offset', field(i)%offset)
+    end do
+  end subroutine visit_fields
+
+  !> Saves or restores columns, without the room for more.
+  pure subroutine visit_columns(archive, name, columns)
+    type(archive_type), intent(inout) :: archive
+    character(len=*), intent(in) :: name
+    type(columns_type), intent(inout) :: columns
+
+    if (archive%saves) columns%number = columns%number(:, :columns%used)
+    call archive%visit_sized(name, columns%number)
+    if (archive%saves) return
+    call archive%require(allocated(columns%number), "'"//name//"' of a series")
+    if (.not. archive%failed) columns%used = size(columns%number, 2)
+  end subroutine visit_columns
 end module gfb_grid_series

@@ -15,6 +15,7 @@ module gfb_newton
                                            ieee_set_halting_mode
   use petscsnes
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
@@ -32,7 +33,7 @@ module gfb_newton
   implicit none (type)
   private
   public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
-            forget_factors, destroy_newton, newton_report_type, work_bound_type
+            forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
 
   real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing tells how steps shrink [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
@@ -393,4 +394,14 @@ contains
     call destroy_secants(newton%secants)
     newton%created = .false.
   end subroutine destroy_newton
+
+  !> Saves or restores what was spent.
+  pure subroutine visit_counts(archive, newton)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(newton_type), intent(inout) :: newton !! written where the archive restores
+
+    call archive%visit('newton_iterations', newton%iterations)
+    call archive%visit('factorizations', newton%factorizations)
+    call archive%visit('factorizations_before', newton%factorizations_before)
+  end subroutine visit_counts
 end module gfb_newton

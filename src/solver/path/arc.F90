@@ -6,13 +6,15 @@
 module gfb_arc
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
+  use gfb_bearing_system, only: bearing_system_type, path_order
+  use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton, visit_counts
   use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
   implicit none (type)
   private
-  public :: create_arc, end_arc
+  public :: create_arc, end_arc, visit_arc, visit_steps
 
   real(wp), parameter, public :: first_step = 1.0e-3_wp
   real(wp), parameter, public :: shortest_step = 1.0e-7_wp
@@ -211,4 +213,40 @@ contains
     PetscCallA(VecDestroy(arc%previous_tangent, ierr))
     PetscCallA(VecDestroy(arc%earlier_tangent, ierr))
   end subroutine end_arc
+
+  !> Saves or restores an arc. All ranks ask.
+  subroutine visit_arc(archive, arc)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(arc_type), intent(inout) :: arc !! written where the archive restores, once it was created
+    type(natural_order_type) :: order
+
+    call visit_steps(archive, arc)
+    order = path_order(arc%bearing)
+    call visit_vector(archive, 'state', order, arc%path%state)
+    call visit_vector(archive, 'previous', order, arc%previous)
+    call visit_vector(archive, 'earlier', order, arc%earlier)
+    call visit_vector(archive, 'tangent', order, arc%tangent)
+    call visit_vector(archive, 'previous_tangent', order, arc%previous_tangent)
+    call visit_vector(archive, 'earlier_tangent', order, arc%earlier_tangent)
+  end subroutine visit_arc
+
+  !> Of it all but the vectors.
+  pure subroutine visit_steps(archive, arc)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(arc_type), intent(inout) :: arc !! written where the archive restores
+
+    call archive%visit('lambda', arc%lambda)
+    call archive%visit('lambda_before', arc%lambda_before)
+    call archive%visit('lambda_earlier', arc%lambda_earlier)
+    call archive%visit('heading', arc%heading)
+    call archive%visit('step', arc%step)
+    call archive%visit('last_length', arc%last_length)
+    call archive%visit('earlier_step', arc%earlier_step)
+    call archive%visit('step_limit', arc%step_limit)
+    call archive%visit('orientation', arc%orientation)
+    call archive%visit('retreats', arc%retreats)
+    call archive%visit('steps', arc%steps)
+    call archive%visit('turned', arc%turned)
+    call visit_counts(archive, arc%newton)
+  end subroutine visit_steps
 end module gfb_arc

@@ -1,12 +1,12 @@
 !> How far a sweep that goes round folds has come.
 module gfb_fold_way
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_arc, only: arc_type
-  use gfb_operating_point, only: operating_point_type, remember_point
+  use gfb_operating_point, only: operating_point_type, visit_point
   implicit none (type, external)
   private
-  public :: remember_way
+  public :: visit_way
 
   !> The path along the branch. Keep it where it is.
   type, public :: fold_way_type
@@ -19,14 +19,14 @@ module gfb_fold_way
 
 contains
 
-  !> Packs or unpacks all but the arc; the sweep knows its last point and its values.
-  pure subroutine remember_way(memory, branch)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(fold_way_type), intent(inout) :: branch !! written where the memory unpacks
+  !> Saves or restores all but the arc; the sweep knows its last point and its values.
+  pure subroutine visit_way(archive, branch)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(fold_way_type), intent(inout) :: branch !! written where the archive restores
 
-    call memory%part('first')
-    call remember_point(memory, branch%first)
-    call memory%visit('kept', branch%kept)
-    call memory%visit('kept_heading', branch%kept_heading)
-  end subroutine remember_way
+    call archive%part('first')
+    call visit_point(archive, branch%first)
+    call archive%visit('kept', branch%kept)
+    call archive%visit('kept_heading', branch%kept_heading)
+  end subroutine visit_way
 end module gfb_fold_way

@@ -8,16 +8,18 @@
 module gfb_load_step
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: visit_vector
   use gfb_signals, only: stop_agreed
   use gfb_petsc_session, only: any_rank
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_bump_contacts, only: contact_top
-  use gfb_strip_system, only: strip_system_type, plate_moved
+  use gfb_contact_memory, only: visit_contacts
+  use gfb_strip_system, only: strip_system_type, plate_moved, strip_order
   implicit none (type)
   private
   public :: create_load_path, take_load_step, destroy_load_path
-  public :: remember_load_path
+  public :: visit_strip, visit_load_path
 
   real(wp), parameter :: softening(3) = [100.0_wp, 10.0_wp, 1.0_wp] !! of the stick length in a homotopy
   integer, parameter :: most_halvings = 6
@@ -197,17 +199,33 @@ contains
     PetscCallA(VecDestroy(path%before, ierr))
   end subroutine destroy_load_path
 
-  !> Packs or unpacks all but the vectors of the last two answers.
-  pure subroutine remember_load_path(memory, path)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(load_path_type), intent(inout) :: path !! written where the memory unpacks
+  !> Saves or restores a strip's last two answers and what its contacts remember. All ranks ask.
+  subroutine visit_strip(archive, strip, path)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(strip_system_type), intent(inout) :: strip !! put at the last answer where the archive restores
+    type(load_path_type), intent(inout) :: path !! gets both answers there
+    PetscErrorCode :: ierr
 
-    call memory%visit('at_here', path%at_here)
-    call memory%visit('at_before', path%at_before)
-    call memory%visit('answers', path%answers)
-    call memory%visit('homotopies', path%homotopies)
-    call memory%visit('cuts', path%cuts)
-    call memory%visit('at_round_off', path%at_round_off)
-    call memory%visit('round_off', path%round_off)
-  end subroutine remember_load_path
+    call visit_load_path(archive, path)
+    call visit_vector(archive, 'state', strip_order(strip), path%here)
+    call visit_vector(archive, 'state_before', strip_order(strip), path%before)
+    call visit_contacts(archive, 'contacts', strip%foil%mesh%rows, strip%contacts)
+    if (archive%saves .or. archive%failed) return
+    PetscCallA(VecCopy(path%here, strip%state, ierr))
+    call strip%set_factor(path%at_here)
+  end subroutine visit_strip
+
+  !> Of these all but fields.
+  pure subroutine visit_load_path(archive, path)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(load_path_type), intent(inout) :: path !! written where the archive restores
+
+    call archive%visit('at_here', path%at_here)
+    call archive%visit('at_before', path%at_before)
+    call archive%visit('answers', path%answers)
+    call archive%visit('homotopies', path%homotopies)
+    call archive%visit('cuts', path%cuts)
+    call archive%visit('at_round_off', path%at_round_off)
+    call archive%visit('round_off', path%round_off)
+  end subroutine visit_load_path
 end module gfb_load_step

@@ -3,6 +3,8 @@
 module gfb_march_state
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
+  use gfb_text, only: text
   use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_operating_point, only: operating_point_type
@@ -11,7 +13,7 @@ module gfb_march_state
   use gfb_spring_history, only: spring_history_type
   implicit none (type)
   private
-  public :: allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
+  public :: visit_march, allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
 
   real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -184,4 +186,25 @@ contains
     real(wp) :: torque(2)
     torque = self%drive%torque_at(self%time)
   end function outer_torque
+
+  !> Saves or restores all but what follows from the states, and fields.
+  pure subroutine visit_march(archive, march)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(march_type), intent(inout) :: march !! written where the archive restores
+    integer :: i
+
+    call archive%visit('time', march%time)
+    call archive%visit('step', march%step)
+    call archive%visit('next', march%next)
+    call archive%visit('steps', march%steps)
+    call archive%visit('rejections', march%rejections)
+    call archive%visit('velocity', march%velocity)
+    call archive%visit('place', march%place)
+    call archive%visit('first_place', march%first_place)
+    call archive%visit('past_step', march%past_step)
+    call archive%visit('start', march%start%eccentricity)
+    do i = 1, size(march%pad)
+      if (march%pad(i)%springs%local) call archive%visit('spring_drag_'//text(i), march%pad(i)%springs%drag)
+    end do
+  end subroutine visit_march
 end module gfb_march_state

@@ -13,19 +13,21 @@
 module gfb_time_march
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_text, only: text
   use gfb_backward_difference, only: difference_weights, free_value, newest_rate, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on
   use gfb_spring_history, only: begin_springs, damp_springs, follow_springs, recall_springs
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
-                             place_ahead, error_of
+                             place_ahead, error_of, visit_march
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, bearing_order
   use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
   private
-  public :: march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march
+  public :: march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
@@ -108,6 +110,77 @@ contains
     end do
     march%velocity(:, 2) = -acceleration*march%next
   end subroutine begin_falling
+
+  !> Saves or restores a march: numbers, the last two states before the newest, rates of masses, what springs remember.
+  subroutine visit_past(archive, bearing, march)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state, with the mass it had
+    type(march_type), intent(inout) :: march !! that has begun anew where the archive restores
+    type(natural_order_type) :: order
+
+    order = bearing_order(bearing)
+    call visit_march(archive, march)
+    call visit_vector(archive, 'before', order, march%state(2))
+    call visit_vector(archive, 'before_that', order, march%state(3))
+    if (bearing%momentum%present) then
+      call visit_vector(archive, 'rate', order, bearing%momentum%rate(1))
+      call visit_vector(archive, 'rate_before', order, bearing%momentum%rate(2))
+      call bearing%momentum%inner%visit(archive)
+    end if
+    if (march%settings%damps()) call visit_springs(archive, order, bearing, march)
+  end subroutine visit_past
+
+  !> What dampers and Maxwell arms of a foundation remember, now and one step ago. Deflections of stations are unknowns;
+  !> those of local springs follow from the pressures and the dampers' pull.
+  subroutine visit_springs(archive, order, bearing, march)
+    type(archive_type), intent(inout) :: archive
+    type(natural_order_type), intent(in) :: order
+    type(bearing_system_type), intent(in) :: bearing
+    type(march_type), intent(inout) :: march
+    real(wp) :: value(bearing%local_size(), 2)
+    integer :: i
+
+    if (march%pad(1)%springs%local) then
+      value = 0.0_wp
+      do i = 1, size(bearing%pad)
+        value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = march%pad(i)%springs%pull
+      end do
+      call visit_local('spring_pull')
+      do i = 1, size(bearing%pad)
+        march%pad(i)%springs%pull = value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :)
+        if (.not. archive%saves) march%pad(i)%springs%recalled = .true.
+      end do
+    end if
+    if (march%settings%arm%is_present()) then
+      value = 0.0_wp
+      do i = 1, size(bearing%pad)
+        value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = march%pad(i)%springs%relaxed
+      end do
+      call visit_local('arm')
+      do i = 1, size(bearing%pad)
+        march%pad(i)%springs%relaxed = value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :)
+      end do
+    end if
+
+  contains
+
+    !> A value at every local unknown, in two fields.
+    subroutine visit_local(name)
+      character(len=*), intent(in) :: name
+      character(len=*), parameter :: ending(2) = [character(len=7) :: '', '_before']
+      Vec :: vector
+      PetscErrorCode :: ierr
+      integer :: step
+
+      PetscCallA(VecDuplicate(bearing%state, vector, ierr))
+      do step = 1, 2
+        call bearing%exchange%put(value(:, step), vector)
+        call visit_vector(archive, name//trim(ending(step)), order, vector)
+        if (.not. archive%saves) call bearing%exchange%get(vector, value(:, step))
+      end do
+      PetscCallA(VecDestroy(vector, ierr))
+    end subroutine visit_local
+  end subroutine visit_springs
 
   !> Goes on from a restart file, which has left the bearing at the newest state, and the march with all but what follows
   !> from its last two states.

@@ -17,7 +17,7 @@ module gfb_bearing_solution
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing, restart_bearing, start_partitioned
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
-  use gfb_bearing_restart, only: recall_bearing, find_restart_point
+  use gfb_bearing_restart, only: restore_bearing
   use gfb_key_path, only: follow_keys, come_from_thicker
   use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
@@ -173,9 +173,7 @@ contains
     type(scene_type), allocatable :: scene
     type(bearing_plan_type) :: on_way
 
-    next = 0
-    call find_restart_point(sweep%context%restart, next, error)
-    if (allocated(error)) return
+    next = sweep%context%restart%step
     call scene_of(sweep, next, scene, error)
     if (allocated(error)) return
     associate (log => sweep%context%log)
@@ -184,7 +182,7 @@ contains
       call build_bearing(scene, on_way, sweep%bearing, error)
       if (allocated(error)) return
       call create_newton(sweep%newton, sweep%bearing, 'bearing_', sweep%tolerances, log)
-      call recall_bearing(scene, sweep%context%restart, log, sweep%bearing, sweep%newton, sweep%record, next, error)
+      call restore_bearing(scene, sweep%context%restart, log, sweep%bearing, sweep%newton, sweep%record, error)
       if (.not. allocated(error) .and. sweep%partitioned) then
         call create_partitioned(sweep%bearing, sweep%tolerances, log, sweep%sides)
       end if

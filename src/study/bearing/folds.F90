@@ -15,7 +15,7 @@ module gfb_folds
   use gfb_arc, only: end_arc
   use gfb_arc_length, only: begin_arc, advance_arc
   use gfb_fold_way, only: fold_way_type
-  use gfb_bearing_restart, only: keep_bearing, recall_way
+  use gfb_bearing_restart, only: save_bearing, restore_branch
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
   use gfb_answer_record, only: record_swept
@@ -53,7 +53,7 @@ contains
         due = context%restart%is_due_after(kept, points)
         if (stops .and. context%restart%may_be_written()) due = .true.
         if (due .and. .not. ended) then
-          call keep_bearing(sweep%scene, context%restart, context%log, points, sweep%bearing, sweep%newton, &
+          call save_bearing(sweep%scene, context%restart, context%log, points, sweep%bearing, sweep%newton, &
                             sweep%record, branch)
         end if
         if (stops) then
@@ -85,7 +85,7 @@ contains
       begun = .false.
       if (restart%goes_on) then
         call bearing%linearise(bearing%state) ! an arc needs to know which entries the matrix has
-        call recall_way(restart, branch%last, bearing, sweep%newton, branch, begun, error)
+        call restore_branch(restart, branch%last, bearing, sweep%newton, branch, begun, error)
         if (allocated(error)) return
       end if
       if (.not. begun) call begin_arc(bearing, sweep%newton, branch%last, 1.0_wp, branch%arc)

@@ -14,7 +14,7 @@ module gfb_sweep
   use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch, ask_beyond
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
-  use gfb_bearing_restart, only: keep_bearing
+  use gfb_bearing_restart, only: save_bearing
   use gfb_branch_watch, only: watch_branch, note_start
   use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_missing_answer, only: explain_missing
@@ -208,7 +208,7 @@ contains
     if (.not. self%scene%sweep%present) return
     call self%last%keep(self%bearing, self%newton)
     if (.not. self%context%restart%is_due(point)) return
-    call keep_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
+    call save_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
                       self%record)
     if (self%context%restart%every > 0) call forget_partitioned(self%sides)
   end subroutine keep_value
@@ -220,7 +220,7 @@ contains
 
     if (.not. (self%last%known .and. self%context%restart%may_be_written())) return
     call self%last%put_back(self%bearing, self%newton)
-    call keep_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
+    call save_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
                       self%record)
     call self%context%restart%tell(self%context%log, stop_words()//' after point '//text(point)//' of '// &
                                    text(size(self%scene%sweep%values)))

@@ -3,6 +3,7 @@
 module gfb_load_steps
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
@@ -12,14 +13,14 @@ module gfb_load_steps
   use gfb_foil_mesh, only: crest_positions
   use gfb_foil_builder, only: strip_shape
   use gfb_strip_system, only: strip_system_type
-  use gfb_strip_answer, only: strip_recorder_type, start_recorder, read_answer, destroy_recorder
-  use gfb_newton, only: newton_type, newton_report_type
-  use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path
+  use gfb_strip_answer, only: strip_recorder_type, start_recorder, resume_recorder, read_answer, destroy_recorder
+  use gfb_newton, only: newton_type, newton_report_type, forget_factors, visit_counts
+  use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
   use gfb_case_file, only: history_row_type
-  use gfb_contact_record, only: record_contacts
+  use gfb_contact_record, only: record_contacts, visit_contact_record
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header
-  use gfb_strip_record, only: strip_run_type
-  use gfb_strip_restart, only: keep_strip, recall_strip
+  use gfb_strip_record, only: strip_run_type, visit_run
+  use gfb_restart, only: save_restart, read_restart, end_reading
   use gfb_reasons, only: reason_type, reason_load_step
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type, take_walk
@@ -44,6 +45,9 @@ module gfb_load_steps
     procedure :: record_point => record_step
     procedure :: keep_point => keep_step
     procedure :: keep_stopped
+    procedure, private :: save
+    procedure, private :: restore
+    procedure, private :: visit
     procedure, private :: explain
   end type load_steps_type
 
@@ -67,8 +71,7 @@ contains
       run%full = steps%recorder%last
       run%last = steps%recorder%last
       if (steps%context%restart%goes_on) then
-        call recall_strip(steps%context%restart, last, log, steps%strip, steps%newton, steps%path, steps%recorder, &
-                          run, error)
+        call steps%restore(last, error)
         if (allocated(error)) return
       end if
       call show_step_header(log)
@@ -134,8 +137,7 @@ contains
     class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
 
-    if (.not. self%context%restart%is_due(point)) return
-    call keep_strip(self%scene, self%context%restart, self%context%log, self%strip, self%newton, self%path, self%run)
+    if (self%context%restart%is_due(point)) call self%save()
   end subroutine keep_step
 
   !> Writes the restart file of load steps that are stopped after one of them.
@@ -144,10 +146,51 @@ contains
     integer, intent(in) :: point !! number of the last one that has an answer
 
     if (point < 1 .or. .not. self%context%restart%may_be_written()) return
-    call keep_strip(self%scene, self%context%restart, self%context%log, self%strip, self%newton, self%path, self%run)
+    call self%save()
     call self%context%restart%tell(self%context%log, stop_words()//' after step '//text(point)//' of '// &
                                    text(self%scene%strip_load%steps_up + self%scene%strip_load%steps_down))
   end subroutine keep_stopped
+
+  !> Writes the restart file after a step; where files are asked for the solver loses its factors.
+  subroutine save(self)
+    class(load_steps_type), intent(inout) :: self !! the load steps
+    type(archive_type) :: archive(1)
+
+    if (self%context%restart%every > 0) call forget_factors(self%newton)
+    archive(1)%name = 'strip'
+    call self%visit(archive(1))
+    call save_restart(self%scene, self%context%restart, self%context%log, self%run%steps, 0.0_wp, archive)
+  end subroutine save
+
+  !> Puts the strip where the restart file says.
+  !>
+  !> Fails when the file is damaged.
+  subroutine restore(self, steps, error)
+    class(load_steps_type), intent(inout) :: self !! the load steps, as they begin
+    integer, intent(in) :: steps !! that there will be
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(archive_type) :: archive
+
+    call read_restart(self%context%restart, 'strip', archive, error)
+    if (allocated(error)) return
+    call self%visit(archive)
+    call end_reading(self%context%restart, archive, error)
+    if (allocated(error)) return
+    call resume_recorder(self%strip, self%run%last, self%recorder)
+    call self%context%log%line('restart: resumed from step '//text(self%run%steps)//' of '//text(steps))
+  end subroutine restore
+
+  !> Saves or restores strip, counters, and all that was recorded.
+  subroutine visit(self, archive)
+    class(load_steps_type), intent(inout) :: self !! the load steps
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+
+    call visit_strip(archive, self%strip, self%path)
+    call visit_counts(archive, self%newton)
+    call visit_run(archive, self%run)
+    if (archive%failed) return
+    call visit_contact_record(archive, self%strip%contacts, self%strip%foil%mesh%rows, self%run%steps, self%run%contacts)
+  end subroutine visit
 
   !> Says why a step has no answer.
   subroutine explain(self, step, detail, reason)

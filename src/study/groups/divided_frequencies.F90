@@ -6,17 +6,17 @@
 module gfb_divided_frequencies
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_division, only: stretch_of
+  use gfb_division, only: block_ends
   use gfb_c_library, only: peak_memory
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
-  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, remember_dynamics
+  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, visit_dynamics
   use gfb_dynamics_writing, only: record_arrays, write_coefficients
   use gfb_restart, only: drop_restart
   use gfb_provenance, only: version_text
@@ -98,7 +98,7 @@ contains
     if (group == 1) then
       ends(2) = first_share
     else
-      ends = first_share + stretch_of(frequencies - first_share, groups - 1, group - 1)
+      ends = first_share + block_ends(frequencies - first_share, groups - 1, group - 1)
     end if
   end function frequencies_of_group
 
@@ -115,7 +115,7 @@ contains
       call log%line('results go to '//context%folder//', '//text(job%ranks)//' rank(s) in '//text(job%groups)//' group(s)')
       do group = 1, job%groups
         ends = frequencies_of_group(size(frequency), job%groups, group)
-        ranks = stretch_of(job%ranks, job%groups, group)
+        ranks = block_ends(job%ranks, job%groups, group)
         call log%line('group '//text(group)//': '//text(ranks(2) - ranks(1) + 1)//' rank(s), '//text(frequency(ends(1)))// &
                       ' to '//text(frequency(ends(2)))//' rad/s, '//text(ends(2) - ends(1) + 1)//' frequencies, log '// &
                       group_log_path(context%folder, scene%name, group))
@@ -169,33 +169,33 @@ contains
     type(job_type), intent(in) :: job
     type(share_type), intent(inout) :: mine
     type(share_type), allocatable, intent(out) :: shares(:) !! nothing in the other groups
-    type(memory_type) :: memory
-    type(memory_type), allocatable :: sent(:)
+    type(archive_type) :: archive
+    type(archive_type), allocatable :: sent(:)
     integer :: i
 
-    call remember_share(memory, mine)
-    call job%collect(memory, writer, sent)
+    call visit_share(archive, mine)
+    call job%collect(archive, writer, sent)
     allocate (shares(size(sent)))
     do i = 1, size(shares)
-      call remember_share(sent(i), shares(i))
+      call visit_share(sent(i), shares(i))
       call sent(i)%finish()
       if (sent(i)%failed) error stop 'what a group of ranks has sent is no share of the frequencies'
     end do
   end subroutine gather
 
-  !> Packs or unpacks a share.
-  subroutine remember_share(memory, share)
-    type(memory_type), intent(inout) :: memory
+  !> Saves or restores a share.
+  subroutine visit_share(archive, share)
+    type(archive_type), intent(inout) :: archive
     type(share_type), intent(inout) :: share
 
-    call memory%visit('status', share%status)
-    call memory%visit('iterations', share%iterations)
-    call memory%visit('factorizations', share%factorizations)
-    call memory%visit('factorizations_finest', share%factorizations_finest)
-    call memory%visit('reason', share%reason)
-    call memory%part('dynamics')
-    call remember_dynamics(memory, share%dynamics)
-  end subroutine remember_share
+    call archive%visit('status', share%status)
+    call archive%visit('iterations', share%iterations)
+    call archive%visit('factorizations', share%factorizations)
+    call archive%visit('factorizations_finest', share%factorizations_finest)
+    call archive%visit('reason', share%reason)
+    call archive%part('dynamics')
+    call visit_dynamics(archive, share%dynamics)
+  end subroutine visit_share
 
   !> Writes all frequencies with this group's answer, and tells the terminal.
   subroutine write_all(scene, context, job, memory, study, shares, status)

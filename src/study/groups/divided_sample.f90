@@ -8,7 +8,7 @@ module gfb_divided_sample
   use gfb_group_log, only: close_group_log, group_log_path, open_group_log
   use gfb_job_groups, only: job_type
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_petsc_session, only: wall_time
   use gfb_provenance, only: version_text
   use gfb_quantity, only: quantity_type
@@ -17,7 +17,7 @@ module gfb_divided_sample
   use gfb_sample, only: sample_type
   use gfb_sample_writing, only: write_sample
   use gfb_scene, only: scene_type
-  use gfb_table_file, only: remember_member
+  use gfb_table_file, only: visit_member
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -36,8 +36,8 @@ contains
     type(job_type), target, intent(inout) :: job !! that is divided
     integer, intent(out) :: status !! exit status of the program
     type(run_context_type) :: own
-    type(memory_type) :: mine
-    type(memory_type), allocatable :: all(:)
+    type(archive_type) :: mine
+    type(archive_type), allocatable :: all(:)
     type(error_type), allocatable :: error
     real(wp) :: total(4)
     integer :: number
@@ -60,7 +60,7 @@ contains
       do while (number <= scene%sample%count)
         call study%solve_member(scene, own, number)
         call mine%visit('number', number)
-        call remember_member(mine, study%member(number))
+        call visit_member(mine, study%member(number))
         call job%next_member(number)
       end do
       ! Counts of a group are on each of its ranks.
@@ -100,7 +100,7 @@ contains
 
   !> The members that the groups have sent.
   subroutine read_members(all, study)
-    type(memory_type), intent(inout) :: all(:)
+    type(archive_type), intent(inout) :: all(:)
     type(sample_type), intent(inout) :: study
     integer :: i, number
 
@@ -111,7 +111,7 @@ contains
         if (number < 1 .or. number > size(study%member)) then
           error stop 'what a group of ranks has sent is no member of the sample'
         end if
-        call remember_member(all(i), study%member(number))
+        call visit_member(all(i), study%member(number))
       end do
     end do
   end subroutine read_members

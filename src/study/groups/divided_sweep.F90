@@ -7,10 +7,10 @@
 module gfb_divided_sweep
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_division, only: stretch_of
+  use gfb_division, only: block_ends
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_c_library, only: peak_memory
@@ -26,7 +26,7 @@ module gfb_divided_sweep
   use gfb_bearing_writing, only: bearing_result_type, write_bearing
   use gfb_job_groups, only: job_type
   use gfb_group_log, only: group_log_path, open_group_log, close_group_log
-  use gfb_sweep_stretch, only: stretch_type, remember_stretch, merge_histories, merge_arrays, &
+  use gfb_sweep_stretch, only: stretch_type, visit_stretch, merge_histories, merge_arrays, &
                                seam_words, place_text, add_origin, merge_dynamics, merge_series, keep_series
   implicit none (type)
   private
@@ -85,8 +85,8 @@ contains
     call log%line('results go to '//context%folder//', '//text(job%ranks)//' rank(s) in '//text(job%groups)// &
                   ' group(s)')
     do group = 1, job%groups
-      ends = stretch_of(size(scene%sweep%values), job%groups, group)
-      ranks = stretch_of(job%ranks, job%groups, group)
+      ends = block_ends(size(scene%sweep%values), job%groups, group)
+      ranks = block_ends(job%ranks, job%groups, group)
       call log%line('group '//text(group)//': '//text(ranks(2) - ranks(1) + 1)//' rank(s), '// &
                     place_text(scene, ends(1))//' to '//place_text(scene, ends(2))//', '// &
                     text(ends(2) - ends(1) + 1)//' point(s), log '//group_log_path(context%folder, scene%name, group))
@@ -111,7 +111,7 @@ contains
     type(scene_type) :: own
     integer :: ends(2), points
 
-    ends = stretch_of(size(scene%sweep%values), job%groups, job%group)
+    ends = block_ends(size(scene%sweep%values), job%groups, job%group)
     points = ends(2) - ends(1) + 1
     own = scene
     ! What it may write while it runs is its own, and that of as many groups.
@@ -176,7 +176,7 @@ contains
     type(run_log_type) :: terminal
     integer :: ends(2)
 
-    ends = stretch_of(size(scene%sweep%values), job%groups, job%group)
+    ends = block_ends(size(scene%sweep%values), job%groups, job%group)
     mine%first = ends(1)
     mine%last = ends(2)
     mine%status = error%status
@@ -195,16 +195,16 @@ contains
     type(stretch_type), intent(inout) :: mine
     type(bearing_study_type), intent(in) :: study
     type(stretch_type), allocatable, intent(out) :: stretches(:) !! nothing in the other groups
-    type(memory_type) :: memory
-    type(memory_type), allocatable :: sent(:)
+    type(archive_type) :: archive
+    type(archive_type), allocatable :: sent(:)
     integer :: i
 
     mine%first_slope = study%sweep%record%tilted%first_slope
-    call remember_stretch(memory, mine)
-    call job%collect(memory, writer, sent)
+    call visit_stretch(archive, mine)
+    call job%collect(archive, writer, sent)
     allocate (stretches(size(sent)))
     do i = 1, size(stretches)
-      call remember_stretch(sent(i), stretches(i))
+      call visit_stretch(sent(i), stretches(i))
       call sent(i)%finish()
       if (sent(i)%failed) error stop 'what a group of ranks has sent is no stretch of the sweep'
     end do

@@ -8,10 +8,10 @@ module gfb_job_groups
   use petscsys
   use, intrinsic :: iso_fortran_env, only: output_unit
   use gfb_kinds, only: wp, long
-  use gfb_memory, only: memory_type, open_memory
+  use gfb_archive, only: archive_type, open_archive
   use gfb_text, only: text
   use gfb_petsc_session, only: gfb_started, gfb_watch_start
-  use gfb_division, only: stretch_of, owner_of
+  use gfb_division, only: block_ends, owner_of
   use gfb_run_context, only: run_listener_type
   implicit none (type)
   private
@@ -107,7 +107,7 @@ contains
     integer :: rank
     integer :: ends(2)
 
-    ends = stretch_of(job%ranks, job%groups, group)
+    ends = block_ends(job%ranks, job%groups, group)
     rank = ends(1) - 1
   end function first_rank
 
@@ -183,9 +183,9 @@ contains
   !> Brings what every group has packed to all ranks of one group; waits for the last of them.
   subroutine collect(self, mine, group, all)
     class(job_type), intent(in) :: self !! the job
-    type(memory_type), intent(in) :: mine !! this group's
+    type(archive_type), intent(in) :: mine !! this group's
     integer, intent(in) :: group          !! that gets them
-    type(memory_type), allocatable, intent(out) :: all(:) !! one a group, to unpack; none in the other groups
+    type(archive_type), allocatable, intent(out) :: all(:) !! one a group, to unpack; none in the other groups
     real(wp), allocatable :: numbers(:)
     character(len=:), allocatable :: words
     integer :: other, length(2), ierr
@@ -201,7 +201,7 @@ contains
       call MPI_Send(words, len(words), MPI_CHARACTER, first_rank(self, group), 2, MPI_COMM_WORLD, ierr)
       return
     end if
-    call open_memory(numbers, words, all(group))
+    call open_archive(numbers, words, all(group))
     do other = 1, self%groups
       if (other == group) cycle
       associate (source => first_rank(self, other))
@@ -217,7 +217,7 @@ contains
       end associate
       call MPI_Bcast(numbers, length(1), MPI_DOUBLE_PRECISION, 0, PETSC_COMM_WORLD, ierr)
       call MPI_Bcast(words, length(2), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
-      call open_memory(numbers, words, all(other))
+      call open_archive(numbers, words, all(other))
     end do
   end subroutine collect
 

@@ -2,24 +2,22 @@
 module gfb_sweep_stretch
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: compared_names, result_unit
   use gfb_result_phrases, only: with_stretches
   use gfb_result_table, only: name_length
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
-  use gfb_case_file, only: history_row_type, case_array_type
-  use gfb_grid_series, only: grid_series_type, cut_series, join_series
-  use gfb_series_memory, only: remember_series
-  use gfb_row_memory, only: remember_rows, remember_arrays
-  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, remember_dynamics
+  use gfb_case_file, only: history_row_type, case_array_type, visit_rows, visit_arrays
+  use gfb_grid_series, only: grid_series_type, cut_series, join_series, visit_series
+  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, visit_dynamics
   use gfb_tilt_response, only: tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
   implicit none (type, external)
   private
-  public :: remember_stretch, merge_histories, merge_arrays, number_of, seam_words, &
+  public :: visit_stretch, merge_histories, merge_arrays, number_of, seam_words, &
             place_text, add_origin, merge_dynamics, merge_series, keep_series
 
   !> Two paths to one answer differ by less, over the clearance [1].
@@ -46,33 +44,33 @@ module gfb_sweep_stretch
 
 contains
 
-  !> Packs or unpacks a stretch.
-  pure subroutine remember_stretch(memory, stretch)
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
-    type(stretch_type), intent(inout) :: stretch !! written where the memory unpacks
+  !> Saves or restores a stretch.
+  pure subroutine visit_stretch(archive, stretch)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(stretch_type), intent(inout) :: stretch !! written where the archive restores
 
-    call memory%visit('first', stretch%first)
-    call memory%visit('last', stretch%last)
-    call memory%visit('status', stretch%status)
-    call memory%visit('iterations', stretch%iterations)
-    call memory%visit('factorizations', stretch%factorizations)
-    call memory%visit('factorizations_finest', stretch%factorizations_finest)
-    call memory%visit('reason_code', stretch%reason%code)
-    call memory%visit('reason_at', stretch%reason%at)
-    call memory%visit('reason_of', stretch%reason%of)
-    call memory%visit('reason_detail', stretch%reason%detail)
-    call memory%part('row')
-    call remember_rows(memory, stretch%row)
-    call memory%part('next')
-    call remember_rows(memory, stretch%next)
-    call memory%part('contacts')
-    call remember_arrays(memory, stretch%contacts)
-    call memory%visit('first_slope', stretch%first_slope)
-    call memory%part('dynamics')
-    call remember_dynamics(memory, stretch%dynamics)
-    call memory%part('series')
-    call remember_series(memory, stretch%series)
-  end subroutine remember_stretch
+    call archive%visit('first', stretch%first)
+    call archive%visit('last', stretch%last)
+    call archive%visit('status', stretch%status)
+    call archive%visit('iterations', stretch%iterations)
+    call archive%visit('factorizations', stretch%factorizations)
+    call archive%visit('factorizations_finest', stretch%factorizations_finest)
+    call archive%visit('reason_code', stretch%reason%code)
+    call archive%visit('reason_at', stretch%reason%at)
+    call archive%visit('reason_of', stretch%reason%of)
+    call archive%visit('reason_detail', stretch%reason%detail)
+    call archive%part('row')
+    call visit_rows(archive, stretch%row)
+    call archive%part('next')
+    call visit_rows(archive, stretch%next)
+    call archive%part('contacts')
+    call visit_arrays(archive, stretch%contacts)
+    call archive%visit('first_slope', stretch%first_slope)
+    call archive%part('dynamics')
+    call visit_dynamics(archive, stretch%dynamics)
+    call archive%part('series')
+    call visit_series(archive, stretch%series)
+  end subroutine visit_stretch
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
   subroutine merge_histories(scene, stretches, history)

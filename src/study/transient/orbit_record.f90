@@ -1,7 +1,7 @@
 !> Where the shaft was at every step of the last turns, whichever become lines of the history.
 module gfb_orbit_record
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_motion_extremes, only: extremes_of
   use gfb_time_march, only: march_type
   implicit none (type, external)
@@ -23,7 +23,7 @@ module gfb_orbit_record
     procedure :: see => see_step
     procedure :: turn_began
     procedure :: extents
-    procedure :: remember => remember_orbit
+    procedure :: visit => visit_orbit
   end type orbit_record_type
 
 contains
@@ -124,24 +124,25 @@ contains
                         first, last), i=1, size(moving))]
   end function extents
 
-  !> Packs or unpacks the steps.
-  subroutine remember_orbit(self, memory)
-    class(orbit_record_type), intent(inout) :: self !! written where the memory unpacks
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
+  !> Saves or restores the steps.
+  subroutine visit_orbit(self, archive)
+    class(orbit_record_type), intent(inout) :: self !! written where the archive restores
+    type(archive_type), intent(inout) :: archive !! that saves or restores
     real(wp), allocatable :: steps(:, :)
 
     allocate (steps(size(self%motion, 1) + 2, self%steps))
     steps(1, :) = self%time(:self%steps)
     steps(2, :) = self%turns(:self%steps)
     steps(3:, :) = self%motion(:, :self%steps)
-    call memory%visit_sized('orbit', steps)
-    memory%failed = memory%failed .or. .not. allocated(steps)
-    if (memory%packs .or. memory%failed) return
-    memory%failed = size(steps, 1) /= size(self%motion, 1) + 2
-    if (memory%failed) return
+    call archive%visit_sized('orbit', steps)
+    if (archive%saves) return
+    call archive%require(allocated(steps), 'the orbit')
+    if (archive%failed) return
+    call archive%require(size(steps, 1) == size(self%motion, 1) + 2, 'the orbit')
+    if (archive%failed) return
     self%steps = size(steps, 2)
     self%time = steps(1, :)
     self%turns = steps(2, :)
     self%motion = steps(3:, :)
-  end subroutine remember_orbit
+  end subroutine visit_orbit
 end module gfb_orbit_record

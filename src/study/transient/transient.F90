@@ -2,17 +2,19 @@
 !> A shaft over time, from an equilibrium or a given position on.
 module gfb_transient
   use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
+  use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, newton_report_type
+  use gfb_newton, only: newton_type, newton_report_type, forget_factors
   use gfb_transient_drive, only: drive_of, settings_of
   use gfb_transient_start, only: begin_transient
-  use gfb_time_march, only: march_type, take_step, end_march
+  use gfb_time_march, only: march_type, take_step, end_march, visit_past, rebuild_past
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
@@ -20,8 +22,10 @@ module gfb_transient
   use gfb_transient_history, only: transient_history_type
   use gfb_orbit_record, only: plane_motion, tilt_motion
   use gfb_bearing_record, only: bearing_record_type
-  use gfb_restart, only: restart_type
-  use gfb_transient_restart, only: keep_march, recall_march
+  use gfb_petsc_session, only: wall_time
+  use gfb_foil_mass_choice, only: resume_momentum
+  use gfb_bearing_restart, only: visit_answer_and_record
+  use gfb_restart, only: restart_type, save_restart, read_restart, end_reading
   use gfb_transient_fields, only: keep_fields
   implicit none (type)
   private
@@ -41,6 +45,9 @@ module gfb_transient
     procedure, private :: look_for_steady_orbit
     procedure, private :: change_of_orbit
     procedure, private :: judge_end
+    procedure, private :: save
+    procedure, private :: restore
+    procedure, private :: visit
   end type transient_type
 
 contains
@@ -66,7 +73,7 @@ contains
     if (.not. context%restart%goes_on) then
       call keep_fields(scene, self%march, bearing, record%series)
     else
-      call recall_march(scene, context%restart, bearing, self%march, self%history, error)
+      call self%restore(scene, context%restart, bearing, error)
       if (.not. allocated(error)) call context%log%line('restart: resumed from '//place_in_time(self%march))
     end if
     if (.not. allocated(error)) call follow_shaft(self, scene, context, bearing, newton, record, reason)
@@ -112,14 +119,14 @@ contains
           reason%code = reason_stopped
           reason%detail = stop_words()//' at '//place_in_time(march)
           if (restart%may_be_written()) then
-            call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
+            call self%save(scene, restart, log, bearing, newton, record)
             call restart%tell(log, reason%detail)
           end if
         end if
         if (reason%is_given()) exit
         due = restart%is_due(march%steps)
         if (due .and. march%time < march%settings%end_time) then
-          call keep_march(scene, restart, log, bearing, newton, record, march, self%history)
+          call self%save(scene, restart, log, bearing, newton, record)
         end if
         call log%is_within(place_in_time(march), (march%time - from)/(march%settings%end_time - from))
       end do
@@ -137,6 +144,58 @@ contains
       end if
     end associate
   end subroutine follow_shaft
+
+  !> Writes the restart file after a step: the steady state before, the last three states, and the lines so far.
+  subroutine save(self, scene, restart, log, bearing, newton, record)
+    class(transient_type), intent(inout) :: self !! its way
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(restart_type), intent(in) :: restart !! name and origin of the file
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    type(newton_type), intent(inout) :: newton !! its solver; loses its factors where files are asked for
+    type(bearing_record_type), intent(inout) :: record !! of the steady state before
+    type(archive_type) :: archive(2)
+
+    if (restart%every > 0) call forget_factors(newton)
+    archive(1)%name = 'bearing'
+    call visit_answer_and_record(archive(1), bearing, newton, record)
+    archive(2)%name = 'march'
+    call self%visit(archive(2), scene, bearing)
+    call save_restart(scene, restart, log, self%march%steps, wall_time() - record%begun, archive)
+  end subroutine save
+
+  !> Puts a march that has begun anew where the file says; the bearing stands there already (`restore_bearing`).
+  !>
+  !> Fails when the file is damaged.
+  subroutine restore(self, scene, restart, bearing, error)
+    class(transient_type), intent(inout) :: self !! its way; gets its past and the lines so far
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(restart_type), intent(in) :: restart !! the file to resume from
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(archive_type) :: archive
+
+    call read_restart(restart, 'march', archive, error)
+    if (allocated(error)) return
+    call self%visit(archive, scene, bearing)
+    call end_reading(restart, archive, error)
+    if (.not. allocated(error)) call rebuild_past(bearing, self%march)
+  end subroutine restore
+
+  !> Saves or restores the march and its lines; foils get the mass that they had.
+  subroutine visit(self, archive, scene, bearing)
+    class(transient_type), intent(inout) :: self !! its way
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    logical :: has_mass
+
+    has_mass = bearing%momentum%present
+    call archive%visit('foil_mass', has_mass)
+    if (has_mass .and. .not. archive%saves) call resume_momentum(scene, bearing)
+    call visit_past(archive, bearing, self%march)
+    call self%history%visit(archive)
+  end subroutine visit
 
   !> Time and turns, in words.
   function place_in_time(march) result(words)

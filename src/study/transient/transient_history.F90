@@ -2,7 +2,7 @@
 !> What is kept of a shaft over time: a line a step, or every few steps.
 module gfb_transient_history
   use gfb_kinds, only: wp
-  use gfb_memory, only: memory_type
+  use gfb_archive, only: archive_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -61,7 +61,7 @@ module gfb_transient_history
     procedure :: see => see_step
     procedure :: arrays => history_arrays
     procedure :: lacks_spectrum
-    procedure :: remember => remember_history
+    procedure :: visit => visit_history
   end type transient_history_type
 
 contains
@@ -189,20 +189,22 @@ contains
     end associate
   end function lacks_spectrum
 
-  !> Packs or unpacks the lines.
-  subroutine remember_history(self, memory)
-    class(transient_history_type), intent(inout) :: self !! written where the memory unpacks
-    type(memory_type), intent(inout) :: memory !! that packs or unpacks
+  !> Saves or restores the lines.
+  subroutine visit_history(self, archive)
+    class(transient_history_type), intent(inout) :: self !! written where the archive restores
+    type(archive_type), intent(inout) :: archive !! that saves or restores
     real(wp), allocatable :: lines(:, :)
 
     lines = self%values(:, :self%lines)
-    call memory%visit_sized('lines', lines)
-    call memory%visit('smallest_gap', self%smallest_gap)
-    call self%orbit%remember(memory)
-    memory%failed = memory%failed .or. .not. allocated(lines)
-    if (memory%packs .or. memory%failed) return
-    memory%failed = size(lines, 1) /= size(self%values, 1)
+    call archive%visit_sized('lines', lines)
+    call archive%visit('smallest_gap', self%smallest_gap)
+    call self%orbit%visit(archive)
+    if (archive%saves) return
+    call archive%require(allocated(lines), 'the lines so far')
+    if (archive%failed) return
+    call archive%require(size(lines, 1) == size(self%values, 1), 'the lines so far')
+    if (archive%failed) return
     self%lines = size(lines, 2)
     call move_alloc(lines, self%values)
-  end subroutine remember_history
+  end subroutine visit_history
 end module gfb_transient_history

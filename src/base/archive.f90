@@ -1,102 +1,137 @@
-!> What a run remembers, component by component: one routine of a type both packs and unpacks it.
+!> What is stored and read back, component by component: one routine of a type both saves and
+!> restores it.
 !>
 !> The routine of a type visits each component under its name:
-!> `call memory%visit('load', point%load)`. While a memory packs, a visit adds a line with name,
-!> kind and shape to the memory's words and the values, with all their bits, to its numbers; a text
-!> follows its line. While it unpacks, a visit takes both off again, in the same order. A component
-!> that does not fit, and every one after it, stays as it was and leaves `failed` behind.
-module gfb_memory
+!> `call archive%visit('load', point%load)`. While an archive saves, a visit adds a line with name,
+!> kind and shape to the archive's words and the values, with all their bits, to its numbers; a text
+!> follows its line. While it restores, a visit takes both off again, in the same order. A component
+!> that does not fit, and every one after it, stays as it was, leaves `failed` behind, and names
+!> itself in `problem`.
+!>
+!> An archive lies in memory: it is sent from one group of ranks to another, or becomes a group of a
+!> restart file (`gfb_archive_file`). Numbers and words are the same on all ranks; of a field each
+!> rank has a block.
+module gfb_archive
   use gfb_kinds, only: wp, long
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: open_memory
+  public :: open_archive
 
   character(len=1), parameter :: line_end = new_line('a')
   character(len=*), parameter :: missing = ' none' !! instead of the shape of what is not allocated
 
-  !> Numbers, and words that say what they are. A new one packs.
-  type, public :: memory_type
-    logical :: packs = .true.   !! otherwise it unpacks
-    logical :: failed = .false. !! something did not fit while it was unpacked
-    real(wp), allocatable, private :: number(:)          !! with room for more while it packs
-    character(len=:), allocatable, private :: letters    !! with room for more while it packs
-    integer, private :: numbers_done = 0, letters_done = 0 !! packed or unpacked so far
+  integer, parameter :: most_letters = 60 !! of a line that does not fit, in words
+
+  !> A rank's block of a field.
+  type, public :: archive_field_type
+    character(len=:), allocatable :: name
+    integer :: total = 0                 !! entries on all ranks
+    integer :: offset = 0                !! before those of this rank
+    real(wp), allocatable :: block(:, :) !! (components, entries of this rank), in any unit
+  end type archive_field_type
+
+  !> Numbers, words that say what they are, and fields. A new one saves.
+  type, public :: archive_type
+    logical :: saves = .true.   !! otherwise it restores
+    logical :: failed = .false. !! something did not fit while it restored
+    character(len=:), allocatable :: name    !! of the archive among others
+    character(len=:), allocatable :: problem !! which component did not fit first, where one did not
+    type(archive_field_type), allocatable :: field(:)
+    real(wp), allocatable, private :: number(:)          !! with room for more while it saves
+    character(len=:), allocatable, private :: letters    !! with room for more while it saves
+    integer, private :: numbers_done = 0, letters_done = 0, fields_done = 0 !! saved or restored
   contains
     procedure :: part
-    !> Packs or unpacks a component whose shape is known; a text is of any length.
-    generic :: visit => visit_real, visit_reals, visit_matrix, visit_integer, &
+    !> Saves or restores a component whose shape is known; a text is of any length.
+    generic :: visit => visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
       visit_integer_matrix, visit_logical, visit_text
-    !> Packs or unpacks an allocatable array with its shape.
+    !> Saves or restores an allocatable array with its shape.
     generic :: visit_sized => visit_sized_reals, visit_sized_matrix, visit_sized_integers
+    procedure :: visit_count
+    procedure :: visit_block
+    procedure :: require
     procedure :: is_used_up
     procedure :: finish
     procedure :: numbers
     procedure :: words
-    procedure, private :: visit_real, visit_reals, visit_matrix, visit_integer, &
+    procedure, private :: visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
       visit_integer_matrix, visit_logical, visit_text
     procedure, private :: visit_sized_reals, visit_sized_matrix, visit_sized_integers
     procedure, private :: pass_line, pass_shape, pass_numbers, pass_whole_numbers
     procedure, private :: add_letters, next_line
-  end type memory_type
+  end type archive_type
 
 contains
 
-  !> Begins to unpack.
-  pure subroutine open_memory(numbers, words, memory)
+  !> Begins to restore.
+  pure subroutine open_archive(numbers, words, archive)
     real(wp), intent(in) :: numbers(:) !! as `numbers` gave them, each in its component's unit [SI]
     character(len=*), intent(in) :: words !! as `words` gave them
-    type(memory_type), intent(out) :: memory !! unpacks these, from the first on
+    type(archive_type), intent(out) :: archive !! restores these, from the first on
 
-    memory%packs = .false.
-    memory%number = numbers
-    memory%letters = words
-  end subroutine open_memory
+    archive%saves = .false.
+    archive%number = numbers
+    archive%letters = words
+  end subroutine open_archive
 
-  !> All numbers that were packed.
+  !> What was read must fulfil a condition: the first that it does not is the archive's problem.
+  pure subroutine require(self, fulfilled, words)
+    class(archive_type), intent(inout) :: self !! the archive
+    logical, intent(in) :: fulfilled           !! the condition is
+    character(len=*), intent(in) :: words      !! that name what does not fit
+
+    if (fulfilled .or. self%failed) return
+    self%failed = .true.
+    self%problem = words
+  end subroutine require
+
+  !> All numbers that were saved.
   pure function numbers(self) result(list)
-    class(memory_type), intent(in) :: self !! the memory
+    class(archive_type), intent(in) :: self !! the archive
     real(wp), allocatable :: list(:) !! each in its component's unit
 
     allocate (list(0))
     if (allocated(self%number)) list = self%number(:self%numbers_done)
   end function numbers
 
-  !> Names, kinds and shapes that were packed, one a line, and the texts.
+  !> Names, kinds and shapes that were saved, one a line, and the texts.
   pure function words(self) result(lines)
-    class(memory_type), intent(in) :: self !! the memory
+    class(archive_type), intent(in) :: self !! the archive
     character(len=:), allocatable :: lines
 
     lines = ''
     if (allocated(self%letters)) lines = self%letters(:self%letters_done)
   end function words
 
-  !> Whether all that was packed has been taken.
+  !> Whether all that was saved has been taken.
   pure function is_used_up(self) result(empty)
-    class(memory_type), intent(in) :: self !! the memory
+    class(archive_type), intent(in) :: self !! the archive
     logical :: empty
     empty = self%numbers_done == size(self%number) .and. self%letters_done == len(self%letters)
+    if (allocated(self%field)) empty = empty .and. self%fields_done == size(self%field)
   end function is_used_up
 
-  !> Ends unpacking: something that is left over does not fit either.
+  !> Ends restoring: something that is left over does not fit either.
   pure subroutine finish(self)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
 
-    if (.not. self%packs) self%failed = self%failed .or. .not. self%is_used_up()
+    if (self%saves) return
+    call self%require(self%is_used_up(), "'"//self%next_line()//"' is left over")
   end subroutine finish
 
-  !> Says whose components follow, where a memory holds several of a type.
+  !> Says whose components follow, where an archive holds several of a type.
   pure subroutine part(self, name)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the part
     call self%pass_line('in '//name)
   end subroutine part
 
   !> A real number.
   pure subroutine visit_real(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
-    real(wp), intent(inout) :: value !! written on unpacking, in its unit [SI]
+    real(wp), intent(inout) :: value !! written on restoring, in its unit [SI]
     real(wp) :: number(1)
 
     number = value
@@ -107,9 +142,9 @@ contains
 
   !> Real numbers.
   pure subroutine visit_reals(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
-    real(wp), intent(inout) :: value(:) !! written on unpacking, in its unit [SI]
+    real(wp), intent(inout) :: value(:) !! written on restoring, in its unit [SI]
 
     call self%pass_line(name//' real'//extents(shape(value)))
     call self%pass_numbers(value)
@@ -117,9 +152,9 @@ contains
 
   !> A matrix of real numbers.
   pure subroutine visit_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name   !! of the component
-    real(wp), intent(inout) :: value(:, :) !! written on unpacking, in its unit [SI]
+    real(wp), intent(inout) :: value(:, :) !! written on restoring, in its unit [SI]
     real(wp) :: number(size(value))
 
     number = reshape(value, shape(number))
@@ -130,9 +165,9 @@ contains
 
   !> A whole number.
   pure subroutine visit_integer(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
-    integer, intent(inout) :: value !! written on unpacking
+    integer, intent(inout) :: value !! written on restoring
     integer :: number(1)
 
     number = value
@@ -141,9 +176,33 @@ contains
     value = number(1)
   end subroutine visit_integer
 
+  !> Whole numbers.
+  pure subroutine visit_integers(self, name, value)
+    class(archive_type), intent(inout) :: self !! the archive
+    character(len=*), intent(in) :: name !! of the component
+    integer, intent(inout) :: value(:) !! written on restoring
+
+    call self%pass_line(name//' integer'//extents(shape(value)))
+    call self%pass_whole_numbers(value)
+  end subroutine visit_integers
+
+  !> How many components follow: what an archive does not hold cannot be that many.
+  pure subroutine visit_count(self, name, value)
+    class(archive_type), intent(inout) :: self !! the archive
+    character(len=*), intent(in) :: name !! of what is counted
+    integer, intent(inout) :: value !! written on restoring; 0 where it does not fit
+
+    call self%visit(name, value)
+    if (self%saves) return
+    if (.not. self%failed) then
+      call self%require(value >= 0 .and. value <= len(self%letters), "the number of '"//name//"'")
+    end if
+    if (self%failed) value = 0
+  end subroutine visit_count
+
   !> A matrix of whole numbers.
   pure subroutine visit_integer_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
     integer, intent(inout) :: value(:, :)
     integer :: number(size(value))
@@ -156,7 +215,7 @@ contains
 
   !> Yes or no.
   pure subroutine visit_logical(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
     logical, intent(inout) :: value
     integer :: number(1)
@@ -169,7 +228,7 @@ contains
 
   !> A text of any length, or none.
   pure subroutine visit_text(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
     character(len=:), allocatable, intent(inout) :: value
     integer :: length(1)
@@ -179,26 +238,25 @@ contains
     length = 0
     if (there) length = len(value)
     call self%pass_shape(name//' text', length, there)
-    if (self%packs) then
+    if (self%saves) then
       if (there) call self%add_letters(value//line_end)
       return
     end if
     if (self%failed) return
     if (allocated(value)) deallocate (value)
     if (.not. there) return
-    if (length(1) + 1 > len(self%letters) - self%letters_done) then
-      self%failed = .true.
-      return
-    end if
+    call self%require(length(1) + 1 <= len(self%letters) - self%letters_done, &
+                      "the text '"//name//"' is not whole")
+    if (self%failed) return
     value = self%letters(self%letters_done + 1:self%letters_done + length(1))
     self%letters_done = self%letters_done + length(1) + 1
   end subroutine visit_text
 
   !> Real numbers, as many as there are.
   pure subroutine visit_sized_reals(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name                !! of the component
-    real(wp), allocatable, intent(inout) :: value(:) !! allocated on unpacking, in its unit [SI]
+    real(wp), allocatable, intent(inout) :: value(:) !! allocated on restoring, in its unit [SI]
     integer :: extent(1)
     logical :: there
 
@@ -207,7 +265,7 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' real', extent, there)
     if (self%failed) return
-    if (.not. self%packs) then
+    if (.not. self%saves) then
       if (allocated(value)) deallocate (value)
       if (there) allocate (value(extent(1)))
     end if
@@ -216,9 +274,9 @@ contains
 
   !> A matrix of real numbers, as large as it is.
   pure subroutine visit_sized_matrix(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name                   !! of the component
-    real(wp), allocatable, intent(inout) :: value(:, :) !! allocated on unpacking, in its unit [SI]
+    real(wp), allocatable, intent(inout) :: value(:, :) !! allocated on restoring, in its unit [SI]
     real(wp), allocatable :: number(:)
     integer :: extent(2)
     logical :: there
@@ -228,7 +286,7 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' real', extent, there)
     if (self%failed) return
-    if (.not. self%packs) then
+    if (.not. self%saves) then
       if (allocated(value)) deallocate (value)
       if (there) allocate (value(extent(1), extent(2)))
     end if
@@ -240,9 +298,9 @@ contains
 
   !> Whole numbers, as many as there are.
   pure subroutine visit_sized_integers(self, name, value)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
-    integer, allocatable, intent(inout) :: value(:) !! allocated on unpacking
+    integer, allocatable, intent(inout) :: value(:) !! allocated on restoring
     integer :: extent(1)
     logical :: there
 
@@ -251,36 +309,71 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' integer', extent, there)
     if (self%failed) return
-    if (.not. self%packs) then
+    if (.not. self%saves) then
       if (allocated(value)) deallocate (value)
       if (there) allocate (value(extent(1)))
     end if
     if (there) call self%pass_whole_numbers(value)
   end subroutine visit_sized_integers
 
+  !> A rank's block of a field.
+  pure subroutine visit_block(self, name, total, offset, block)
+    class(archive_type), intent(inout) :: self !! the archive
+    character(len=*), intent(in) :: name !! of the field, of its own in the archive
+    integer, intent(in) :: total !! entries on all ranks
+    integer, intent(in) :: offset !! entries before those of this rank
+    !> (components, entries of this rank), written on restoring, in any unit [SI]
+    real(wp), intent(inout) :: block(:, :)
+    type(archive_field_type) :: field
+
+    call self%pass_line(name//' field'//extents([size(block, 1), total]))
+    if (self%failed) return
+    if (.not. allocated(self%field)) allocate (self%field(0))
+    self%fields_done = self%fields_done + 1
+    if (self%saves) then
+      field%name = name
+      field%total = total
+      field%offset = offset
+      field%block = block
+      self%field = [self%field, field]
+      return
+    end if
+    call self%require(self%fields_done <= size(self%field), "the field '"//name//"' is missing")
+    if (self%failed) return
+    associate (found => self%field(self%fields_done))
+      call self%require(found%name == name .and. all(shape(found%block) == shape(block)), &
+                        "the field '"//name//"'")
+      if (.not. self%failed) block = found%block
+    end associate
+  end subroutine visit_block
+
   !> Adds a line, or takes the next one, which must be the same.
   pure subroutine pass_line(self, line)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: line !! name, kind and shape
 
-    if (self%packs) then
+    if (self%saves) then
       call self%add_letters(line//line_end)
-    else if (.not. self%failed) then
-      self%failed = self%next_line() /= line
-      if (.not. self%failed) self%letters_done = self%letters_done + len(line) + 1
+    else if (self%failed) then
+      return
+    else if (self%next_line() == line) then
+      self%letters_done = self%letters_done + len(line) + 1
+    else
+      call self%require(.false., misfit(line, self%next_line()))
     end if
   end subroutine pass_line
 
   !> Adds a line with a shape, or takes the next one, which must be the same but for the extents.
   pure subroutine pass_shape(self, start, extent, there)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: start !! name and kind
-    integer, intent(inout) :: extent(:)   !! read while the memory unpacks
-    logical, intent(inout) :: there       !! it is allocated; read while the memory unpacks
+    integer, intent(inout) :: extent(:)   !! read while the archive restores
+    logical, intent(inout) :: there       !! it is allocated; read while the archive restores
     character(len=:), allocatable :: line
     integer :: status
+    logical :: fits
 
-    if (self%packs) then
+    if (self%saves) then
       line = start//missing
       if (there) line = start//extents(extent)
       call self%add_letters(line//line_end)
@@ -294,23 +387,24 @@ contains
       status = 1
       if (index(line, start//' ') == 1) read (line(len(start) + 1:), *, iostat=status) extent
       if (status /= 0) extent = -1
-      self%failed = any(extent < 0) .or. line /= start//extents(extent)
-      if (index(start, ' text') == 0) self%failed = self%failed .or. &
-        product(int(extent, long)) > size(self%number) - self%numbers_done
+      fits = all(extent >= 0) .and. line == start//extents(extent)
+      if (index(start, ' text') == 0) fits = fits .and. &
+        product(int(extent, long)) <= size(self%number) - self%numbers_done
+      call self%require(fits, misfit(start, line))
     end if
     if (.not. self%failed) self%letters_done = self%letters_done + len(line) + 1
   end subroutine pass_shape
 
   !> Adds numbers, or takes the next ones.
   pure subroutine pass_numbers(self, value)
-    class(memory_type), intent(inout) :: self !! the memory
-    real(wp), intent(inout) :: value(:) !! written on unpacking, in its unit [SI]
+    class(archive_type), intent(inout) :: self !! the archive
+    real(wp), intent(inout) :: value(:) !! written on restoring, in its unit [SI]
     real(wp), allocatable :: more(:)
     integer :: last
 
     if (self%failed) return
     last = self%numbers_done + size(value)
-    if (self%packs) then
+    if (self%saves) then
       if (.not. allocated(self%number)) allocate (self%number(0))
       if (last > size(self%number)) then
         allocate (more(2*last))
@@ -319,7 +413,7 @@ contains
       end if
       self%number(self%numbers_done + 1:last) = value
     else if (last > size(self%number)) then
-      self%failed = .true.
+      call self%require(.false., 'numbers are missing at its end')
       return
     else
       value = self%number(self%numbers_done + 1:last)
@@ -329,19 +423,20 @@ contains
 
   !> Adds whole numbers, or takes the next ones.
   pure subroutine pass_whole_numbers(self, value)
-    class(memory_type), intent(inout) :: self !! the memory
-    integer, intent(inout) :: value(:) !! written on unpacking
+    class(archive_type), intent(inout) :: self !! the archive
+    integer, intent(inout) :: value(:) !! written on restoring
     real(wp) :: number(size(value))
 
     number = real(value, wp)
     call self%pass_numbers(number)
-    if (.not. all(abs(number) <= real(huge(value), wp))) self%failed = .true. ! none of ours, or NaN
+    call self%require(all(abs(number) <= real(huge(value), wp)), & ! none of ours, or NaN
+                      'a number that is not whole')
     if (.not. self%failed) value = nint(number)
   end subroutine pass_whole_numbers
 
   !> Adds to the words.
   pure subroutine add_letters(self, letters)
-    class(memory_type), intent(inout) :: self !! the memory
+    class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: letters !! to be added at the end
     character(len=:), allocatable :: more
     integer :: last
@@ -359,13 +454,23 @@ contains
 
   !> The next line of the words; empty where there is none.
   pure function next_line(self) result(line)
-    class(memory_type), intent(in) :: self !! the memory
+    class(archive_type), intent(in) :: self !! the archive
     character(len=:), allocatable :: line
     integer :: length
 
     length = index(self%letters(self%letters_done + 1:), line_end) - 1
     line = self%letters(self%letters_done + 1:self%letters_done + length)
   end function next_line
+
+  !> What stands in the place of a component, in words.
+  pure function misfit(line, found) result(words)
+    character(len=*), intent(in) :: line  !! name, kind and shape that should be next
+    character(len=*), intent(in) :: found !! that are; empty where nothing is left
+    character(len=:), allocatable :: words
+
+    words = "'"//line//"' is missing"
+    if (found /= '') words = words//", there is '"//found(:min(len(found), most_letters))//"'"
+  end function misfit
 
   !> A shape in words, each extent with a blank before it.
   pure function extents(extent) result(line)
@@ -378,4 +483,4 @@ contains
       line = line//' '//text(extent(i))
     end do
   end function extents
-end module gfb_memory
+end module gfb_archive
