@@ -5,7 +5,7 @@ program gfb
   use gfb_machine_memory, only: look_for_room
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: limit_time, stop_agreed, stop_status
-  use gfb_job_groups, only: job_type, start_job, stop_job
+  use gfb_pool, only: pool_type, start_pool, stop_pool
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
   use gfb_command_line, only: command_line_type, read_command_line
   use gfb_information, only: information
@@ -15,7 +15,7 @@ program gfb
 
   integer, parameter :: status_unconverged = 2
   type(command_line_type) :: line
-  type(job_type) :: job
+  type(pool_type) :: pool
   type(run_log_type) :: log
   type(error_type), allocatable :: error
   character(len=:), allocatable :: words
@@ -24,10 +24,10 @@ program gfb
 
   call read_command_line(line, error)
   call look_for_room()
-  call start_job(line%groups, job)
+  call start_pool(line%groups, pool)
   call start_petsc()
   if (line%time_limit > 0) call limit_time(line%time_limit)
-  log%active = this_rank() == 0 .and. job%rank == 0
+  log%active = this_rank() == 0 .and. pool%rank == 0
   status = 0
   if (.not. allocated(error)) then
     log%verbose = line%verbose
@@ -37,7 +37,7 @@ program gfb
       call information(line, words, error)
       if (.not. allocated(error)) call log%tell(words)
     else if (line%groups > 0) then
-      call run_groups(line, job, run_scene, log, status, error)
+      call run_groups(line, pool, run_scene, log, status, error)
     else
       call run_case(line, log, converged, error)
       if (.not. converged) status = status_unconverged
@@ -50,7 +50,7 @@ program gfb
     status = error%status
   end if
   call stop_petsc(well)
-  call stop_job(job)
+  call stop_pool(pool)
   if (.not. well .and. status == 0) status = status_machine
   call exit_with_status(status)
 end program gfb

@@ -7,7 +7,7 @@ module gfb_run_groups
   use gfb_machine_memory, only: start_blas
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
-  use gfb_job_groups, only: job_type
+  use gfb_pool, only: pool_type
   use gfb_command_line, only: command_line_type
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_check_scene, only: check_scene
@@ -16,8 +16,7 @@ module gfb_run_groups
   use gfb_sample, only: sample_type
   use gfb_studies, only: create_study
   use gfb_study, only: study_type
-  use gfb_divided_sweep, only: run_divided_sweep
-  use gfb_divided_frequencies, only: run_divided_frequencies
+  use gfb_divided_bearing, only: run_divided_bearing
   use gfb_scene_table, only: run_scene_table, scene_runner
   implicit none (type, external)
   private
@@ -29,9 +28,9 @@ contains
   !>
   !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
   !> members: they are told, and `status` says so.
-  subroutine run_groups(line, job, run_scene, log, status, error)
+  subroutine run_groups(line, pool, run_scene, log, status, error)
     type(command_line_type), intent(in) :: line !! what was typed
-    type(job_type), target, intent(inout) :: job !! that is divided
+    type(pool_type), target, intent(inout) :: pool !! whose groups compute
     procedure(scene_runner) :: run_scene  !! computes one of several cases
     type(run_log_type), intent(in) :: log !! the terminal
     integer, intent(out) :: status        !! exit status of the program
@@ -43,13 +42,13 @@ contains
     status = 0
     context = line%context(log)
     call read_all(line, scenes, error)
-    if (.not. allocated(error)) call check_work(line, job, scenes, error)
-    if (.not. (line%check .or. line%shares >= 0 .or. allocated(error)) .and. job%group == 1) then
+    if (.not. allocated(error)) call check_work(line, pool, scenes, error)
+    if (.not. (line%check .or. line%shares >= 0 .or. allocated(error)) .and. pool%group == 1) then
       ! By one group: a second one might take away its trial file.
       call prepare_folder(line%folder, error)
     end if
     if (allocated(error)) status = error%status
-    status = job%largest(status)
+    status = pool%largest(status)
     if (status /= 0 .and. .not. allocated(error)) call fail(error, 'another rank failed', status)
     if (allocated(error)) return
     if (line%check .or. line%shares >= 0) then
@@ -71,23 +70,21 @@ contains
         context%reduction = 'bumps '//scenes(1)%model%reduction_reason
       end if
       if (scenes(1)%sample%present) then
-        call run_sample(scenes(1), context, job, status, error)
-      else if (scenes(1)%sweep%present) then
-        call run_divided_sweep(scenes(1), context, job, status)
+        call run_sample(scenes(1), context, pool, status, error)
       else
-        call run_divided_frequencies(scenes(1), context, job, status)
+        call run_divided_bearing(scenes(1), context, pool, status)
       end if
     else
-      call run_scene_table(scenes, line%table, run_scene, context, job, status)
+      call run_scene_table(scenes, line%table, run_scene, context, pool, status)
     end if
-    call agree_on_signal(job%largest(agreed_signal()))
+    call agree_on_signal(pool%largest(agreed_signal()))
   end subroutine run_groups
 
   !> One sample divided.
-  subroutine run_sample(scene, context, job, status, error)
+  subroutine run_sample(scene, context, pool, status, error)
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    type(job_type), target, intent(inout) :: job
+    type(pool_type), target, intent(inout) :: pool
     integer, intent(out) :: status
     type(error_type), allocatable, intent(out) :: error
     class(study_type), allocatable :: study
@@ -97,7 +94,7 @@ contains
     if (allocated(error)) return
     select type (study)
     type is (sample_type)
-      call run_divided_sample(scene, study, context, job, status)
+      call run_divided_sample(scene, study, context, pool, status)
     end select
   end subroutine run_sample
 
@@ -122,77 +119,59 @@ contains
   !> Whether the ranks and the work can be divided as asked.
   !>
   !> Fails naming everything that forbids groups.
-  subroutine check_work(line, job, scenes, error)
+  subroutine check_work(line, pool, scenes, error)
     type(command_line_type), intent(in) :: line
-    type(job_type), intent(in) :: job
+    type(pool_type), intent(in) :: pool
     type(scene_type), intent(in) :: scenes(:)
     type(error_type), allocatable, intent(out) :: error
 
-    if (.not. job%split .and. .not. line%check) then
-      call add('gfb: '//text(line%groups)//' groups need as many ranks at least, and the job '// &
-               'has '//text(job%ranks)//': mpiexec -n '//text(line%groups)//' gfb ...', error)
-    end if
-    if (size(scenes) == 1 .and. scenes(1)%sample%present) then
-      if (line%groups > scenes(1)%sample%count) then
-        call add(scenes(1)%file//': &sample: '//text(line%groups)//' groups for '// &
-                 text(scenes(1)%sample%count)//' members: some would have nothing to do', error)
-      end if
-    else if (size(scenes) == 1 .and. scenes(1)%dynamics%present .and. &
-             .not. scenes(1)%sweep%present) then
-      call check_frequencies(line, scenes(1), error)
-    else if (size(scenes) == 1) then
-      call check_sweep(line, scenes(1), error)
-    else
+    call forbid(.not. pool%split .and. .not. line%check, &
+                'gfb: '//text(line%groups)//' groups need as many ranks at least, and the job '// &
+                'has '//text(pool%ranks)//': mpiexec -n '//text(line%groups)//' gfb ...')
+    if (size(scenes) > 1) then
       call check_names(line, scenes, error)
-      if (line%groups > size(scenes)) then
-        call add('gfb: '//text(line%groups)//' groups for '//text(size(scenes))// &
-                 ' cases: some would have nothing to do', error)
-      end if
-    end if
-  end subroutine check_work
-
-  !> Whether the frequencies of a case can be divided.
-  subroutine check_frequencies(line, scene, error)
-    type(command_line_type), intent(in) :: line
-    type(scene_type), intent(in) :: scene !! of small vibrations, without a sweep
-    type(error_type), allocatable, intent(inout) :: error
-
-    if (size(scene%dynamics%amplitudes) > 0) then
-      call add(scene%file//': &dynamics: vibration_amplitudes: the frequencies cannot be '// &
-               'divided among groups, because amplitudes are found on all ranks alone', error)
-    end if
-    if (line%groups > size(scene%dynamics%frequencies)) then
-      call add(scene%file//': &dynamics: '//text(line%groups)//' groups for '// &
-               text(size(scene%dynamics%frequencies))//' frequencies: some would have nothing '// &
-               'to do', error)
-    end if
-  end subroutine check_frequencies
-
-  !> Whether a case has a sweep that can be divided.
-  subroutine check_sweep(line, scene, error)
-    type(command_line_type), intent(in) :: line
-    type(scene_type), intent(in) :: scene
-    type(error_type), allocatable, intent(inout) :: error
-
-    if (.not. scene%sweep%present) then
-      call add(scene%file//': has no &sweep whose points, nor &dynamics whose frequencies, '// &
-               'nor &sample whose members, '// &
-               'could be divided among groups; --groups is for those, or for several cases', error)
+      call enough(size(scenes), 'gfb', 'cases')
       return
     end if
-    if (scene%sweep%friction_memory) then
-      call add(scene%file//': &sweep: friction_memory: the sweep cannot be divided among '// &
-               'groups, because what slid at a point is needed at the next one', error)
-    end if
-    if (scene%sweep%turn_folds) then
-      call add(scene%file//': &sweep: turn_folds: the sweep cannot be divided among groups, '// &
-               'because its branch is followed from the first value on', error)
-    end if
-    if (line%groups > size(scene%sweep%values)) then
-      call add(scene%file//': &sweep: '//text(line%groups)//' groups for '// &
-               text(size(scene%sweep%values))//' values: some would have nothing to do', error)
-    end if
-  end subroutine check_sweep
+    associate (scene => scenes(1))
+      if (scene%sample%present) then
+        call enough(scene%sample%count, scene%file//': &sample', 'members')
+      else if (scene%sweep%present) then
+        call forbid(scene%sweep%friction_memory, scene%file//': &sweep: friction_memory: the '// &
+                    'sweep cannot be divided among groups, because what slid at a point is '// &
+                    'needed at the next one')
+        call forbid(scene%sweep%turn_folds, scene%file//': &sweep: turn_folds: the sweep '// &
+                    'cannot be divided among groups, because its branch is followed from the '// &
+                    'first value on')
+        call enough(size(scene%sweep%values), scene%file//': &sweep', 'values')
+      else if (scene%dynamics%present) then
+        call forbid(size(scene%dynamics%amplitudes) > 0, scene%file//': &dynamics: '// &
+                    'vibration_amplitudes: the frequencies cannot be divided among groups, '// &
+                    'because amplitudes are found on all ranks alone')
+        call enough(size(scene%dynamics%frequencies), scene%file//': &dynamics', 'frequencies')
+      else
+        call forbid(.true., scene%file//': has no &sweep whose points, nor &dynamics whose '// &
+                    'frequencies, nor &sample whose members, could be divided among groups; '// &
+                    '--groups is for those, or for several cases')
+      end if
+    end associate
+
+  contains
+
+    subroutine forbid(broken, message)
+      logical, intent(in) :: broken
+      character(len=*), intent(in) :: message
+      if (broken) call add(message, error)
+    end subroutine forbid
+
+    !> Every group needs one thing at least.
+    subroutine enough(number, place, things)
+      integer, intent(in) :: number
+      character(len=*), intent(in) :: place, things
+      call forbid(line%groups > number, place//': '//text(line%groups)//' groups for '// &
+                  text(number)//' '//things//': some would have nothing to do')
+    end subroutine enough
+  end subroutine check_work
 
   !> No two cases may write the same files, nor a case those of the table.
   subroutine check_names(line, scenes, error)

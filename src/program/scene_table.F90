@@ -11,16 +11,15 @@ module gfb_scene_table
   use gfb_result_phrases, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
-  use gfb_table_file, only: table_member_type, write_table_file, visit_member
+  use gfb_table_file, only: table_member_type, write_table_file
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
   use gfb_text_file, only: write_unfinished_text
   use gfb_signals, only: stop_words
   use gfb_petsc_session, only: wall_time, stop_is_asked
-  use gfb_job_groups, only: job_type
+  use gfb_pool, only: pool_type, visit_task, end_log
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
-  use gfb_group_log, only: open_group_log, close_group_log
   use gfb_provenance, only: version_text
   implicit none (type)
   private
@@ -44,55 +43,52 @@ module gfb_scene_table
 contains
 
   !> Computes all members, each of which writes its own files, and writes their table.
-  subroutine run_scene_table(scenes, name, run_scene, context, job, status)
+  subroutine run_scene_table(scenes, name, run_scene, context, pool, status)
     type(scene_type), intent(in) :: scenes(:) !! the members
     character(len=*), intent(in) :: name          !! of the table
     procedure(scene_runner) :: run_scene          !! computes a member
     type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
-    type(job_type), target, intent(inout) :: job !! that is divided
+    type(pool_type), target, intent(inout) :: pool !! that is divided
     integer, intent(out) :: status                !! exit status of the program
 
     type(archive_type) :: mine
-    type(archive_type), allocatable :: all(:)
     type(table_member_type), allocatable :: members(:)
-    type(table_member_type) :: one
     type(error_type), allocatable :: error
     type(run_log_type) :: log
-    integer :: member
+    integer :: number
 
     log = context%log
     call log%line(version_text())
-    call log%line(text(size(scenes))//' cases, results go to '//context%folder//', '//text(job%ranks)// &
-                  ' rank(s) in '//text(job%groups)//' group(s), a log for each case as CASE.log')
-    job%total = size(scenes)
+    call log%line(text(size(scenes))//' cases, results go to '//context%folder//', '//text(pool%ranks)// &
+                  ' rank(s) in '//text(pool%groups)//' group(s), a log for each case as CASE.log')
     status = 0
-    call job%next_member(member)
-    do while (member <= size(scenes))
-      call run_member(scenes(member), run_scene, context, job, one)
-      call mine%visit('number', member)
-      call visit_member(mine, one)
-      status = max(status, one%status)
-      call job%next_member(member)
+    allocate (members(size(scenes)))
+    pool%total = size(scenes)
+    call pool%next_task(number)
+    do while (number <= size(scenes))
+      call run_member(scenes(number), run_scene, context, pool, members(number))
+      status = max(status, members(number)%status)
+      call visit_task(mine, members, number)
+      call pool%next_task(number)
     end do
-    call job%collect(mine, 1, all)
-    if (job%rank == 0) then
-      call read_members(all, size(scenes), members)
-      call write_table(members, scenes, name, context, job, error)
+    call pool%gather_tasks(mine, 1, members)
+    if (pool%rank == 0) then
+      call write_table(members, scenes, name, context, pool, error)
       call show_failures(members, log)
       if (allocated(error)) then
         call log%complaint(error%message)
         status = max(status, error%status)
       end if
     end if
-    status = job%largest(status)
+    status = pool%largest(status)
   end subroutine run_scene_table
 
   !> One member from its case to its files.
-  subroutine run_member(scene, run_scene, context, job, member)
+  subroutine run_member(scene, run_scene, context, pool, member)
     type(scene_type), intent(in) :: scene
     procedure(scene_runner) :: run_scene
     type(run_context_type), intent(in) :: context
-    type(job_type), target, intent(inout) :: job
+    type(pool_type), target, intent(inout) :: pool
     type(table_member_type), intent(out) :: member
     class(study_type), allocatable :: study
     type(quantity_type), allocatable :: answer(:)
@@ -100,7 +96,7 @@ contains
     type(run_context_type) :: own
 
     own = context
-    call open_group_log(context%folder//'/'//scene%name//'.log', job, own, error)
+    call pool%begin_log(context%folder//'/'//scene%name//'.log', own, error)
     if (.not. allocated(error)) then
       if (stop_is_asked()) call fail(error, 'not computed, '//stop_words(), status_unconverged)
     end if
@@ -109,54 +105,36 @@ contains
       call run_scene(scene, .false., own, study, answer, error)
     end if
     member%name = scene%name
-    member%group = job%group
+    member%group = pool%group
     member%reason = ''
     if (allocated(error)) then
       call own%log%complaint(error%message)
       member%status = error%status
       member%reason = error%message
-      call job%report(scene%name//' failed', 1)
+      call pool%report(scene%name//' failed', 1)
     else if (study%converged) then
-      call job%report(scene%name, 1)
+      call pool%report(scene%name, 1)
     else
       member%status = status_unconverged
       member%reason = study%reason%words()
-      call job%report(scene%name//' has no answer', 1)
+      call pool%report(scene%name//' has no answer', 1)
     end if
     if (.not. allocated(answer)) call add_result(answer, 'converged', .false.)
     call add_result(member%row%quantity, 'exit_status', member%status)
     call add_result(member%row%quantity, 'group', member%group)
     call add_quantity(member%row%quantity, answer)
-    call close_group_log(own%log)
+    call end_log(own%log)
   end subroutine run_member
-
-  !> The members in the order of the command line, from what the groups have sent.
-  subroutine read_members(all, number, members)
-    type(archive_type), intent(inout) :: all(:)
-    integer, intent(in) :: number !! of members
-    type(table_member_type), allocatable, intent(out) :: members(:)
-    integer :: i, member
-
-    allocate (members(number))
-    do i = 1, size(all)
-      do while (.not. all(i)%is_used_up())
-        member = 0
-        call all(i)%visit('number', member)
-        if (member < 1 .or. member > number) error stop 'what a group of ranks has sent is no member of the table'
-        call visit_member(all(i), members(member))
-      end do
-    end do
-  end subroutine read_members
 
   !> Writes the table and its summary; older ones are replaced when both are whole.
   !>
   !> Fails when they cannot be written.
-  subroutine write_table(members, scenes, name, context, job, error)
+  subroutine write_table(members, scenes, name, context, pool, error)
     type(table_member_type), intent(in) :: members(:)
     type(scene_type), intent(in) :: scenes(:)
     character(len=*), intent(in) :: name
     type(run_context_type), intent(in) :: context
-    type(job_type), intent(in) :: job
+    type(pool_type), intent(in) :: pool
     type(error_type), allocatable, intent(out) :: error
     type(quantity_type), allocatable :: summary(:)
     type(result_file_type) :: file
@@ -166,9 +144,9 @@ contains
 
     call add_result(summary, 'members', size(members))
     call add_result(summary, 'converged_members', count(members%status == 0))
-    call add_result(summary, 'groups', job%groups)
-    call add_result(summary, 'ranks', job%ranks)
-    call add_result(summary, 'wall_time', wall_time() - job%begun, of_whole_table)
+    call add_result(summary, 'groups', pool%groups)
+    call add_result(summary, 'ranks', pool%ranks)
+    call add_result(summary, 'wall_time', wall_time() - pool%begun, of_whole_table)
     do i = 1, size(members)
       call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do

@@ -1,5 +1,6 @@
-!> The stretches of a sweep that groups of ranks have computed, put together again.
-module gfb_sweep_stretch
+!> The blocks of a sweep, or of a vibration's frequencies, that groups of ranks have computed, put
+!> together again.
+module gfb_bearing_blocks
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_archive, only: archive_type
@@ -10,15 +11,15 @@ module gfb_sweep_stretch
   use gfb_results, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type, visit_rows, visit_arrays
-  use gfb_grid_series, only: grid_series_type, cut_series, join_series, visit_series
+  use gfb_grid_series, only: grid_series_type, join_series, visit_series
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, visit_dynamics
   use gfb_tilt_response, only: tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
   implicit none (type, external)
   private
-  public :: visit_stretch, merge_histories, merge_arrays, number_of, seam_words, &
-            place_text, add_origin, merge_dynamics, merge_series, keep_series
+  public :: visit_block, merge_histories, merge_arrays, number_of, seam_words, &
+            place_text, add_origin, merge_dynamics, merge_frequencies, merge_series
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -26,86 +27,84 @@ module gfb_sweep_stretch
   character(len=*), parameter :: secants(2) = 'secant_stiffness_'//axes
 
   !> What a group has found.
-  type, public :: stretch_type
-    integer :: first = 1, last = 0 !! numbers of its values in the whole sweep
+  type, public :: bearing_block_type
+    !> numbers of its values in the whole sweep, or of its frequencies
+    integer :: first = 1, last = 0
     integer :: status = 0          !! exit status that gfb would have had
-    integer :: iterations = 0      !! of Newton
-    integer :: factorizations = 0
-    integer :: factorizations_finest = 0 !! of the matrix of the finest mesh
-    type(reason_type) :: reason    !! why it ended before its last value, if it did
+    !> Newton iterations, factorizations, those of the finest mesh's matrix
+    integer :: count(3) = 0
+    type(reason_type) :: reason    !! why it ended before its last value, or has no answer
     type(history_row_type), allocatable :: row(:)  !! its points
-    !> The first point of the stretch behind, from its own last one; none where there is none.
+    !> The first point of the block behind, from its own last one; none where there is none.
     type(history_row_type), allocatable :: next(:)
     type(case_array_type), allocatable :: contacts(:)
     real(wp) :: first_slope(2, 2) = 0.0_wp     !! where it begins [N m/rad]
     type(dynamics_record_type) :: dynamics !! coefficients at its points, onset of whirl
     type(grid_series_type) :: series       !! film and foils at its points
-  end type stretch_type
+  end type bearing_block_type
 
 contains
 
-  !> Saves or restores a stretch.
-  pure subroutine visit_stretch(archive, stretch)
+  !> Saves or restores a block.
+  pure subroutine visit_block(archive, block)
     type(archive_type), intent(inout) :: archive !! that saves or restores
-    type(stretch_type), intent(inout) :: stretch !! written where the archive restores
+    type(bearing_block_type), intent(inout) :: block !! written where the archive restores
 
-    call archive%visit('first', stretch%first)
-    call archive%visit('last', stretch%last)
-    call archive%visit('status', stretch%status)
-    call archive%visit('iterations', stretch%iterations)
-    call archive%visit('factorizations', stretch%factorizations)
-    call archive%visit('factorizations_finest', stretch%factorizations_finest)
-    call archive%visit('reason_code', stretch%reason%code)
-    call archive%visit('reason_at', stretch%reason%at)
-    call archive%visit('reason_of', stretch%reason%of)
-    call archive%visit('reason_detail', stretch%reason%detail)
+    call archive%visit('first', block%first)
+    call archive%visit('last', block%last)
+    call archive%visit('status', block%status)
+    call archive%visit('count', block%count)
+    call archive%visit('reason_code', block%reason%code)
+    call archive%visit('reason_at', block%reason%at)
+    call archive%visit('reason_of', block%reason%of)
+    call archive%visit('reason_detail', block%reason%detail)
     call archive%part('row')
-    call visit_rows(archive, stretch%row)
+    call visit_rows(archive, block%row)
     call archive%part('next')
-    call visit_rows(archive, stretch%next)
+    call visit_rows(archive, block%next)
     call archive%part('contacts')
-    call visit_arrays(archive, stretch%contacts)
-    call archive%visit('first_slope', stretch%first_slope)
+    call visit_arrays(archive, block%contacts)
+    call archive%visit('first_slope', block%first_slope)
     call archive%part('dynamics')
-    call visit_dynamics(archive, stretch%dynamics)
+    call visit_dynamics(archive, block%dynamics)
     call archive%part('series')
-    call visit_series(archive, stretch%series)
-  end subroutine visit_stretch
+    call visit_series(archive, block%series)
+  end subroutine visit_block
 
   !> All rows in the sweep's order, counts from the sweep's first point on.
-  subroutine merge_histories(scene, stretches, history)
+  subroutine merge_histories(scene, blocks, history)
     type(scene_type), intent(in) :: scene !! with the whole sweep
-    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(history_row_type), allocatable, intent(out) :: history(:) !! one row a point
     type(history_row_type) :: row
     integer :: i, k, before(2)
 
     allocate (history(0))
     before = 0
-    do i = 1, size(stretches)
-      do k = 1, size(stretches(i)%row)
-        row = stretches(i)%row(k)
+    do i = 1, size(blocks)
+      do k = 1, size(blocks(i)%row)
+        row = blocks(i)%row(k)
         call add_to(row, 'newton_iterations', before(1))
         call add_to(row, 'factorizations', before(2))
-        if (k == 1 .and. parts(scene, stretches, i)) call add_to(row, 'branch_changed', 1)
+        if (k == 1 .and. parts(scene, blocks, i)) call add_to(row, 'branch_changed', 1)
         if (size(history) > 0) call match_secants(tilt_axis(scene%sweep), history(1), row)
         history = [history, row]
       end do
-      before = before + [stretches(i)%iterations, stretches(i)%factorizations]
+      before = before + blocks(i)%count(:2)
     end do
   end subroutine merge_histories
 
-  !> Whether a stretch begins with another answer than that to which the one before leads.
-  function parts(scene, stretches, number)
+  !> Whether a block begins with another answer than that to which the one before leads.
+  function parts(scene, blocks, number)
     type(scene_type), intent(in) :: scene
-    type(stretch_type), intent(in) :: stretches(:)
-    integer, intent(in) :: number !! of the stretch
+    type(bearing_block_type), intent(in) :: blocks(:)
+    integer, intent(in) :: number !! of the block
     logical :: parts
 
     parts = .false.
     if (number < 2) return
-    if (.not. allocated(stretches(number - 1)%next)) return
-    parts = seam_words(scene, stretches(number - 1), stretches(number)) /= ''
+    if (.not. allocated(blocks(number - 1)%next)) return
+    parts = seam_words(scene, blocks(number - 1), blocks(number)) /= ''
   end function parts
 
   !> Adds to a row's count, or says that something is true.
@@ -170,21 +169,21 @@ contains
   end function number_of
 
   !> The contacts of all points in the sweep's order.
-  subroutine merge_arrays(stretches, arrays)
-    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+  subroutine merge_arrays(blocks, arrays)
+    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(case_array_type), allocatable, intent(out) :: arrays(:) !! with all points
     real(wp), allocatable :: values(:, :)
     integer :: i, k, columns, rows
 
     allocate (arrays(0))
-    do i = 1, size(stretches)
+    do i = 1, size(blocks)
       if (size(arrays) == 0) then
-        arrays = stretches(i)%contacts
+        arrays = blocks(i)%contacts
         cycle
       end if
-      do k = 1, size(stretches(i)%contacts)
+      do k = 1, size(blocks(i)%contacts)
         if (.not. arrays(k)%by_step) cycle
-        associate (more => stretches(i)%contacts(k)%values)
+        associate (more => blocks(i)%contacts(k)%values)
           columns = size(more, 1)
           rows = size(arrays(k)%values, 2)
           allocate (values(columns, rows + size(more, 2)))
@@ -196,69 +195,81 @@ contains
     end do
   end subroutine merge_arrays
 
-  !> Film and foils at the first points of a stretch.
-  pure subroutine keep_series(series, points, stretch)
-    type(grid_series_type), intent(in) :: series !! of these and maybe more points
-    integer, intent(in) :: points !! that are kept
-    type(stretch_type), intent(inout) :: stretch !! gets the series
-
-    stretch%series = series
-    call cut_series(stretch%series, points)
-  end subroutine keep_series
-
   !> Film and foils at all points in the sweep's order.
-  pure subroutine merge_series(stretches, series)
-    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+  pure subroutine merge_series(blocks, series)
+    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(grid_series_type), intent(out) :: series !! of all points
     integer :: i
 
-    do i = 1, size(stretches)
-      call join_series(series, stretches(i)%series)
+    do i = 1, size(blocks)
+      call join_series(series, blocks(i)%series)
     end do
   end subroutine merge_series
 
-  !> Coefficients of all points, and the first onset of whirl that any stretch has seen.
-  pure subroutine merge_dynamics(stretches, record)
-    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+  !> Coefficients of all points, and the first onset of whirl that any block has seen.
+  pure subroutine merge_dynamics(blocks, record)
+    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(dynamics_record_type), intent(inout) :: record !! of one of them, gets those of all
     type(dynamics_point_type), allocatable :: all(:)
     integer :: i
 
     record%onset = 0.0_wp
-    do i = size(stretches), 1, -1
-      if (stretches(i)%dynamics%onset > 0.0_wp) record%onset = stretches(i)%dynamics%onset
+    do i = size(blocks), 1, -1
+      if (blocks(i)%dynamics%onset > 0.0_wp) record%onset = blocks(i)%dynamics%onset
     end do
     if (.not. allocated(record%point)) return
     allocate (all(0))
-    do i = 1, size(stretches)
-      if (allocated(stretches(i)%dynamics%point)) all = [all, stretches(i)%dynamics%point]
+    do i = 1, size(blocks)
+      if (allocated(blocks(i)%dynamics%point)) all = [all, blocks(i)%dynamics%point]
     end do
     call move_alloc(all, record%point)
   end subroutine merge_dynamics
 
-  !> Adds how the sweep was divided, and whether its stretches meet.
-  subroutine add_origin(scene, groups, stretches, list)
+  !> Coefficients at all frequencies in their order; what else was found is the first block's.
+  pure subroutine merge_frequencies(blocks, point)
+    type(bearing_block_type), intent(in) :: blocks(:) !! each with an answer
+    type(dynamics_point_type), intent(inout) :: point !! the first block's, gets all frequencies
+    complex(wp), allocatable :: coefficient(:, :, :)
+    integer :: i, first, last
+
+    point%frequency = [(blocks(i)%dynamics%point(1)%frequency, i=1, size(blocks))]
+    associate (old => point%coefficient)
+      allocate (coefficient(size(old, 1), size(old, 2), size(point%frequency)))
+    end associate
+    first = 1
+    do i = 1, size(blocks)
+      associate (part => blocks(i)%dynamics%point(1)%coefficient)
+        last = first + size(part, 3) - 1
+        coefficient(:, :, first:last) = part
+      end associate
+      first = last + 1
+    end do
+    call move_alloc(coefficient, point%coefficient)
+  end subroutine merge_frequencies
+
+  !> Adds how the sweep was divided, and whether its blocks meet.
+  subroutine add_origin(scene, groups, blocks, list)
     type(scene_type), intent(in) :: scene          !! with the whole sweep
     integer, intent(in) :: groups                  !! of ranks
-    type(stretch_type), intent(in) :: stretches(:) !! in the sweep's order
+    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(quantity_type), allocatable, intent(inout) :: list(:) !! what the files say of their origin
     character(len=:), allocatable :: words
     integer :: i
 
     words = 'all begin with the answer to which the stretch before leads'
-    do i = 2, size(stretches)
-      if (seam_words(scene, stretches(i - 1), stretches(i)) /= '') words = 'not all begin with '// &
+    do i = 2, size(blocks)
+      if (seam_words(scene, blocks(i - 1), blocks(i)) /= '') words = 'not all begin with '// &
                                                     'the answer to which the stretch before leads'
     end do
     call add_result(list, 'groups', groups, with_stretches)
     if (groups > 1) call add_result(list, 'stretches', words)
   end subroutine add_origin
 
-  !> What is to be said of the seam between two stretches; nothing where the first leads to the same
+  !> What is to be said of the seam between two blocks; nothing where the first leads to the same
   !> answer as that with which the second begins.
   function seam_words(scene, before, behind) result(words)
     type(scene_type), intent(in) :: scene !! with the whole sweep
-    type(stretch_type), intent(in) :: before, behind !! the seam
+    type(bearing_block_type), intent(in) :: before, behind !! the seam
     character(len=:), allocatable :: words
     character(len=name_length), allocatable :: compared(:)
     real(wp) :: one, other, difference
@@ -294,4 +305,4 @@ contains
     words = sweep_name(scene%sweep)//' = '//text(scene%sweep%values(point))//' '// &
             sweep_unit(scene%sweep)
   end function place_text
-end module gfb_sweep_stretch
+end module gfb_bearing_blocks
