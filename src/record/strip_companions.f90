@@ -52,10 +52,11 @@ contains
         one = one_bump(foil, [(bump, bump=1, foil%bumps)])
         if (strips_differ(foil)) one = one_bump(one_strip(foil, strip), &
                                                 [(bump, bump=1, foil%bumps)])
-        soft = soft + bump_stiffness(one)*one%pitch*solid_width(one)
+        soft = soft + bump_stiffness(one)*one%pitch%value*solid_width(one)
         exact = exact + curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, &
-                                              one%thickness, one%half_length, one%height, &
-                                              solid_width(one), scene%contact%friction_sleeve)
+                                              one%thickness%value, one%half_length%value, &
+                                              one%height%value, solid_width(one), &
+                                              scene%contact%friction_sleeve)
       end do
     end associate
     companions%walowit_anno = crest_force/soft
@@ -79,10 +80,10 @@ contains
       if (has_sizes(foil) .or. strips_differ(foil)) return ! its bumps are alike
       if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
       mirrored = foil%fixed_edge == fixed_edge_trailing
-      chain = bump_chain_type(foil%half_length, foil%height, foil%thickness, foil%youngs_modulus, &
-                              foil%poissons_ratio, foil%pitch, solid_width(foil), foil%bumps, &
-                              foil%fixed_edge /= fixed_edge_none, contact%friction_top, &
-                              contact%friction_sleeve)
+      chain = bump_chain_type(foil%half_length%value, foil%height%value, foil%thickness%value, &
+                              foil%youngs_modulus, foil%poissons_ratio, foil%pitch%value, &
+                              solid_width(foil), foil%bumps, foil%fixed_edge /= fixed_edge_none, &
+                              contact%friction_top, contact%friction_sleeve)
     end associate
     if (mirrored) then
       call solve_bump_chain(chain, crest_force(size(crest_force):1:-1), solution)

@@ -59,10 +59,10 @@ contains
 
     most = max(real(most_a_side, wp), 1.5_wp*real(scene%mesh%circumferential_elements, wp))
     if (elements%along > most) then
-      call keys%complain('bearing', 'radius', 'the pad has '// &
-                         text(pad_length(scene%bearing), 6)//' m, along which align_crests '// &
-                         'in &mesh makes about '//text(elements%along, 3)//' elements at a '// &
-                         'pitch of '//text(scene%bump_foil%pitch, 6)//' m: must be at most '// &
+      call keys%complain('bearing', 'radius', 'the pad has '//text(pad_length(scene%bearing), 6)// &
+                         ' m, along which align_crests in &mesh makes about '// &
+                         text(elements%along, 3)//' elements at a pitch of '// &
+                         text(scene%bump_foil%pitch%value, 6)//' m: must be at most '// &
                          text(most_a_side))
     else if (elements%along*elements%across*films(scene) > real(most_in_all, wp)) then
       call keys%complain('mesh', 'axial_elements', text(nint(elements%along))//' x '// &
@@ -150,7 +150,7 @@ contains
     real(wp), intent(inout) :: along !! [1]
     real(wp) :: of_pitch, rest !! elements; pitches outside the crests [1]
 
-    associate (length => pad_length(scene%bearing), pitch => scene%bump_foil%pitch, &
+    associate (length => pad_length(scene%bearing), pitch => scene%bump_foil%pitch%value, &
                bumps => real(scene%bump_foil%bumps, wp))
       if (.not. (length > 0.0_wp .and. pitch > 0.0_wp)) return
       of_pitch = max(1.0_wp, anint(along*pitch/length))

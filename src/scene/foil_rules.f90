@@ -4,13 +4,12 @@
 module gfb_foil_rules
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: pad_length, leading_edge_periodic
-  use gfb_bump_foil_case, only: bump_pitches, bump_half_lengths, bump_heights, fixed_edge_none, &
-                                fixed_edge_trailing, has_flats, bumps_overlap, has_sizes, &
-                                one_bump, bump_foil_case_type, strips_differ, one_strip, &
-                                bump_thicknesses
+  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing, has_flats, bumps_overlap, &
+                                has_sizes, one_bump, bump_foil_case_type, strips_differ, &
+                                one_strip, sizes_mirror
   use gfb_case_keys, only: case_keys_type
   use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_foil_sizes, only: complain_of_bumps, sizes_mirror
+  use gfb_foil_sizes, only: complain_of_sizes, size_type
   use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
                             foil_rigid, foil_shell, foundation_pressure_local, meshes_foils, &
                             foil_word, foil_beam, half_width_yes
@@ -74,7 +73,8 @@ contains
       if (.not. (whole .or. modes) .or. (modes .and. part == part_top_foil)) return
       whole = whole .or. part == part_strip
       ! A pitch that is shorter is complained about elsewhere.
-      if (foil%half_length > 0.0_wp .and. .not. (has_flats(foil) .or. bumps_overlap(foil))) then
+      if (foil%half_length%value > 0.0_wp .and. &
+          .not. (has_flats(foil) .or. bumps_overlap(foil))) then
         if (modes .and. part == part_flat) then
           call keys%complain('modes', 'part', 'there are no flats: pitch in &bump_foil is 2 '// &
                              'half_length')
@@ -157,13 +157,15 @@ contains
         words = 'needs a bearing or a strip under load: modes are those of foils that touch nothing'
       else if (analysis == analysis_strip .and. scene%strip_load%support == support_held) then
         words = "needs support = 'contact' in &strip_load: corner lines that are held cannot move"
-      else if (any(bump_pitches(foil) <= 2.0_wp*bump_half_lengths(foil)*(1.0_wp + rounding)) .and. &
+      else if (any(foil%pitch%each(foil%bumps) <= &
+                   2.0_wp*foil%half_length%each(foil%bumps)*(1.0_wp + rounding)) .and. &
                maxval(foil%corner_gap) > minval(foil%corner_gap)) then
         words = 'needs flats at all bumps: without one two bumps share a corner line'
       else if (foil%fixed_edge == fixed_edge_none .and. minval(foil%corner_gap) > 0.0_wp) then
         words = 'must be 0 for a bump at least, or nothing holds a strip that is fixed nowhere'
-      else if (.not. maxval(foil%corner_gap) < foil%height .and. foil%height > 0.0_wp) then
-        words = 'must be less than the height of the bumps, '//text(foil%height)//' m'
+      else if (foil%height%value > 0.0_wp .and. &
+               .not. maxval(foil%corner_gap) < foil%height%value) then
+        words = 'must be less than the height of the bumps, '//text(foil%height%value)//' m'
       else
         return
       end if
@@ -206,17 +208,13 @@ contains
 
     associate (foil => scene%bump_foil)
       if (scene%model%foil /= foil_shell .or. foil%bumps < 1 .or. foil%strips > 1) return
-      associate (high => bump_heights(foil), half => bump_half_lengths(foil))
+      associate (high => foil%height%each(foil%bumps), half => foil%half_length%each(foil%bumps))
         if (any(high > half) .or. .not. any(high > steepest*half)) return
-        if (allocated(foil%bump_height)) then
-          call complain_of_bumps(keys, 'bump_height', high > steepest*half, high, rule, &
-                                 'half_length', half)
-        else if (allocated(foil%bump_half_length)) then
-          call complain_of_bumps(keys, 'height', high > steepest*half, high, rule, &
-                                 'half_length', half)
+        if (allocated(foil%height%by_bump) .or. allocated(foil%half_length%by_bump)) then
+          call complain_of_sizes(keys, foil%height%bump_key(), high > steepest*half, high, rule, &
+                                 'half_length', half, 'bump')
         else
-          call keys%complain(group, 'height', rule//', and half_length is '// &
-                             text(half(1))//' m')
+          call keys%complain(group, 'height', rule//', and half_length is '//text(half(1))//' m')
         end if
       end associate
     end associate
@@ -320,7 +318,7 @@ contains
   pure function strips_mirror(scene) result(mirror)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     logical :: mirror
-    mirror = sizes_mirror(scene%bump_foil%strip) .and. .not. heights_differ(scene)
+    mirror = sizes_mirror(scene%bump_foil) .and. .not. heights_differ(scene)
   end function strips_mirror
 
   !> Whether strips have random heights of their own; planar beams have one cross-section.
@@ -338,7 +336,7 @@ contains
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: rule = 'needs strips that mirror each other about the midplane: '
 
-    if (.not. sizes_mirror(scene%bump_foil%strip)) then
+    if (.not. sizes_mirror(scene%bump_foil)) then
       call keys%complain('model', 'half_width', rule// &
                          'lists in &bump_foil that read the same from both ends')
     else if (heights_differ(scene)) then
@@ -351,22 +349,30 @@ contains
   subroutine check_models(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: one_section = 'must be alike for all strips, or needs foil '// &
-                                   "= 'shell' in &model: planar beams have one cross-section"
 
     associate (foil => scene%bump_foil)
       if (is_bearing(scene%general%analysis) .and. scene%model%foil == foil_beam) then
-        call keys%rule(group, 'strip_pitch', allocated(foil%strip%pitch), one_section)
-        call keys%rule(group, 'strip_half_length', allocated(foil%strip%half_length), one_section)
-        call keys%rule(group, 'strip_height', allocated(foil%strip%height), one_section)
-        call keys%rule(group, 'strip_thickness', allocated(foil%strip%thickness), one_section)
-        call keys%rule(group, 'strip_offset', allocated(foil%strip%offset), one_section)
+        call alike(foil%pitch)
+        call alike(foil%half_length)
+        call alike(foil%height)
+        call alike(foil%thickness)
+        call alike(foil%offset)
       end if
       call keys%rule(group, 'strip_pitch', scene%general%analysis == analysis_strip .and. &
-                     scene%strip_load%kind /= load_plates .and. allocated(foil%strip%pitch), &
+                     scene%strip_load%kind /= load_plates .and. allocated(foil%pitch%by_strip), &
                      "must be alike for all strips, or needs kind = 'plates' in &strip_load: "// &
                      'the force of a crest is shared evenly')
     end associate
+
+  contains
+
+    !> Complains about a size that planar beams do not have strip by strip.
+    subroutine alike(size)
+      type(size_type), intent(in) :: size
+      call keys%rule(group, 'strip_'//trim(size%name), allocated(size%by_strip), 'must be '// &
+                     "alike for all strips, or needs foil = 'shell' in &model: planar beams "// &
+                     'have one cross-section')
+    end subroutine alike
   end subroutine check_models
 
   !> Bumps of a strip that overlap, are more than half a circle, or are no thin shells.
@@ -381,8 +387,8 @@ contains
     if (foil%bumps < 1) return
     do strip = 1, foil%strips
       one = one_strip(foil, strip)
-      associate (half => bump_half_lengths(one), high => bump_heights(one), &
-                 long => bump_pitches(one), thick => bump_thicknesses(one))
+      associate (half => one%half_length%each(one%bumps), high => one%height%each(one%bumps), &
+                 long => one%pitch%each(one%bumps), thick => one%thickness%each(one%bumps))
         worst = maxloc(high - half, 1)
         height(strip) = high(worst)
         highest(strip) = half(worst)
@@ -395,25 +401,26 @@ contains
         flats(:, strip) = long > 2.0_wp*half*(1.0_wp + rounding)
       end associate
     end do
-    call check('height', height > highest, height, 'must not exceed half_length: a bump is at '// &
-               'most half a circle', 'half_length', highest)
-    call check('pitch', pitch < arc*(1.0_wp - rounding), pitch, 'must be at least 2 '// &
+    call check(foil%height, height > highest, height, 'must not exceed half_length: a bump is '// &
+               'at most half a circle', 'half_length', highest)
+    call check(foil%pitch, pitch < arc*(1.0_wp - rounding), pitch, 'must be at least 2 '// &
                'half_length, or bumps overlap', '2 half_length', arc)
-    call check('thickness', thickness >= thickest, thickness, 'must be less than half of '// &
+    call check(foil%thickness, thickness >= thickest, thickness, 'must be less than half of '// &
                'half_length: a bump is a thin shell', 'half of half_length', thickest)
     if (any(pitch < arc*(1.0_wp - rounding))) return
-    call keys%rule(group, key_of(keys, 'pitch'), any(flats .neqv. spread(flats(:, 1), 2, &
+    call keys%rule(group, foil%pitch%key_in(keys), any(flats .neqv. spread(flats(:, 1), 2, &
                    foil%strips)), 'must leave flats on all strips, or on none')
 
   contains
 
     !> Complains about the strips where a size is wrong; one that is not known is not.
-    subroutine check(name, wrong, value, rule, other, limit)
-      character(len=*), intent(in) :: name, rule, other
+    subroutine check(size, wrong, value, rule, other, limit)
+      type(size_type), intent(in) :: size
+      character(len=*), intent(in) :: rule, other
       logical, intent(in) :: wrong(:)
       real(wp), intent(in) :: value(:), limit(:) !! [m]
 
-      call complain_of_bumps(keys, key_of(keys, name), &
+      call complain_of_sizes(keys, size%key_in(keys), &
                              wrong .and. value > 0.0_wp .and. limit > 0.0_wp, value, rule, &
                              other, limit, 'strip')
     end subroutine check
@@ -430,14 +437,14 @@ contains
 
     do strip = 1, foil%strips
       one = one_strip(foil, strip)
-      height(strip) = maxval(bump_heights(one))
-      thickness(strip) = maxval(bump_thicknesses(one))
+      height(strip) = maxval(one%height%each(one%bumps))
+      thickness(strip) = maxval(one%thickness%each(one%bumps))
     end do
-    call complain_of_bumps(keys, key_of(keys, 'thickness'), thickness >= thin*radius, thickness, &
+    call complain_of_sizes(keys, foil%thickness%key_in(keys), thickness >= thin*radius, thickness, &
                            'must be less than 1/20 of the radius: the foil is a thin shell, '// &
                            'unrolled', '1/20 of the radius', &
                            spread(thin*radius, 1, foil%strips), 'strip')
-    call complain_of_bumps(keys, key_of(keys, 'height'), height >= low_in_pad*radius, height, &
+    call complain_of_sizes(keys, foil%height%key_in(keys), height >= low_in_pad*radius, height, &
                            'must be less than 1/4 of the radius: the strip is unrolled', &
                            '1/4 of the radius', spread(low_in_pad*radius, 1, foil%strips), 'strip')
   end subroutine check_flatness
@@ -454,23 +461,12 @@ contains
 
     do strip = 1, foil%strips
       one = one_strip(foil, strip)
-      reach(strip) = one%offset + sum(bump_pitches(one))
+      reach(strip) = one%offset%value + sum(one%pitch%each(one%bumps))
     end do
-    key = key_of(keys, 'pitch')
+    key = foil%pitch%key_in(keys)
     if (keys%holds(group, 'strip_offset')) key = 'strip_offset'
-    call complain_of_bumps(keys, key, reach > length*(1.0_wp + rounding), reach, 'a strip with '// &
+    call complain_of_sizes(keys, key, reach > length*(1.0_wp + rounding), reach, 'a strip with '// &
                            'its offset must not be longer than the pad', 'the pad', &
                            spread(length, 1, foil%strips), 'strip')
   end subroutine check_room
-
-  !> The key that gives a size: of strips, of bumps, or of all.
-  function key_of(keys, name) result(key)
-    type(case_keys_type), intent(in) :: keys
-    character(len=*), intent(in) :: name !! of the single size
-    character(len=:), allocatable :: key
-
-    key = name
-    if (keys%holds(group, 'bump_'//name)) key = 'bump_'//name
-    if (keys%holds(group, 'strip_'//name)) key = 'strip_'//name
-  end function key_of
 end module gfb_foil_rules

@@ -186,12 +186,13 @@ contains
 
     associate (transient => scene%transient)
       if (.not. transient%present) return
-      call keys%rule(group, 'turns', keys%meant(group, 'turns') .eqv. keys%meant(group, &
-                     'duration'), 'or duration must say how long: give one of them')
+      call keys%rule(group, 'turns', &
+                     keys%meant(group, 'turns') .eqv. keys%meant(group, 'duration'), &
+                     'or duration must say how long: give one of them')
       call keys%refuse(group, 'time_tolerance', keys%meant(group, 'steps_per_turn'), &
                        'has no use with steps_per_turn')
-      call keys%refuse(group, 'turns', .not. max(scene%operation%speed_rpm, &
-                       transient%final_speed_rpm) > 0.0_wp, &
+      call keys%refuse(group, 'turns', &
+                       .not. max(scene%operation%speed_rpm, transient%final_speed_rpm) > 0.0_wp, &
                        'needs a shaft that turns: give duration')
       call keys%refuse(group, 'field_start', .not. transient%field_interval > 0.0_wp, &
                        'has no use without field_interval')

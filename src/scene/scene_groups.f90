@@ -10,16 +10,16 @@ module gfb_scene_groups
   use gfb_dynamics_case, only: read_dynamics_case, analysis_of_state
   use gfb_gas_case, only: read_gas_case
   use gfb_mesh_case, only: read_mesh_case
-  use gfb_model_case, only: read_model_case, meshes_foils
-  use gfb_modes_case, only: read_modes_case, part_half_arc, part_arc, part_top_foil
+  use gfb_model_case, only: meshes_foils, read_model_case
+  use gfb_modes_case, only: part_half_arc, part_arc, read_modes_case, part_top_foil
   use gfb_operation_case, only: read_operation_case
   use gfb_output_case, only: read_output_case
   use gfb_periodic_case, only: read_periodic_case
   use gfb_rotor_case, only: read_rotor_case
   use gfb_sample_case, only: read_sample_case
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: read_scene_case, is_bearing, misplaced_group, analysis_strip, &
-                            analysis_modes, analysis_misalignment
+  use gfb_scene_case, only: needs_type, analysis_strip, read_scene_case, is_bearing, &
+                            misplaced_group, analysis_modes, analysis_misalignment
   use gfb_sensitivity_case, only: read_sensitivity_case
   use gfb_shaft_contact_case, only: read_shaft_contact_case
   use gfb_solver_case, only: read_solver_case
@@ -29,7 +29,7 @@ module gfb_scene_groups
   use gfb_transient_case, only: read_transient_case
   implicit none (type, external)
   private
-  public :: read_groups
+  public :: read_groups, needs_of
 
 contains
 
@@ -37,26 +37,18 @@ contains
   subroutine read_groups(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(inout) :: scene !! gets what they say
+    type(needs_type) :: needs !! of the analysis
     integer :: state !! analysis that finds it, where vibrations about a state are asked for
-    logical :: modes !! they are asked for, and of what is known
-    logical :: plate !! of the top foil
-    logical :: bumps !! the bump foil is meshed
-    logical :: both  !! of a bearing: both foils are meshed
-    logical :: arc   !! an arc of it alone
 
     call read_scene_case(keys, scene%general)
     call read_modes_case(keys, scene%modes, scene%general%analysis)
     call read_model_case(keys, scene%model, scene%general%analysis)
     state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load'), &
                               keys%holds('operation', 'eccentricity'))
-    associate (analysis => scene%general%analysis, part => scene%modes%part)
-      modes = analysis == analysis_modes .and. part /= 0
-      plate = modes .and. part == part_top_foil
-      both = is_bearing(analysis) .and. meshes_foils(scene%model%foil)
-      bumps = analysis == analysis_strip .or. (modes .and. .not. plate) .or. both
-      arc = modes .and. (part == part_half_arc .or. part == part_arc)
-      call read_bearing_case(keys, scene%bearing, is_bearing(analysis) .or. plate, &
-                             is_bearing(analysis), bearing_misplaced(analysis, part))
+    needs = needs_of(scene%general%analysis, scene%modes%part, scene%model%foil)
+    associate (analysis => scene%general%analysis)
+      call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, &
+                             bearing_misplaced(analysis, scene%modes%part))
       call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
       call read_bore_case(keys, scene%bore, scene%bearing, analysis)
       call read_gas_case(keys, scene%gas, analysis)
@@ -69,13 +61,39 @@ contains
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis == analysis_misalignment
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_foil_groups(keys, scene, modes, plate, bumps, both, arc)
+      call read_top_foil_case(keys, scene%top_foil, needs)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
+      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
+      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
+                             scene%bearing%clearance, analysis, scene%model%foil)
+      call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
+      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
+      call read_output_case(keys, scene%output)
+      call read_sensitivity_case(keys, scene%sensitivity, analysis)
+      call read_accuracy_case(keys, scene%accuracy, analysis)
+      call read_sample_case(keys, scene%sample, &
+                            misplaced_group(analysis, analysis /= analysis_modes))
     end associate
-    call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-    call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
-    call read_study_groups(keys, scene)
     scene%general%analysis = state
   end subroutine read_groups
+
+  !> What an analysis needs, of foils by a model, or of modes of a part.
+  pure function needs_of(analysis, part, foil) result(needs)
+    integer, intent(in) :: analysis, part, foil !! 0 where they are not known
+    type(needs_type) :: needs
+    logical :: modes, meshed
+
+    modes = analysis == analysis_modes .and. part /= 0
+    meshed = is_bearing(analysis) .and. meshes_foils(foil)
+    needs%film = is_bearing(analysis)
+    needs%top_mass = modes .and. part == part_top_foil
+    needs%pad = needs%film .or. needs%top_mass
+    needs%top_foil = needs%top_mass .or. meshed
+    needs%mass = modes .and. part /= part_top_foil
+    needs%width = needs%mass .or. analysis == analysis_strip
+    needs%bumps = needs%width .or. meshed
+    needs%pitch = needs%width .and. .not. (modes .and. any(part == [part_half_arc, part_arc]))
+  end function needs_of
 
   !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
   pure function bearing_misplaced(analysis, part) result(words)
@@ -89,38 +107,4 @@ contains
       words = "needs part = 'top_foil' in &modes: no other part has a pad"
     end if
   end function bearing_misplaced
-
-  !> Reads the groups in the order in which they need each other.
-  subroutine read_foil_groups(keys, scene, modes, plate, bumps, both, arc)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(inout) :: scene !! gets what they say
-    logical, intent(in) :: modes !! they are asked for, and of what is known
-    logical, intent(in) :: plate !! of the top foil
-    logical, intent(in) :: bumps !! the bump foil is meshed
-    logical, intent(in) :: both  !! of a bearing: both foils are meshed
-    logical, intent(in) :: arc   !! an arc of it alone
-
-    associate (analysis => scene%general%analysis)
-      call read_top_foil_case(keys, scene%top_foil, plate .or. both, plate)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, bumps, modes .and. bumps, &
-                               bumps .and. .not. arc .and. .not. both, bumps .and. .not. both)
-      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
-      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
-                             scene%bearing%clearance, analysis, scene%model%foil)
-    end associate
-  end subroutine read_foil_groups
-
-  !> Reads them, behind the groups that say what is computed.
-  subroutine read_study_groups(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(inout) :: scene !! gets what they say; its analysis is the file's
-
-    call read_output_case(keys, scene%output)
-    associate (analysis => scene%general%analysis)
-      call read_sensitivity_case(keys, scene%sensitivity, analysis)
-      call read_accuracy_case(keys, scene%accuracy, analysis)
-      call read_sample_case(keys, scene%sample, &
-                            misplaced_group(analysis, analysis /= analysis_modes))
-    end associate
-  end subroutine read_study_groups
 end module gfb_scene_groups

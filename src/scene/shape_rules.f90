@@ -1,8 +1,7 @@
 !> Sizes for which the model has no meaning: films, foils and bumps are thin against the bearing.
 module gfb_shape_rules
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type, has_sizes, bump_half_lengths, &
-                                bump_thicknesses, strips_differ
+  use gfb_bump_foil_case, only: bump_foil_case_type, has_sizes, one_bump, strips_differ
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid
   use gfb_periodic_case, only: follow_unbalance
@@ -36,58 +35,48 @@ contains
       call check_bumps(keys, scene%bump_foil, radius)
     end associate
     call must_be_less(keys, 'strip_load', 'maximum_displacement', &
-                      scene%strip_load%maximum_displacement, scene%bump_foil%height, &
+                      scene%strip_load%maximum_displacement, scene%bump_foil%height%value, &
                       'the height of the bumps')
     call check_position(keys, scene)
     call check_motion(keys, scene)
   end subroutine check_shape
 
-  !> Bumps are low against the bearing, and their foil is thin against them.
+  !> Bumps are low against the bearing, and their foil is thin against them; the first bump that is
+  !> too thick is named.
   subroutine check_bumps(keys, foil, radius)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(in) :: foil
     real(wp), intent(in) :: radius !! of the bearing, 0 where there is none [m]
     character(len=*), parameter :: group = 'bump_foil'
-    character(len=:), allocatable :: key
+    type(bump_foil_case_type) :: one
+    character(len=:), allocatable :: of, key
+    real(wp) :: thickness !! [m]
+    integer :: bump, n
 
     if (strips_differ(foil)) return ! see the rules of strips with sizes of their own
-    if (has_sizes(foil) .and. foil%half_length > 0.0_wp) then
-      call check_thicknesses(keys, foil, thin*radius)
-    else if (foil%half_length > 0.0_wp .and. foil%thickness >= thin_in_bump*foil%half_length) then
-      call must_be_less(keys, group, 'thickness', foil%thickness, thin_in_bump*foil%half_length, &
-                        'half of half_length: a bump is a thin shell')
+    key = 'thickness'
+    thickness = foil%thickness%value
+    bump = 0
+    if (foil%half_length%value > 0.0_wp) then
+      n = merge(foil%bumps, 1, has_sizes(foil))
+      key = foil%thickness%bump_key()
+      thickness = maxval(foil%thickness%each(n))
+      bump = findloc(foil%thickness%each(n) >= thin_in_bump*foil%half_length%each(n), .true., 1)
+    end if
+    if (bump > 0) then
+      of = ''
+      if (has_sizes(foil)) of = ' of bump '//text(bump)
+      one = one_bump(foil, bump)
+      call must_be_less(keys, group, key, one%thickness%value, &
+                        thin_in_bump*one%half_length%value, 'half of half_length'//of// &
+                        ': a bump is a thin shell')
     else
-      call must_be_less(keys, group, 'thickness', foil%thickness, thin*radius, &
+      call must_be_less(keys, group, key, thickness, thin*radius, &
                         '1/20 of the radius: the foil is a thin shell, unrolled')
     end if
-    key = 'height'
-    if (allocated(foil%bump_height)) key = 'bump_height'
-    call must_be_less(keys, group, key, foil%height, low_in_pad*radius, &
+    call must_be_less(keys, group, foil%height%bump_key(), foil%height%value, low_in_pad*radius, &
                       '1/4 of the radius: the strip is unrolled')
   end subroutine check_bumps
-
-  !> The same of bumps with sizes of their own; the first that is too thick is named.
-  subroutine check_thicknesses(keys, foil, limit)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(in) :: foil
-    real(wp), intent(in) :: limit !! of a shell on the pad, 0 where there is none [m]
-    real(wp) :: thickness(foil%bumps), half_length(foil%bumps)
-    character(len=:), allocatable :: key
-    integer :: bump
-
-    thickness = bump_thicknesses(foil)
-    half_length = bump_half_lengths(foil)
-    key = 'thickness'
-    if (allocated(foil%bump_thickness)) key = 'bump_thickness'
-    bump = findloc(thickness >= thin_in_bump*half_length, .true., 1)
-    if (bump > 0) then
-      call must_be_less(keys, 'bump_foil', key, thickness(bump), thin_in_bump*half_length(bump), &
-                        'half of half_length of bump '//text(bump)//': a bump is a thin shell')
-    else
-      call must_be_less(keys, 'bump_foil', key, maxval(thickness), limit, &
-                        '1/20 of the radius: the foil is a thin shell, unrolled')
-    end if
-  end subroutine check_thicknesses
 
   !> The shaft and the free edge stay near the foil. A rigid pad has a stricter rule of its own.
   subroutine check_position(keys, scene)

@@ -3,7 +3,7 @@
 module gfb_study_rules
   use gfb_kinds, only: wp
   use gfb_accuracy_case, only: asked_name, of_vibrations
-  use gfb_bump_foil_case, only: draw_gaps, largest_gap, bump_heights
+  use gfb_bump_foil_case, only: draw_gaps, largest_gap
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: needs_meshes, coupling_partitioned, meshes_foils
   use gfb_result_names, only: is_of
@@ -309,9 +309,8 @@ contains
     integer :: number
 
     associate (foil => scene%bump_foil)
-      if (foil%bumps < 1 .or. .not. foil%height > 0.0_wp) return
-      lowest = minval(bump_heights(foil))
-      if (allocated(foil%strip%height)) lowest = minval(foil%strip%height)
+      if (foil%bumps < 1 .or. .not. foil%height%value > 0.0_wp) return
+      lowest = foil%height%smallest()
       if (.not. foil%random%deviation > 0.0_wp) return
       if (foil%random%seed > huge(0) - scene%sample%count) then
         call keys%complain('sample', 'count', 'leads to a seed that is too large')

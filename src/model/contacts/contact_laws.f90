@@ -30,7 +30,7 @@ contains
     contacts%sticks_in_motion = contact%friction_law_in_motion == motion_coulomb
     contacts%at_faces = contact%contact_surface == surface_face
     contacts%secant_penetration = first_penetration*displacement
-    contacts%floor_normal = normal_floor*bump_stiffness(foil)*foil%pitch
+    contacts%floor_normal = normal_floor*bump_stiffness(foil)*foil%pitch%value
   end subroutine set_contact_laws
 
   !> The laws of sleeve and top.

@@ -182,7 +182,7 @@ contains
       end do
       do bump = 1, scene%bump_foil%bumps
         line = node_set(mesh, crest_name(bump))
-        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch, &
+        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch%value, &
                       gap_of_crest(scene%bump_foil, bump))
       end do
     end associate

@@ -101,7 +101,7 @@ contains
     do i = 1, size(contacts%point)
       associate (point => contacts%point(i))
         turn = point%turn
-        call touch_with_face(mesh, scene%bump_foil%thickness, turn(:turns), point)
+        call touch_with_face(mesh, scene%bump_foil%thickness%value, turn(:turns), point)
         if (size(turn) == turns) cycle
         call touch_top_face(scene%top_foil%thickness, reshape(turn(turns + 1:), [turns, size(turn)/turns - 1]), point)
       end associate

@@ -27,7 +27,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     real(wp) :: height
 
-    height = scene%bump_foil%height + 0.5_wp*(scene%bump_foil%thickness + scene%top_foil%thickness)
+    height = scene%bump_foil%height%value + 0.5_wp*(scene%bump_foil%thickness%value + scene%top_foil%thickness)
   end function top_height
 
   !> Laws of the contacts, how soft they begin, and the load of the initial moment where there is one.
@@ -36,7 +36,7 @@ contains
     class(meshed_foil_type), intent(inout) :: foil !! its contacts get their laws
     real(wp) :: stiffness !! of a bump, per length of line [N/m2]
 
-    stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch
+    stiffness = bump_stiffness(scene%bump_foil)*scene%bump_foil%pitch%value
     call set_contact_laws(scene%contact, scene%bump_foil, scene%bearing%clearance, foil%contacts)
     foil%first_hardness = min(1.0_wp, soft_contact*stiffness/(scene%contact%normal_stiffness* &
                               foil%contacts%secant_penetration**(scene%contact%exponent - 1.0_wp)))
@@ -159,7 +159,7 @@ contains
     real(wp) :: force, scale(size(foil%global_unknown))
 
     scale = 1.0_wp
-    scale(place_of(foil%global_unknown, turning)) = scene%bump_foil%half_length
+    scale(place_of(foil%global_unknown, turning)) = scene%bump_foil%half_length%value
     force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
             scene%bearing%length/(film%order*scene%mesh%axial_elements)
     foil%unknown_scale = scene%bearing%clearance/scale

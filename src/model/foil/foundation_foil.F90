@@ -82,7 +82,7 @@ contains
     stiffness = model%foundation_stiffness
     if (stiffness > 0.0_wp) return
     stiffness = walowit_anno_stiffness(bump_foil%youngs_modulus, bump_foil%poissons_ratio, &
-                                       bump_foil%thickness, bump_foil%half_length, bump_foil%pitch)
+                                       bump_foil%thickness%value, bump_foil%half_length%value, bump_foil%pitch%value)
   end function foundation_stiffness
 
   !> An elastic foundation that feels the local pressure.

@@ -58,12 +58,12 @@ contains
         strip%plate_displacement = load%maximum_displacement
       end if
       strip%scale%length = typical_deflection(load, foil)
-      strip%scale%angle = strip%scale%length/foil%half_length
-      strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch*solid_width(foil)/ &
+      strip%scale%angle = strip%scale%length/foil%half_length%value
+      strip%scale%force = strip%scale%length*bump_stiffness(foil)*foil%pitch%value*solid_width(foil)/ &
                           scene%mesh%axial_elements
       call set_contact_laws(scene%contact, scene%bump_foil, strip%scale%length, strip%contacts)
       if (foil%fixed_edge == fixed_edge_none) then
-        strip%contacts%floor_tangential = tangential_floor*bump_stiffness(foil)*foil%pitch
+        strip%contacts%floor_tangential = tangential_floor*bump_stiffness(foil)*foil%pitch%value
       end if
       call add_contacts(scene, strip)
       call create_strip_system(strip)

@@ -8,8 +8,7 @@ module gfb_foil_builder
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: pad_length
   use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, bump_pitches, bump_half_lengths, bump_heights, &
-                                bump_thicknesses, one_strip, strips_differ
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
   use gfb_top_mesh, only: top_mesh
@@ -60,7 +59,7 @@ contains
 
     length = pad_length(scene%bearing)
     if (scene%mesh%align_crests) then
-      x = aligned_stations(length, crest_positions(shape_on_pad(scene)), scene%bump_foil%pitch, elements_a_pitch(scene), &
+      x = aligned_stations(length, crest_positions(shape_on_pad(scene)), scene%bump_foil%pitch%value, elements_a_pitch(scene), &
                            scene%mesh%elements_at_ends)
     else
       associate (elements => scene%mesh%circumferential_elements)
@@ -72,7 +71,7 @@ contains
   !> Elements from crest to crest where stations lie above the crests.
   elemental integer function elements_a_pitch(scene) result(elements)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    elements = max(1, nint(scene%mesh%circumferential_elements*scene%bump_foil%pitch/pad_length(scene%bearing)))
+    elements = max(1, nint(scene%mesh%circumferential_elements*scene%bump_foil%pitch%value/pad_length(scene%bearing)))
   end function elements_a_pitch
 
   !> What the crest gaps of a pad whose heights are random are more than those of the first one [m].
@@ -94,7 +93,7 @@ contains
     there%mesh%circumferential_elements = scene%mesh%circumferential_elements
     if (.not. (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0)) return
     there%mesh%elements_at_ends = elements_at_ends(pad_length(scene%bearing), crest_positions(shape_on_pad(scene)), &
-                                                   scene%bump_foil%pitch, elements_a_pitch(scene))
+                                                   scene%bump_foil%pitch%value, elements_a_pitch(scene))
   end subroutine keep_elements
 
   !> Supports of the symmetry at z = 0: no axial displacement, no rotation about the tangent; of the
@@ -128,8 +127,8 @@ contains
     type(strip_shape_type) :: shape
 
     shape = strip_shape(scene)
-    shape%edge = scene%bump_foil%offset
-    if (shape%mirrored) shape%edge = pad_length(scene%bearing) - scene%bump_foil%offset
+    shape%edge = scene%bump_foil%offset%value
+    if (shape%mirrored) shape%edge = pad_length(scene%bearing) - scene%bump_foil%offset%value
   end function shape_on_pad
 
   !> Shape of a scene's strip, its leading end at x = 0; of strips that differ their mean.
@@ -150,7 +149,7 @@ contains
 
     one = one_strip(scene%bump_foil, strip)
     shape = shape_of(scene, one)
-    shape%edge = mean%edge + (one%offset - scene%bump_foil%offset)* &
+    shape%edge = mean%edge + (one%offset%value - scene%bump_foil%offset%value)* &
                  merge(-1.0_wp, 1.0_wp, mean%mirrored)
   end function shape_beside
 
@@ -161,12 +160,12 @@ contains
     type(strip_shape_type) :: shape
 
     allocate (shape%bump(foil%bumps))
-    shape%bump%half_length = bump_half_lengths(foil)
-    shape%bump%height = bump_heights(foil)
-    shape%bump%pitch = max(bump_pitches(foil), 2.0_wp*shape%bump%half_length)
+    shape%bump%half_length = foil%half_length%each(foil%bumps)
+    shape%bump%height = foil%height%each(foil%bumps)
+    shape%bump%pitch = max(foil%pitch%each(foil%bumps), 2.0_wp*shape%bump%half_length)
     shape%begins = foil%fixed_line
     shape%mirrored = foil%fixed_edge == fixed_edge_trailing
-    if (allocated(foil%bump_thickness)) shape%bump%thickness = bump_thicknesses(foil)
+    if (allocated(foil%thickness%by_bump)) shape%bump%thickness = foil%thickness%each(foil%bumps)
     if (shape%mirrored) shape%bump = shape%bump(foil%bumps:1:-1)
     if (shape%mirrored) shape%edge = sum(shape%bump%pitch)
     shape%arc_elements = scene%mesh%arc_elements
@@ -210,8 +209,8 @@ contains
         call put_strip(mesh, bump_strip_mesh(shape_beside(scene, shape, strip), mesh%row_axial, &
                                              half, window), strip)
       end do
-      if (.not. allocated(foil%strip%thickness)) return
-      mesh%row_thickness = foil%strip%thickness(mesh%row_strip(:mesh%rows - 1))
+      if (.not. allocated(foil%thickness%by_strip)) return
+      mesh%row_thickness = foil%thickness%by_strip(mesh%row_strip(:mesh%rows - 1))
     end associate
   end function cut_strip_mesh
 
@@ -236,7 +235,7 @@ contains
   pure function section_of(foil) result(section)
     type(bump_foil_case_type), intent(in) :: foil !! thickness and material
     type(shell_section_type) :: section
-    section = shell_section_type(foil%thickness, foil%youngs_modulus, foil%poissons_ratio, foil%density)
+    section = shell_section_type(foil%thickness%value, foil%youngs_modulus, foil%poissons_ratio, foil%density)
   end function section_of
 
   !> What the top foil is made of.

@@ -41,7 +41,8 @@ contains
     logical, intent(in) :: with_film          !! and a film between it and a shaft
     character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
 
-    call keys%start_group('bearing', required=needed, optional=.not. needed, misplaced=misplaced)
+    call keys%start_group('bearing', required=needed, optional=.not. needed, &
+                          misplaced=misplaced)
     call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, needed)
     call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, needed)
     call keys%real_key('clearance', bearing%clearance, 'm', &

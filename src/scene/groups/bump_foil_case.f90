@@ -5,16 +5,15 @@ module gfb_bump_foil_case
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_case_keys, only: case_keys_type, no_default
   use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_foil_sizes, only: bump_list_key, complain_of_bumps, strip_sizes_type, read_strip_sizes, &
-                            refuse_strip_sizes, gives_strips, sizes_differ
+  use gfb_foil_sizes, only: size_type, of_bump, of_strip, bump_list_key, complain_of_sizes
+  use gfb_scene_case, only: needs_type
   use gfb_text, only: text
   use gfb_value_rules, only: between, from_to, not_negative, positive, at_least
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, &
             gap_of_corner, solid_width, has_sizes, one_bump, one_strip, strips_differ, &
-            bump_pitches, bump_half_lengths, bump_heights, bump_thicknesses, draw_gaps, &
-            largest_gap
+            sizes_mirror, draw_gaps, largest_gap
 
   integer, parameter, public :: fixed_edge_leading = 1
   integer, parameter, public :: fixed_edge_trailing = 2
@@ -42,19 +41,18 @@ module gfb_bump_foil_case
   !> The bump strip. A number that is not given is zero.
   type :: bump_foil_case_type
     logical :: present = .false.            !! the group stands in the file
-    real(wp) :: thickness = 0.0_wp          !! [m]
+    type(size_type) :: thickness = size_type('thickness', 'thickness of the foil')
     real(wp) :: youngs_modulus = 0.0_wp     !! [Pa]
     real(wp) :: poissons_ratio = 0.0_wp     !! [1]
     real(wp) :: density = 0.0_wp            !! [kg/m^3]
-    real(wp) :: half_length = 0.0_wp        !! half the chord of a bump's arc [m]
-    real(wp) :: height = 0.0_wp             !! of a bump [m]
+    type(size_type) :: half_length = size_type('half_length', "half the chord of a bump's arc")
+    type(size_type) :: height = size_type('height', 'height of a bump', largest=.true.)
     integer :: bumps = 0
-    real(wp) :: pitch = 0.0_wp              !! arc plus flat; from the bumps where not given [m]
+    type(size_type) :: pitch = size_type('pitch', 'from bump to bump, arc plus flat')
     real(wp) :: width = 0.0_wp              !! of a strip, along the axis [m]
     integer :: strips = 1                   !! side by side along the axis
     real(wp) :: cut_width = 0.0_wp          !! between two of them [m]
-    real(wp) :: offset = 0.0_wp             !! of their fixed edge from the pad's, mean [m]
-    type(strip_sizes_type) :: strip         !! sizes that differ from strip to strip
+    type(size_type) :: offset = size_type('offset', 'of the fixed edge, from the edge of the pad')
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
     logical :: poissons_ratio_given = .false.
@@ -62,53 +60,42 @@ module gfb_bump_foil_case
     real(wp), allocatable :: crest_gap(:)
     !> at rest between the corners of each bump and the sleeve; not allocated: all touch [m]
     real(wp), allocatable :: corner_gap(:)
-    ! Sizes of each bump from the smallest x on, where they are given so; the single ones are then
-    ! their means, that of the heights the largest one.
-    real(wp), allocatable :: bump_pitch(:)       !! [m]
-    real(wp), allocatable :: bump_half_length(:) !! [m]
-    real(wp), allocatable :: bump_height(:)      !! [m]
-    real(wp), allocatable :: bump_thickness(:)   !! [m]
     type(height_deviation_type) :: random   !! law of the heights from which the gaps follow
   end type bump_foil_case_type
 
 contains
 
   !> Reads the group.
-  subroutine read_bump_foil_case(keys, foil, bearing, as_shell, with_mass, with_pitch, with_width)
+  subroutine read_bump_foil_case(keys, foil, bearing, needs)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bump_foil_case_type), intent(out) :: foil !! what `&bump_foil` asks for
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    logical, intent(in) :: as_shell   !! the strip is meshed: its shape must be known
-    logical, intent(in) :: with_mass  !! and its density too
-    logical, intent(in) :: with_pitch !! more of it than an arc is meshed; no pad tells the pitch
-    logical, intent(in) :: with_width !! no bearing tells the width
-    real(wp) :: lowest !! height [m]
+    type(needs_type), intent(in) :: needs !! of the analysis
     logical :: gaps    !! are given
 
-    call keys%start_group(group, required=as_shell, optional=.true., &
+    call keys%start_group(group, required=needs%bumps, optional=.true., &
                           present_in_file=foil%present)
-    call length_key('thickness', foil%thickness, 'thickness of the foil', 'bump_thickness')
+    call foil%thickness%read_value(keys, needs%bumps)
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
-                       as_shell, default=no_default)
+                       needs%bumps, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
-                       between(-1.0_wp, 0.5_wp), as_shell, default=no_default, &
+                       between(-1.0_wp, 0.5_wp), needs%bumps, default=no_default, &
                        given=foil%poissons_ratio_given)
-    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
+    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%mass, &
                        default=no_default)
-    call length_key('half_length', foil%half_length, "half the chord of a bump's arc", &
-                    'bump_half_length')
-    call length_key('height', foil%height, 'height of a bump', 'bump_height')
+    call foil%half_length%read_value(keys, needs%bumps)
+    call foil%height%read_value(keys, needs%bumps)
     call keys%integer_key('bumps', foil%bumps, 'number of bumps', from_to(1.0_wp, most_bumps), &
-                          as_shell, default=no_default)
-    if (foil%bumps > 0) foil%pitch = pad_length(bearing)/foil%bumps
-    call keys%real_key('pitch', foil%pitch, 'm', 'from bump to bump, arc plus flat', positive, &
-                       with_pitch .and. .not. keys%holds(group, 'bump_pitch') .and. &
-                       .not. gives_strips(keys, 'pitch'), &
-                       default='length of the pad / `bumps`')
-    call read_sizes(keys, foil)
-    if (as_shell .and. .not. with_width) foil%width = bearing%length
+                          needs%bumps, default=no_default)
+    if (foil%bumps > 0) foil%pitch%value = pad_length(bearing)/foil%bumps
+    call foil%pitch%read_value(keys, needs%pitch, 'length of the pad / `bumps`')
+    call foil%pitch%read_by_bump(keys, foil%bumps, 'from bump to bump, arc plus flat')
+    call foil%half_length%read_by_bump(keys, foil%bumps, "half the chord of the bump's arc")
+    call foil%height%read_by_bump(keys, foil%bumps, 'height of the bump')
+    call foil%thickness%read_by_bump(keys, foil%bumps, 'thickness of the bump, arc and flat')
+    if (needs%bumps .and. .not. needs%width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
-                       with_width, default='required for strips; a bearing''s length')
+                       needs%width, default='required for strips; a bearing''s length')
     call read_cuts(keys, foil)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
@@ -120,27 +107,10 @@ contains
     call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'm', 'gap at rest '// &
                        'between a bump''s two corner lines and the sleeve', not_negative, &
                        '0: all corners touch')
-    lowest = foil%height
-    if (allocated(foil%bump_height)) lowest = minval(foil%bump_height)
-    if (allocated(foil%strip%height)) lowest = minval(foil%strip%height)
     call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%strips*bearing%pads, &
-                               lowest, foil%random, foil%crest_gap)
+                               foil%height%smallest(), foil%random, foil%crest_gap)
     call check_geometry(keys, foil, bearing)
     call keys%finish_group()
-
-  contains
-
-    !> A length that need not be given.
-    subroutine length_key(name, value, meaning, list)
-      character(len=*), intent(in) :: name, meaning
-      real(wp), intent(inout) :: value !! [m]
-      character(len=*), intent(in), optional :: list !! key that says it bump by bump
-      logical :: required
-      required = as_shell
-      if (present(list)) required = required .and. .not. keys%holds(group, list) .and. &
-                                    .not. gives_strips(keys, name)
-      call keys%real_key(name, value, 'm', meaning, positive, required, default=no_default)
-    end subroutine length_key
   end subroutine read_bump_foil_case
 
   !> Reads how the strip is cut into strips side by side.
@@ -158,56 +128,37 @@ contains
     right = keys%last_key_is_right()
     if (foil%present .and. foil%strips <= 1) then
       call keys%useless_key('cut_width', meaning, why)
-      call refuse_strip_sizes(keys, why)
+      call no_strips(foil%pitch)
+      call no_strips(foil%half_length)
+      call no_strips(foil%height)
+      call no_strips(foil%thickness)
+      call no_strips(foil%offset)
       return
     end if
     call keys%real_key('cut_width', foil%cut_width, 'm', meaning, positive, &
                        foil%strips > 1, default='required with `strips`')
     right = right .and. keys%last_key_is_right()
-    call read_strip_sizes(keys, foil%strips, foil%pitch, foil%half_length, foil%height, &
-                          foil%thickness, foil%offset, foil%strip)
+    call foil%pitch%read_by_strip(keys, foil%strips, positive)
+    call foil%half_length%read_by_strip(keys, foil%strips, positive)
+    call foil%height%read_by_strip(keys, foil%strips, positive)
+    call foil%thickness%read_by_strip(keys, foil%strips, positive)
+    call foil%offset%read_by_strip(keys, foil%strips, not_negative, &
+                                   '0: strips begin at the edge of the pad')
     if (.not. right .or. .not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
     if (foil%cut_width < strip) return
     call keys%complain(group, 'cut_width', 'must be less than the width of a strip, '// &
                        text(max(0.0_wp, strip), 4)//' m: so much is left of '// &
                        text(foil%width)//' m for each of '//text(foil%strips))
-  end subroutine read_cuts
-
-  !> Reads the sizes that differ from bump to bump.
-  subroutine read_sizes(keys, foil)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(inout) :: foil
-
-    call size_list('pitch', foil%bump_pitch, 'from bump to bump, arc plus flat')
-    if (allocated(foil%bump_pitch)) foil%pitch = mean(foil%bump_pitch)
-    call size_list('half_length', foil%bump_half_length, "half the chord of the bump's arc")
-    if (allocated(foil%bump_half_length)) foil%half_length = mean(foil%bump_half_length)
-    call size_list('height', foil%bump_height, 'height of the bump')
-    if (allocated(foil%bump_height)) foil%height = maxval(foil%bump_height)
-    call size_list('thickness', foil%bump_thickness, 'thickness of the bump, arc and flat')
-    if (allocated(foil%bump_thickness)) foil%thickness = mean(foil%bump_thickness)
 
   contains
 
-    !> One list, which stands for the single size.
-    subroutine size_list(name, list, meaning)
-      character(len=*), intent(in) :: name, meaning
-      real(wp), allocatable, intent(out) :: list(:) !! [m]
-
-      call bump_list_key(keys, 'bump_'//name, list, foil%bumps, 'm', meaning, positive, &
-                         '`'//name//'` of all bumps')
-      call keys%rule(group, 'bump_'//name, keys%key%given .and. keys%holds(group, name), &
-                     'contradicts '//name//': give one of them')
-    end subroutine size_list
-  end subroutine read_sizes
-
-  !> Mean of a list, to the last digit where all values are one.
-  pure function mean(list) result(value)
-    real(wp), intent(in) :: list(:)
-    real(wp) :: value
-    value = list(1) + sum(list - list(1))/size(list)
-  end function mean
+    !> The key of a size strip by strip, where there is one strip.
+    subroutine no_strips(size)
+      type(size_type), intent(in) :: size
+      call keys%useless_key('strip_'//trim(size%name), trim(size%meaning)//', strip by strip', why)
+    end subroutine no_strips
+  end subroutine read_cuts
 
   !> Width of all strips without the cuts [m].
   elemental function solid_width(foil) result(width)
@@ -220,8 +171,8 @@ contains
   elemental function has_sizes(foil) result(has)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: has
-    has = allocated(foil%bump_pitch) .or. allocated(foil%bump_half_length) .or. &
-          allocated(foil%bump_height) .or. allocated(foil%bump_thickness)
+    has = allocated(foil%pitch%by_bump) .or. allocated(foil%half_length%by_bump) .or. &
+          allocated(foil%height%by_bump) .or. allocated(foil%thickness%by_bump)
   end function has_sizes
 
   !> A foil of one of the bumps alone.
@@ -232,14 +183,10 @@ contains
 
     one = foil
     one%bumps = 1
-    if (allocated(foil%bump_pitch)) one%pitch = foil%bump_pitch(bump)
-    if (allocated(foil%bump_half_length)) one%half_length = foil%bump_half_length(bump)
-    if (allocated(foil%bump_height)) one%height = foil%bump_height(bump)
-    if (allocated(foil%bump_thickness)) one%thickness = foil%bump_thickness(bump)
-    if (allocated(one%bump_pitch)) deallocate (one%bump_pitch)
-    if (allocated(one%bump_half_length)) deallocate (one%bump_half_length)
-    if (allocated(one%bump_height)) deallocate (one%bump_height)
-    if (allocated(one%bump_thickness)) deallocate (one%bump_thickness)
+    one%pitch = of_bump(foil%pitch, bump)
+    one%half_length = of_bump(foil%half_length, bump)
+    one%height = of_bump(foil%height, bump)
+    one%thickness = of_bump(foil%thickness, bump)
     if (allocated(one%crest_gap)) deallocate (one%crest_gap)
   end function one_bump
 
@@ -247,8 +194,18 @@ contains
   elemental function strips_differ(foil) result(differ)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: differ
-    differ = sizes_differ(foil%strip)
+    differ = allocated(foil%pitch%by_strip) .or. allocated(foil%half_length%by_strip) .or. &
+             allocated(foil%height%by_strip) .or. allocated(foil%thickness%by_strip) .or. &
+             allocated(foil%offset%by_strip)
   end function strips_differ
+
+  !> Whether the strips mirror each other about the midplane.
+  elemental function sizes_mirror(foil) result(mirror)
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    logical :: mirror
+    mirror = foil%pitch%mirrors() .and. foil%half_length%mirrors() .and. foil%height%mirrors() &
+             .and. foil%thickness%mirrors() .and. foil%offset%mirrors()
+  end function sizes_mirror
 
   !> A foil of one of the strips side by side alone.
   elemental function one_strip(foil, strip) result(one)
@@ -260,45 +217,12 @@ contains
     one%width = solid_width(foil)/real(foil%strips, wp)
     one%strips = 1
     one%cut_width = 0.0_wp
-    one%strip = strip_sizes_type()
-    if (allocated(foil%strip%pitch)) one%pitch = foil%strip%pitch(strip)
-    if (allocated(foil%strip%half_length)) one%half_length = foil%strip%half_length(strip)
-    if (allocated(foil%strip%height)) one%height = foil%strip%height(strip)
-    if (allocated(foil%strip%thickness)) one%thickness = foil%strip%thickness(strip)
-    if (allocated(foil%strip%offset)) one%offset = foil%strip%offset(strip)
+    one%pitch = of_strip(foil%pitch, strip)
+    one%half_length = of_strip(foil%half_length, strip)
+    one%height = of_strip(foil%height, strip)
+    one%thickness = of_strip(foil%thickness, strip)
+    one%offset = of_strip(foil%offset, strip)
   end function one_strip
-
-  !> Pitch of each bump [m].
-  pure function bump_pitches(foil) result(pitch)
-    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: pitch(foil%bumps)
-    pitch = foil%pitch
-    if (allocated(foil%bump_pitch)) pitch = foil%bump_pitch
-  end function bump_pitches
-
-  !> Half the chord of each bump's arc [m].
-  pure function bump_half_lengths(foil) result(half_length)
-    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: half_length(foil%bumps)
-    half_length = foil%half_length
-    if (allocated(foil%bump_half_length)) half_length = foil%bump_half_length
-  end function bump_half_lengths
-
-  !> Height of each bump [m].
-  pure function bump_heights(foil) result(height)
-    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: height(foil%bumps)
-    height = foil%height
-    if (allocated(foil%bump_height)) height = foil%bump_height
-  end function bump_heights
-
-  !> Thickness of each bump [m].
-  pure function bump_thicknesses(foil) result(thickness)
-    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: thickness(foil%bumps)
-    thickness = foil%thickness
-    if (allocated(foil%bump_thickness)) thickness = foil%bump_thickness
-  end function bump_thicknesses
 
   !> Gap at rest between a bump's crest and the top foil, which is as high as the highest bump [m].
   elemental function gap_of_crest(foil, bump, strip) result(gap)
@@ -309,10 +233,12 @@ contains
 
     gap = 0.0_wp
     if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
-    if (allocated(foil%bump_height)) gap = gap + (foil%height - foil%bump_height(bump))
-    if (.not. present(strip)) return
-    if (allocated(foil%random%further_gap)) gap = gap + foil%random%further_gap(bump, strip)
-    if (allocated(foil%strip%height)) gap = gap + (foil%height - foil%strip%height(strip))
+    associate (height => foil%height)
+      if (allocated(height%by_bump)) gap = gap + (height%value - height%by_bump(bump))
+      if (.not. present(strip)) return
+      if (allocated(foil%random%further_gap)) gap = gap + foil%random%further_gap(bump, strip)
+      if (allocated(height%by_strip)) gap = gap + (height%value - height%by_strip(strip))
+    end associate
   end function gap_of_crest
 
   !> Gap at rest between a corner line and the sleeve; each bump has two lines of its own [m].
@@ -329,30 +255,24 @@ contains
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: flats
 
-    if (has_sizes(foil)) then
-      flats = any(bump_pitches(foil) > 2.0_wp*bump_half_lengths(foil)*(1.0_wp + rounding))
-    else
-      flats = foil%pitch > 2.0_wp*foil%half_length*(1.0_wp + rounding)
-    end if
+    associate (n => merge(foil%bumps, 1, has_sizes(foil)))
+      flats = any(foil%pitch%each(n) > 2.0_wp*foil%half_length%each(n)*(1.0_wp + rounding))
+    end associate
   end function has_flats
 
   !> Whether a pitch is shorter than the bump's arc, or not known.
   elemental function bumps_overlap(foil) result(overlap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical :: overlap
-
-    if (has_sizes(foil)) then
-      overlap = any(overlapping(foil))
-    else
-      overlap = foil%pitch < 2.0_wp*foil%half_length*(1.0_wp - rounding)
-    end if
+    overlap = any(overlapping(foil, merge(foil%bumps, 1, has_sizes(foil))))
   end function bumps_overlap
 
   !> Which pitches are shorter than the bump's arc.
-  pure function overlapping(foil) result(overlap)
+  pure function overlapping(foil, bumps) result(overlap)
     type(bump_foil_case_type), intent(in) :: foil
-    logical :: overlap(foil%bumps)
-    overlap = bump_pitches(foil) < 2.0_wp*bump_half_lengths(foil)*(1.0_wp - rounding)
+    integer, intent(in) :: bumps
+    logical :: overlap(bumps)
+    overlap = foil%pitch%each(bumps) < 2.0_wp*foil%half_length%each(bumps)*(1.0_wp - rounding)
   end function overlapping
 
   !> Bumps that overlap, are more than half a circle, or do not fit on the pad.
@@ -365,19 +285,19 @@ contains
       return ! checked strip by strip, where all groups are known
     else if (has_sizes(foil)) then
       call check_bumps(keys, foil)
-    else if (foil%half_length > 0.0_wp) then
-      call keys%rule(group, 'height', foil%height > foil%half_length, 'must not exceed '// &
-                     'half_length = '//text(foil%half_length)//' m: a bump is at most half a '// &
-                     'circle')
-      call keys%rule(group, 'pitch', foil%pitch > 0.0_wp .and. bumps_overlap(foil), &
-                     'must be at least 2 half_length = '//text(2.0_wp*foil%half_length)// &
-                     ' m, and is '//text(foil%pitch)//' m')
+    else if (foil%half_length%value > 0.0_wp) then
+      call keys%rule(group, 'height', foil%height%value > foil%half_length%value, &
+                     'must not exceed half_length = '//text(foil%half_length%value)// &
+                     ' m: a bump is at most half a circle')
+      call keys%rule(group, 'pitch', foil%pitch%value > 0.0_wp .and. bumps_overlap(foil), &
+                     'must be at least 2 half_length = '//text(2.0_wp*foil%half_length%value)// &
+                     ' m, and is '//text(foil%pitch%value)//' m')
     end if
     if (bearing%radius > 0.0_wp .and. &
-        foil%bumps*foil%pitch > pad_length(bearing)*(1.0_wp + rounding)) then
+        foil%bumps*foil%pitch%value > pad_length(bearing)*(1.0_wp + rounding)) then
       call keys%complain(group, 'bumps', text(foil%bumps)//' bumps of the '// &
-                         trim(merge('mean pitch', 'pitch     ', allocated(foil%bump_pitch)))// &
-                         ' '//text(foil%pitch)//' m are longer than the pad, '// &
+                         trim(merge('mean pitch', 'pitch     ', allocated(foil%pitch%by_bump)))// &
+                         ' '//text(foil%pitch%value)//' m are longer than the pad, '// &
                          text(pad_length(bearing))//' m')
     end if
   end subroutine check_geometry
@@ -386,23 +306,18 @@ contains
   subroutine check_bumps(keys, foil)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(in) :: foil
-    real(wp) :: height(foil%bumps), half_length(foil%bumps)
-    character(len=:), allocatable :: key
 
-    if (.not. foil%half_length > 0.0_wp) return
-    half_length = bump_half_lengths(foil)
-    key = 'height'
-    if (allocated(foil%bump_height)) key = 'bump_height'
-    height = bump_heights(foil)
-    call complain_of_bumps(keys, key, height > half_length, height, &
-                           'must not exceed half_length: a bump is at most half a circle', &
-                           'half_length', half_length)
-    if (.not. foil%pitch > 0.0_wp) return
-    key = 'pitch'
-    if (allocated(foil%bump_pitch)) key = 'bump_pitch'
-    call complain_of_bumps(keys, key, overlapping(foil), bump_pitches(foil), &
-                           'must be at least 2 half_length, or bumps overlap', &
-                           '2 half_length', 2.0_wp*half_length)
+    if (.not. foil%half_length%value > 0.0_wp) return
+    associate (height => foil%height%each(foil%bumps), pitch => foil%pitch%each(foil%bumps), &
+               half_length => foil%half_length%each(foil%bumps))
+      call complain_of_sizes(keys, foil%height%bump_key(), height > half_length, height, &
+                             'must not exceed half_length: a bump is at most half a circle', &
+                             'half_length', half_length, 'bump')
+      if (.not. foil%pitch%value > 0.0_wp) return
+      call complain_of_sizes(keys, foil%pitch%bump_key(), overlapping(foil, foil%bumps), pitch, &
+                             'must be at least 2 half_length, or bumps overlap', &
+                             '2 half_length', 2.0_wp*half_length, 'bump')
+    end associate
   end subroutine check_bumps
 
   !> The gaps that random heights leave. Each strip of each pad has heights of its own, the numbers

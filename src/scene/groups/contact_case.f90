@@ -161,7 +161,7 @@ contains
     real(wp) :: stiffness
     real(wp) :: penetration !! [m]
 
-    stiffness = bumps_stiffness*bump_stiffness(foil)*foil%pitch
+    stiffness = bumps_stiffness*bump_stiffness(foil)*foil%pitch%value
     penetration = deflection/bumps_stiffness
     if (.not. stiffness > 0.0_wp .or. .not. penetration > 0.0_wp) then
       stiffness = 0.0_wp

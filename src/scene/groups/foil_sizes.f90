@@ -1,33 +1,112 @@
-!> Keys of `&bump_foil` that have one value a bump, one a strip side by side, or one for all.
+!> Sizes of a bump strip: each has one value for all bumps, one a bump, or one a strip of those that
+!> lie side by side.
 module gfb_foil_sizes
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, no_default
   use gfb_text, only: text
-  use gfb_value_rules, only: rule_type, positive, not_negative
+  use gfb_value_rules, only: rule_type, positive
   implicit none (type, external)
   private
-  public :: bump_list_key, complain_of_bumps, read_strip_sizes, refuse_strip_sizes, gives_strips, &
-            sizes_differ, sizes_mirror
+  public :: size_type, of_bump, of_strip, bump_list_key, complain_of_sizes
 
   character(len=*), parameter :: group = 'bump_foil'
-  character(len=*), parameter :: names(*) = [character(len=11) :: 'pitch', 'half_length', &
-                                             'height', 'thickness', 'offset']
-  character(len=*), parameter :: meanings(*) = [character(len=46) :: &
-                                                'from bump to bump, arc plus flat', &
-                                                'half the chord of a bump''s arc', &
-                                                'height of a bump', 'thickness of the foil', &
-                                                'of the fixed edge, from the edge of the pad']
 
-  !> Sizes that differ from strip to strip, from the smallest z on; not allocated: all have one.
-  type, public :: strip_sizes_type
-    real(wp), allocatable :: pitch(:)       !! arc plus flat [m]
-    real(wp), allocatable :: half_length(:) !! half the chord of a bump's arc [m]
-    real(wp), allocatable :: height(:)      !! of a bump [m]
-    real(wp), allocatable :: thickness(:)   !! of the foil [m]
-    real(wp), allocatable :: offset(:)      !! of the fixed edge from the pad's [m]
-  end type strip_sizes_type
+  !> A size.
+  type :: size_type
+    character(len=11) :: name = ''       !! of the key that has it for all bumps
+    character(len=43) :: meaning = ''    !! of the size
+    real(wp) :: value = 0.0_wp           !! of all bumps, or the mean; 0: not known [m]
+    logical :: largest = .false.         !! of those that differ the value is the largest, no mean
+    real(wp), allocatable :: by_bump(:)  !! from the smallest x on; not allocated: all have one [m]
+    real(wp), allocatable :: by_strip(:) !! from the smallest z on; the same [m]
+  contains
+    procedure :: read_value
+    procedure :: read_by_bump
+    procedure :: read_by_strip
+    procedure :: each
+    procedure :: smallest
+    procedure :: mirrors
+    procedure :: bump_key
+    procedure :: key_in
+  end type size_type
 
 contains
+
+  !> Reads the value of all bumps, which need not be given where a list is.
+  subroutine read_value(self, keys, needed, default)
+    class(size_type), intent(inout) :: self !! the size
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    logical, intent(in) :: needed !! the size must be known
+    character(len=*), intent(in), optional :: default !! in words
+    character(len=:), allocatable :: words
+
+    words = no_default
+    if (present(default)) words = default
+    call keys%real_key(trim(self%name), self%value, 'm', trim(self%meaning), positive, &
+                       needed .and. self%key_in(keys) == self%name, default=words)
+  end subroutine read_value
+
+  !> Reads the size bump by bump.
+  subroutine read_by_bump(self, keys, bumps, meaning)
+    class(size_type), intent(inout) :: self !! the size
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    integer, intent(in) :: bumps !! of the strip, 0 where not known
+    character(len=*), intent(in) :: meaning !! of the key
+
+    call bump_list_key(keys, 'bump_'//trim(self%name), self%by_bump, bumps, 'm', meaning, &
+                       positive, '`'//trim(self%name)//'` of all bumps')
+    if (keys%key%given) call refuse_both(keys, 'bump_'//trim(self%name), trim(self%name))
+    if (allocated(self%by_bump)) self%value = value_of(self, self%by_bump)
+  end subroutine read_by_bump
+
+  !> Reads the size strip by strip. Values that are the same for all are the single one.
+  subroutine read_by_strip(self, keys, strips, rule, default)
+    class(size_type), intent(inout) :: self !! the size
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    integer, intent(in) :: strips !! side by side, 0 where not known
+    type(rule_type), intent(in) :: rule !! that each value keeps
+    character(len=*), intent(in), optional :: default !! in words
+    character(len=:), allocatable :: name, words
+    real(wp), allocatable :: values(:)
+
+    name = 'strip_'//trim(self%name)
+    words = '`'//trim(self%name)//'` of all strips'
+    if (present(default)) words = default
+    call keys%real_list_key(name, values, longest_list, 'm', trim(self%meaning)// &
+                            ', one value a strip from the smallest z on, or one for all', rule, &
+                            .false., words)
+    if (.not. keys%key%given) return
+    call refuse_both(keys, name, trim(self%name))
+    call refuse_both(keys, name, 'bump_'//trim(self%name))
+    if (.not. keys%last_key_is_right() .or. strips < 1) return
+    if (size(values) /= 1 .and. size(values) /= strips) then
+      call keys%complain(group, name, 'must have one value, or one a strip: '//text(strips)// &
+                         ', not '//text(size(values)))
+      return
+    end if
+    self%value = value_of(self, values)
+    if (any(abs(values - values(1)) > 0.0_wp)) self%by_strip = values
+  end subroutine read_by_strip
+
+  !> Complains where a size is given twice.
+  subroutine refuse_both(keys, name, other)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: name, other !! keys
+
+    call keys%rule(group, name, keys%holds(group, other), 'contradicts '//other// &
+                   ': give one of them')
+  end subroutine refuse_both
+
+  !> The value that stands for a list: its mean, to the last digit where all values are one, or the
+  !> largest [m].
+  pure function value_of(self, list) result(value)
+    class(size_type), intent(in) :: self
+    real(wp), intent(in) :: list(:)
+    real(wp) :: value
+
+    value = list(1) + sum(list - list(1))/size(list)
+    if (self%largest) value = maxval(list)
+  end function value_of
 
   !> One value a bump from the smallest x on, or one that stands for all.
   subroutine bump_list_key(keys, name, list, bumps, unit, meaning, rule, default)
@@ -45,142 +124,110 @@ contains
                             'from the leading end on, or one for all', rule, .false., default)
     if (.not. keys%last_key_is_right() .or. bumps < 1) return
     if (size(values) /= 1 .and. size(values) /= bumps) then
-      call keys%complain('bump_foil', name, 'must have one value, or one a bump: '// &
-                         text(bumps)//', not '//text(size(values)))
+      call keys%complain(group, name, 'must have one value, or one a bump: '//text(bumps)// &
+                         ', not '//text(size(values)))
       return
     end if
     list = values
     if (size(values) == 1) list = spread(values(1), 1, bumps)
   end subroutine bump_list_key
 
-  !> Complains about sizes of single bumps, the first few by their numbers.
-  subroutine complain_of_bumps(keys, key, wrong, value, rule, other, limit, what)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    character(len=*), intent(in) :: key      !! that is wrong
-    logical, intent(in) :: wrong(:)          !! at which bumps
-    real(wp), intent(in) :: value(:)         !! of the bumps [m]
-    character(len=*), intent(in) :: rule, other !! what holds; what it is compared with
-    real(wp), intent(in) :: limit(:)         !! of the bumps [m]
-    character(len=*), intent(in), optional :: what !! they are; default: bump
-    integer, parameter :: most = 3           !! bumps that are named
-    character(len=:), allocatable :: words, one
-    integer :: bump
+  !> The size of each bump [m].
+  pure function each(self, bumps) result(values)
+    class(size_type), intent(in) :: self !! the size
+    integer, intent(in) :: bumps !! of the strip
+    real(wp) :: values(bumps)
 
-    if (.not. any(wrong)) return
-    one = 'bump '
-    if (present(what)) one = what//' '
-    words = rule
-    do bump = 1, size(wrong)
-      if (.not. wrong(bump)) cycle
-      if (count(wrong(:bump)) > most) exit
-      words = words//merge('; ', ', ', count(wrong(:bump)) == 1)//one//text(bump)//' has '// &
-              text(value(bump))//' m with '//other//' = '//text(limit(bump))//' m'
-    end do
-    if (count(wrong) > most) words = words//', and '//text(count(wrong) - most)//' more'
-    call keys%complain('bump_foil', key, words)
-  end subroutine complain_of_bumps
+    values = self%value
+    if (allocated(self%by_bump)) values = self%by_bump
+  end function each
 
-  !> Reads the sizes strip by strip. A size that differs is a list, and the single one the mean of
-  !> it, that of the heights the largest one; one that is the same for all is the single one.
-  subroutine read_strip_sizes(keys, strips, pitch, half_length, height, thickness, offset, sizes)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    integer, intent(in) :: strips !! side by side, 0 where not known
-    real(wp), intent(inout) :: pitch, half_length, height, thickness !! of all strips [m]
-    real(wp), intent(inout) :: offset !! of all strips [m]
-    type(strip_sizes_type), intent(out) :: sizes !! that differ
+  !> The smallest of all bumps and strips [m].
+  elemental function smallest(self) result(value)
+    class(size_type), intent(in) :: self !! the size
+    real(wp) :: value
 
-    call read_list(1, positive, pitch, sizes%pitch)
-    call read_list(2, positive, half_length, sizes%half_length)
-    call read_list(3, positive, height, sizes%height)
-    if (allocated(sizes%height)) height = maxval(sizes%height)
-    call read_list(4, positive, thickness, sizes%thickness)
-    call read_list(5, not_negative, offset, sizes%offset)
+    value = self%value
+    if (allocated(self%by_bump)) value = minval(self%by_bump)
+    if (allocated(self%by_strip)) value = minval(self%by_strip)
+  end function smallest
 
-  contains
+  !> The size of one of the bumps alone.
+  elemental function of_bump(size, bump) result(one)
+    type(size_type), intent(in) :: size !! of all
+    integer, intent(in) :: bump !! its number, from the smallest x on
+    type(size_type) :: one
 
-    !> One list, which stands for the single size.
-    subroutine read_list(i, rule, single, list)
-      integer, intent(in) :: i !! number of the name
-      type(rule_type), intent(in) :: rule
-      real(wp), intent(inout) :: single !! [m]
-      real(wp), allocatable, intent(out) :: list(:) !! [m]
-      character(len=*), parameter :: each = ', one value a strip from the smallest z on, or '// &
-                                     'one for all'
-      character(len=:), allocatable :: default, name
-      real(wp), allocatable :: values(:)
+    one = size
+    if (.not. allocated(one%by_bump)) return
+    one%value = one%by_bump(bump)
+    deallocate (one%by_bump)
+  end function of_bump
 
-      name = 'strip_'//trim(names(i))
-      default = '`'//trim(names(i))//'` of all strips'
-      if (names(i) == 'offset') default = '0: strips begin at the edge of the pad'
-      call keys%real_list_key(name, values, longest_list, 'm', trim(meanings(i))//each, rule, &
-                              .false., default)
-      if (.not. keys%key%given) return
-      call refuse_both(keys, name, trim(names(i)))
-      call refuse_both(keys, name, 'bump_'//trim(names(i)))
-      if (.not. keys%last_key_is_right() .or. strips < 1) return
-      if (size(values) /= 1 .and. size(values) /= strips) then
-        call keys%complain(group, name, 'must have one value, or one a strip: '//text(strips)// &
-                           ', not '//text(size(values)))
-        return
-      end if
-      single = values(1) + sum(values - values(1))/size(values)
-      if (any(abs(values - values(1)) > 0.0_wp)) list = values
-    end subroutine read_list
-  end subroutine read_strip_sizes
+  !> The size on one of the strips side by side alone.
+  elemental function of_strip(size, strip) result(one)
+    type(size_type), intent(in) :: size !! of all
+    integer, intent(in) :: strip !! its number, from the smallest z on
+    type(size_type) :: one
 
-  !> Complains where a size is given twice.
-  subroutine refuse_both(keys, name, other)
-    type(case_keys_type), intent(inout) :: keys
-    character(len=*), intent(in) :: name, other !! keys
-
-    call keys%rule(group, name, keys%holds(group, other), 'contradicts '//other// &
-                   ': give one of them')
-  end subroutine refuse_both
-
-  !> Reads the same keys where there is one strip: they have no use.
-  subroutine refuse_strip_sizes(keys, why)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    character(len=*), intent(in) :: why !! they must not be given
-    integer :: i
-
-    do i = 1, size(names)
-      call keys%useless_key('strip_'//trim(names(i)), trim(meanings(i))//', strip by strip', why)
-    end do
-  end subroutine refuse_strip_sizes
-
-  !> Whether a size is given strip by strip.
-  function gives_strips(keys, name) result(gives)
-    type(case_keys_type), intent(in) :: keys !! the keys of the case file
-    character(len=*), intent(in) :: name !! of the single size
-    logical :: gives
-    gives = keys%holds(group, 'strip_'//name)
-  end function gives_strips
-
-  !> Whether strips have different bumps, or begin at different places.
-  elemental function sizes_differ(sizes) result(differ)
-    type(strip_sizes_type), intent(in) :: sizes !! of the strips
-    logical :: differ
-
-    differ = allocated(sizes%pitch) .or. allocated(sizes%half_length) .or. &
-             allocated(sizes%height) .or. allocated(sizes%thickness) .or. allocated(sizes%offset)
-  end function sizes_differ
+    one = size
+    if (.not. allocated(one%by_strip)) return
+    one%value = one%by_strip(strip)
+    deallocate (one%by_strip)
+  end function of_strip
 
   !> Whether the strips mirror each other about the midplane.
-  elemental function sizes_mirror(sizes) result(mirror)
-    type(strip_sizes_type), intent(in) :: sizes !! of the strips
+  elemental function mirrors(self) result(mirror)
+    class(size_type), intent(in) :: self !! the size
     logical :: mirror
 
-    mirror = is_mirrored(sizes%pitch) .and. is_mirrored(sizes%half_length) .and. &
-             is_mirrored(sizes%height) .and. is_mirrored(sizes%thickness) .and. &
-             is_mirrored(sizes%offset)
-  end function sizes_mirror
+    mirror = .true.
+    if (.not. allocated(self%by_strip)) return
+    mirror = all(abs(self%by_strip - self%by_strip(size(self%by_strip):1:-1)) <= 0.0_wp)
+  end function mirrors
 
-  !> Whether a list reads the same from both ends; true where there is none.
-  pure function is_mirrored(list) result(mirrored)
-    real(wp), intent(in), optional :: list(:) !! absent where it is not allocated [m]
-    logical :: mirrored
+  !> The key that gives the size of the bumps.
+  pure function bump_key(self) result(key)
+    class(size_type), intent(in) :: self !! the size
+    character(len=:), allocatable :: key
 
-    mirrored = .true.
-    if (present(list)) mirrored = all(abs(list - list(size(list):1:-1)) <= 0.0_wp)
-  end function is_mirrored
+    key = trim(self%name)
+    if (allocated(self%by_bump)) key = 'bump_'//key
+  end function bump_key
+
+  !> The key that stands in the file for the size: of strips, of bumps, or of all.
+  pure function key_in(self, keys) result(key)
+    class(size_type), intent(in) :: self !! the size
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file
+    character(len=:), allocatable :: key
+
+    key = trim(self%name)
+    if (keys%holds(group, 'bump_'//trim(self%name))) key = 'bump_'//trim(self%name)
+    if (keys%holds(group, 'strip_'//trim(self%name))) key = 'strip_'//trim(self%name)
+  end function key_in
+
+  !> Complains about sizes of single bumps or strips, the first few by their numbers.
+  subroutine complain_of_sizes(keys, key, wrong, value, rule, other, limit, what)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    character(len=*), intent(in) :: key      !! that is wrong
+    logical, intent(in) :: wrong(:)          !! at which bumps or strips
+    real(wp), intent(in) :: value(:)         !! of them [m]
+    character(len=*), intent(in) :: rule, other !! what holds; what it is compared with
+    real(wp), intent(in) :: limit(:)         !! of them [m]
+    character(len=*), intent(in) :: what     !! they are: 'bump' or 'strip'
+    integer, parameter :: most = 3           !! that are named
+    character(len=:), allocatable :: words
+    integer :: i
+
+    if (.not. any(wrong)) return
+    words = rule
+    do i = 1, size(wrong)
+      if (.not. wrong(i)) cycle
+      if (count(wrong(:i)) > most) exit
+      words = words//merge('; ', ', ', count(wrong(:i)) == 1)//what//' '//text(i)//' has '// &
+              text(value(i))//' m with '//other//' = '//text(limit(i))//' m'
+    end do
+    if (count(wrong) > most) words = words//', and '//text(count(wrong) - most)//' more'
+    call keys%complain(group, key, words)
+  end subroutine complain_of_sizes
 end module gfb_foil_sizes

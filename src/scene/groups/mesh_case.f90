@@ -64,8 +64,8 @@ contains
                    'must be even: a node lies on the crest')
     call keys%integer_key('flat_elements', mesh%flat_elements, &
                           'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
-    can_align = meshes_foils(model%foil) .and. foil%bumps > 0 .and. foil%pitch > 0.0_wp .and. &
-                foil%half_length > 0.0_wp .and. foil%height > 0.0_wp
+    can_align = meshes_foils(model%foil) .and. foil%bumps > 0 .and. &
+                min(foil%pitch%value, foil%half_length%value, foil%height%value) > 0.0_wp
     mesh%align_crests = can_align
     call keys%logical_key('align_crests', mesh%align_crests, &
                           'put lines of nodes of film and top foil above the crests; the '// &
@@ -86,8 +86,8 @@ contains
     real(wp) :: pitches
 
     elements = elements_around
-    if (.not. foil%pitch > 0.0_wp .or. .not. bearing%radius > 0.0_wp) return
-    pitches = pad_length(bearing)/foil%pitch*(1.0_wp - rounding)
+    if (.not. foil%pitch%value > 0.0_wp .or. .not. bearing%radius > 0.0_wp) return
+    pitches = pad_length(bearing)/foil%pitch%value*(1.0_wp - rounding)
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
   end function default_circumferential_elements
 end module gfb_mesh_case

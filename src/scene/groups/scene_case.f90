@@ -4,7 +4,7 @@ module gfb_scene_case
   use gfb_text, only: lower_case, nearest_word
   implicit none (type, external)
   private
-  public :: scene_case_type, read_scene_case, is_bearing, is_structure, asks_limit, &
+  public :: scene_case_type, needs_type, read_scene_case, is_bearing, is_structure, asks_limit, &
             misplaced_group
 
   integer, parameter, public :: analysis_equilibrium = 1    !! the load is given
@@ -30,6 +30,18 @@ module gfb_scene_case
     !> whose limit is looked for
     integer :: analysis = analysis_equilibrium
   end type scene_case_type
+
+  !> What an analysis must know of bearing and foils; keys of the rest may be left out.
+  type :: needs_type
+    logical :: pad = .false.      !! radius, length, where it begins
+    logical :: film = .false.     !! between the pad and a shaft
+    logical :: top_foil = .false. !! thickness and material
+    logical :: top_mass = .false. !! its density
+    logical :: bumps = .false.    !! their shape: the strip, or a part of it, is meshed
+    logical :: mass = .false.     !! its density
+    logical :: pitch = .false.    !! more of it than an arc is meshed, and no pad tells the pitch
+    logical :: width = .false.    !! of the strip: no bearing tells it
+  end type needs_type
 
 contains
 

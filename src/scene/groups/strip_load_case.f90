@@ -1,7 +1,7 @@
 !> `&strip_load`: what presses on a bump strip, and what it rests on.
 module gfb_strip_load_case
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type, bump_pitches, solid_width
+  use gfb_bump_foil_case, only: bump_foil_case_type, solid_width
   use gfb_bump_stiffness, only: walowit_anno_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_scene_case, only: analysis_strip, misplaced_group
@@ -159,7 +159,7 @@ contains
     type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp) :: force(foil%bumps)
-    force = crest_pressures(load, foil%bumps)*bump_pitches(foil)*solid_width(foil)
+    force = crest_pressures(load, foil%bumps)*foil%pitch%each(foil%bumps)*solid_width(foil)
   end function crest_forces
 
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
@@ -170,13 +170,15 @@ contains
     real(wp) :: power
 
     stiffness = 0.0_wp
-    if (.not. min(foil%youngs_modulus, foil%thickness) > 0.0_wp) return
-    if (.not. min(foil%half_length, foil%pitch) > 0.0_wp) return
-    power = log10(foil%youngs_modulus) + 3.0_wp*log10(foil%thickness/foil%half_length) - &
-            log10(foil%pitch)
-    if (abs(power) > largest_power) return
-    stiffness = walowit_anno_stiffness(foil%youngs_modulus, foil%poissons_ratio, foil%thickness, &
-                                       foil%half_length, foil%pitch)
+    if (.not. min(foil%youngs_modulus, foil%thickness%value) > 0.0_wp) return
+    if (.not. min(foil%half_length%value, foil%pitch%value) > 0.0_wp) return
+    associate (thickness => foil%thickness%value, half_length => foil%half_length%value, &
+               pitch => foil%pitch%value)
+      power = log10(foil%youngs_modulus) + 3.0_wp*log10(thickness/half_length) - log10(pitch)
+      if (abs(power) > largest_power) return
+      stiffness = walowit_anno_stiffness(foil%youngs_modulus, foil%poissons_ratio, thickness, &
+                                         half_length, pitch)
+    end associate
   end function bump_stiffness
 
   !> About how far the whole load presses the bumps down [m]; a small part of their height where
@@ -190,13 +192,13 @@ contains
     real(wp) :: unloaded  !! [m]
 
     stiffness = bump_stiffness(foil)
-    unloaded = part_of_height*foil%height
+    unloaded = part_of_height*foil%height%value
     deflection = 0.0_wp
     if (load%kind == load_plates .and. load%maximum_displacement > 0.0_wp) then
       deflection = load%maximum_displacement
-    else if (load%kind == load_plates .and. min(foil%pitch, foil%width) > 0.0_wp .and. &
+    else if (load%kind == load_plates .and. min(foil%pitch%value, foil%width) > 0.0_wp .and. &
              foil%bumps > 0 .and. stiffness > 0.0_wp) then
-      deflection = load%maximum_force/(foil%bumps*stiffness*foil%pitch*solid_width(foil))
+      deflection = load%maximum_force/(foil%bumps*stiffness*foil%pitch%value*solid_width(foil))
     else if (load%kind == load_crest_pressure .and. stiffness > 0.0_wp) then
       deflection = abs(load%pressure)/stiffness
       if (load%distribution == distribution_table) then

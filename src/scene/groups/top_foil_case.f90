@@ -2,6 +2,7 @@
 module gfb_top_foil_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_scene_case, only: needs_type
   use gfb_value_rules, only: between, positive
   implicit none (type, external)
   private
@@ -26,21 +27,20 @@ module gfb_top_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_top_foil_case(keys, foil, needed, with_mass)
+  subroutine read_top_foil_case(keys, foil, needs)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(top_foil_case_type), intent(out) :: foil !! what `&top_foil` asks for
-    logical, intent(in) :: needed    !! the scene has the foil as a structure
-    logical, intent(in) :: with_mass !! its density must be known
+    type(needs_type), intent(in) :: needs !! of the analysis
 
-    call keys%start_group('top_foil', required=needed, optional=.true., &
+    call keys%start_group('top_foil', required=needs%top_foil, optional=.true., &
                           present_in_file=foil%present)
     call keys%real_key('thickness', foil%thickness, 'm', 'thickness of the foil', positive, &
-                       needed, default=no_default)
+                       needs%top_foil, default=no_default)
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
-                       needed, default=no_default)
+                       needs%top_foil, default=no_default)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
-                       between(-1.0_wp, 0.5_wp), needed, default=no_default)
-    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, with_mass, &
+                       between(-1.0_wp, 0.5_wp), needs%top_foil, default=no_default)
+    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%top_mass, &
                        default=no_default)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the foil is fixed')
     call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &

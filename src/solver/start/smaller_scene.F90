@@ -88,7 +88,7 @@ contains
     integer :: fewest, of_pitch
 
     fewest = fewest_rows(scene, plan)
-    of_pitch = nint(plan%circumferential*scene%bump_foil%pitch/pad_length(scene%bearing))
+    of_pitch = nint(plan%circumferential*scene%bump_foil%pitch%value/pad_length(scene%bearing))
     found = .true.
     if (plan%axial >= 2*fewest) then
       small_plan%axial = fewest

@@ -135,7 +135,7 @@ contains
     real(wp), intent(in) :: deflection !! largest of the foil [m]
     character(len=*), parameter :: small = ': displacements were taken to be small'
 
-    associate (height => scene%bump_foil%height, radius => scene%bearing%radius)
+    associate (height => scene%bump_foil%height%value, radius => scene%bearing%radius)
       if (height > 0.0_wp .and. deflection > large_deflection*height) then
         call log%warning('the foil gives way by '//text(100.0_wp*deflection/height, 3)//' % of the bump height'//small)
       else if (deflection > thin*radius) then

@@ -8,7 +8,7 @@ module gfb_load_steps
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, bump_half_lengths
+  use gfb_bump_foil_case, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
   use gfb_foil_mesh, only: crest_positions
   use gfb_foil_builder, only: strip_shape
@@ -251,7 +251,7 @@ contains
       crest = crest_positions(strip_shape(scene))
       total = sum(force)
       size_of_load = sum(abs(force))
-      half_length = bump_half_lengths(foil)
+      half_length = foil%half_length%each(foil%bumps)
       corner = [minval(crest) - half_length(1), maxval(crest) + half_length(foil%bumps)]
       reach = maxval(crest) - minval(crest) + half_length(1) + half_length(foil%bumps)
       if (.not. size_of_load > 0.0_wp) return

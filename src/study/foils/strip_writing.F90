@@ -72,8 +72,8 @@ contains
       call log%warning('the strip has lifted off the sleeve: its fixed edge alone holds it')
     end if
     largest = maxval(abs(answer%deflection))
-    if (largest > large_deflection*scene%bump_foil%height) then
-      call log%warning('a crest moves by '//text(100.0_wp*largest/scene%bump_foil%height, 3)// &
+    if (largest > large_deflection*scene%bump_foil%height%value) then
+      call log%warning('a crest moves by '//text(100.0_wp*largest/scene%bump_foil%height%value, 3)// &
                        ' % of the bump height: displacements were taken to be small')
     end if
     if (answer%round_off > lost_digits) then

@@ -45,7 +45,7 @@ contains
     elements = max(least_circumferential, &
                    nint(real(scene%mesh%circumferential_elements, wp)/quarter))
     if (.not. (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests)) return
-    pitches = pad_length(scene%bearing)/scene%bump_foil%pitch
+    pitches = pad_length(scene%bearing)/scene%bump_foil%pitch%value
     elements = max(least_circumferential, nint(pitches*max(1, nint(elements/pitches))))
   end function first_circumferential
 

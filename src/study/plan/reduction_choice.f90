@@ -4,7 +4,7 @@
 !> fitted to MUMPS' counts of 16 scenes, which docs/manual/linear_solvers.md has in a table.
 module gfb_reduction_choice
   use gfb_kinds, only: wp
-  use gfb_foil_sizes, only: sizes_mirror
+  use gfb_bump_foil_case, only: sizes_mirror
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_strip, analysis_modes
@@ -123,7 +123,7 @@ contains
 
     half = scene%model%half_width == half_width_yes
     if (scene%model%half_width == half_width_auto) then
-      half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil%strip)
+      half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
       if (scene%general%analysis /= analysis_strip) then
         half = half .and. is_symmetric(scene%operation, scene%sweep)
       end if
