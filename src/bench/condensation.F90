@@ -12,9 +12,8 @@ program gfb_bench_condensation
   use gfb_shell_geometry, only: shell_geometry_type, shell_unknowns
   use gfb_shell_element, only: shell_stiffness
   use gfb_substructures, only: substructure_type, find_kinds, kind_count
-  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry, assemble_piece, retained_in_piece
   use gfb_foil_assembly, only: create_foil_structure
-  use gfb_foil_pieces, only: element_geometry, assemble_piece, retained_in_piece
   use gfb_super_element, only: super_element_type, condense, destroy_super_element
   use gfb_strip_cost, only: strip_type, make_strip, strip_cost_type, strip_cost, argument, tell
   implicit none (type)

@@ -2,22 +2,86 @@
 module gfb_check_scene
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: rank_count
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: is_bearing
-  use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_bearing_plan, only: plan_bearing
+  use gfb_partition, only: division_type, divide, no_chain
+  use gfb_film_mesh, only: axial_rows
+  use gfb_model_case, only: foil_shell, reduction_guyan
   use gfb_foil_builder, only: foil_plan_type
+  use gfb_part_builder, only: foil_chain
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_bearing_builder, only: divide_bearing, film_mesh_of
+  use gfb_petsc_session, only: rank_count
+  use gfb_scene_case, only: is_bearing
+  use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_plan, only: plan_foil
   use gfb_memory_check, only: check_memory
-  use gfb_partition_report, only: show_bearing_partition, show_strip_partition
   use gfb_provenance, only: version_text
   implicit none (type, external)
   private
   public :: check_scene
 
 contains
+
+  !> Shares of a bearing.
+  !>
+  !> Fails when METIS does.
+  subroutine show_bearing_partition(scene, plan, ranks, log, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_plan_type), intent(in) :: plan !! of the bearing
+    integer, intent(in) :: ranks !! that share
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(division_type) :: division
+
+    call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
+    if (allocated(error)) return
+    call show_shares(division, &
+      scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
+    if (scene%model%foil /= foil_shell) call log%line('beams, if any, are the first rank''s')
+  end subroutine show_bearing_partition
+
+  !> Shares of a strip, or of what else vibrates.
+  !>
+  !> Fails when METIS does.
+  subroutine show_strip_partition(scene, plan, ranks, log, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(foil_plan_type), intent(in) :: plan !! of the foil
+    integer, intent(in) :: ranks !! that share
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(division_type) :: division
+    integer :: rows
+
+    rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, plan%half, 1.0_wp))
+    call divide(no_chain(), foil_chain(scene, rows, plan%reduced), ranks, division, error)
+    if (allocated(error)) return
+    call show_shares(division, plan%reduced, log)
+  end subroutine show_strip_partition
+
+  !> A line a share.
+  subroutine show_shares(division, reduced, log)
+    type(division_type), intent(in) :: division
+    logical, intent(in) :: reduced !! the bump foil's pieces are super-elements, else columns
+    type(run_log_type), intent(in) :: log
+    character(len=80) :: line
+    real(wp) :: share
+    integer :: i
+
+    call log%heading('partition')
+    call log%line(' rank  film columns  '//merge('super-elements', '  foil columns', reduced)// &
+      '    unknowns  of the mean')
+    do i = 1, division%parts
+      share = real(division%load(i)*division%parts, wp)/real(max(1, sum(division%load)), wp)
+      write (line, '(i5, i14, i16, i12, f12.2)') i - 1, count(division%film == i), &
+        count(division%bumps == i), division%load(i), share
+      call log%line(trim(line))
+    end do
+    call log%line('largest load over the mean: '//text(division%balance(), 4))
+    call log%line('joints between pieces that are cut: '//text(division%cut)//' of '// &
+      text(division%joints))
+  end subroutine show_shares
 
   !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
   !>

@@ -3,8 +3,7 @@ module gfb_command_line
   use gfb_errors, only: error_type, fail
   use gfb_run_log, only: run_log_type
   use gfb_text, only: nearest_word
-  use gfb_petsc_options, only: given_petsc_options
-  use gfb_petsc_session, only: wall_time
+  use gfb_petsc_session, only: given_petsc_options, wall_time
   use gfb_run_context, only: run_context_type
   implicit none (type, external)
   private

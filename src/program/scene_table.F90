@@ -11,10 +11,9 @@ module gfb_scene_table
   use gfb_result_phrases, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
-  use gfb_table_file, only: table_member_type, write_table_file
+  use gfb_text_file, only: table_member_type, write_table_file, write_unfinished_text
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
-  use gfb_text_file, only: write_unfinished_text
   use gfb_signals, only: stop_words
   use gfb_petsc_session, only: wall_time, stop_is_asked
   use gfb_pool, only: pool_type, visit_task, end_log

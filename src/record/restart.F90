@@ -19,8 +19,7 @@ module gfb_restart
   use gfb_case_file, only: write_quantities
   use gfb_archive, only: archive_type
   use gfb_archive_file, only: write_archive, read_archive
-  use gfb_result_file, only: result_file_type, open_result_file, close_result_file, keep_result_file, &
-                             drop_result_file
+  use gfb_result_file, only: result_file_type, open_result_file, close_result_file, keep_result_file, drop_result_file
   use gfb_stored_file, only: stored_file_type, open_stored_file, close_stored_file
   use gfb_provenance, only: provenance, program_words
   implicit none (type)

@@ -1,28 +1,190 @@
 !> A strip's answer as results, and how the log shows it.
 module gfb_strip_summary
   use gfb_kinds, only: wp
+  use gfb_fixed_lines, only: fixed_line_corner
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
+                                has_sizes, one_bump, one_strip, solid_width, strips_differ
+  use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
+  use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
+  use gfb_curved_bump, only: curved_bump_stiffness
+  use gfb_case_file, only: case_array_type, fill_array, add_arrays, history_row_type, visit_rows
+  use gfb_archive, only: archive_type
+  use gfb_strip_answer, only: strip_answer_type, visit_answer
+  use gfb_contact_record, only: contact_record_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_result_phrases, only: of_this_step, of_all_steps, travel_of_plate
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
-  use gfb_scene, only: scene_type
   use gfb_substructures, only: kind_count
   use gfb_newton, only: newton_type
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_strip_answer, only: strip_answer_type
   use gfb_strip_system, only: strip_system_type
   implicit none (type, external)
   private
-  public :: step_quantities, answer_quantities, cost_quantities, show_step, &
-            show_step_header
+  public :: strip_companions, show_companions, companion_arrays, visit_run, step_quantities, &
+            answer_quantities, cost_quantities, show_step, show_step_header
 
+  integer, parameter :: longest_chain = 60 !! bumps; longer ones can take seconds
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+  !> Deflections at the full load, [m].
+  type :: companions_type
+    real(wp), allocatable :: walowit_anno(:) !! (bumps), single bumps without friction
+    real(wp), allocatable :: curved_bump(:)  !! (bumps), exact single bumps, feet rub on the sleeve
+    real(wp), allocatable :: chain(:)        !! (bumps), planar chain; empty where there is none
+    logical :: chain_lifts = .false.         !! it holds corners down that would lift
+  end type companions_type
+
+  !> What a run gathers.
+  type, public :: strip_run_type
+    type(strip_answer_type) :: full, last !! at the largest load, and of the last step
+    type(history_row_type), allocatable :: history(:)
+    type(contact_record_type) :: contacts
+    type(companions_type) :: companions
+    integer :: steps = 0                  !! done
+    logical :: converged = .true.
+  end type strip_run_type
+
   real(wp), parameter :: told_round_off = 1.0e-8_wp !! smaller is no matter
 
 contains
+
+  !> Computes them for the forces on the crests; a plate's force is shared evenly, as single bumps
+  !> do.
+  function strip_companions(scene, force) result(companions)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    real(wp), intent(in) :: force !! on all crests at the full load [N]
+    type(companions_type) :: companions
+    type(bump_foil_case_type), allocatable :: one(:)
+    real(wp) :: crest_force(scene%bump_foil%bumps), soft(scene%bump_foil%bumps), &
+                exact(scene%bump_foil%bumps) !! forces, stiffnesses by two formulas [N], [N/m]
+    integer :: bump, strip
+
+    associate (foil => scene%bump_foil)
+      if (scene%strip_load%kind == load_plates) then
+        crest_force = force/foil%bumps
+      else
+        crest_force = crest_forces(scene%strip_load, foil)
+      end if
+      soft = 0.0_wp
+      exact = 0.0_wp
+      do strip = 1, merge(foil%strips, 1, strips_differ(foil)) ! side by side, under one plate
+        one = one_bump(foil, [(bump, bump=1, foil%bumps)])
+        if (strips_differ(foil)) one = one_bump(one_strip(foil, strip), &
+                                                [(bump, bump=1, foil%bumps)])
+        soft = soft + bump_stiffness(one)*one%pitch%value*solid_width(one)
+        exact = exact + curved_bump_stiffness(one%youngs_modulus, one%poissons_ratio, &
+                                              one%thickness%value, one%half_length%value, &
+                                              one%height%value, solid_width(one), &
+                                              scene%contact%friction_sleeve)
+      end do
+    end associate
+    companions%walowit_anno = crest_force/soft
+    companions%curved_bump = crest_force/exact
+    call solve_chain(scene, crest_force, companions)
+  end function strip_companions
+
+  !> The planar chain, where it models the strip: crests with given forces, a bump at the fixed
+  !> edge.
+  subroutine solve_chain(scene, crest_force, companions)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: crest_force(:) !! [N]
+    type(companions_type), intent(inout) :: companions
+    type(bump_chain_type) :: chain
+    type(bump_chain_solution_type) :: solution
+    logical :: mirrored
+
+    allocate (companions%chain(0))
+    associate (foil => scene%bump_foil, contact => scene%contact)
+      if (foil%bumps > longest_chain .or. scene%strip_load%kind == load_plates) return
+      if (has_sizes(foil) .or. strips_differ(foil)) return ! its bumps are alike
+      if (foil%fixed_edge /= fixed_edge_none .and. foil%fixed_line /= fixed_line_corner) return
+      mirrored = foil%fixed_edge == fixed_edge_trailing
+      chain = bump_chain_type(foil%half_length%value, foil%height%value, foil%thickness%value, &
+                              foil%youngs_modulus, foil%poissons_ratio, foil%pitch%value, &
+                              solid_width(foil), foil%bumps, foil%fixed_edge /= fixed_edge_none, &
+                              contact%friction_top, contact%friction_sleeve)
+    end associate
+    if (mirrored) then
+      call solve_bump_chain(chain, crest_force(size(crest_force):1:-1), solution)
+      solution%crest_deflection = solution%crest_deflection(size(crest_force):1:-1)
+    else
+      call solve_bump_chain(chain, crest_force, solution)
+    end if
+    if (.not. solution%converged) return
+    companions%chain = solution%crest_deflection
+    companions%chain_lifts = solution%lifted
+  end subroutine solve_chain
+
+  !> A table of the crests: shells, chain, single bumps.
+  subroutine show_companions(log, deflection, companions)
+    type(run_log_type), intent(in) :: log !! where lines go
+    real(wp), intent(in) :: deflection(:) !! of the shells' crests [m]
+    type(companions_type), intent(in) :: companions !! deflections by formulas
+    character(len=80) :: line
+    integer :: bump
+
+    call log%line('deflection [um]   shells   planar chain   curved bump   Walowit-Anno')
+    do bump = 1, size(deflection)
+      if (size(companions%chain) > 0) then
+        write (line, '(a, i4, 4x, f12.4, f15.4, f14.4, f15.4)') 'crest', bump, &
+          micrometres*[deflection(bump), companions%chain(bump), companions%curved_bump(bump), &
+                       companions%walowit_anno(bump)]
+      else
+        write (line, '(a, i4, 4x, f12.4, a15, f14.4, f15.4)') 'crest', bump, &
+          micrometres*deflection(bump), '-', &
+          micrometres*[companions%curved_bump(bump), companions%walowit_anno(bump)]
+      end if
+      call log%line(trim(line))
+    end do
+    if (companions%chain_lifts) then
+      call log%line('the planar chain holds down corners that would lift')
+    end if
+  end subroutine show_companions
+
+  !> The same for the result file.
+  function companion_arrays(companions) result(arrays)
+    type(companions_type), intent(in) :: companions !! deflections by formulas
+    type(case_array_type), allocatable :: arrays(:)
+    character(len=*), parameter :: group = '/companions/'
+
+    allocate (arrays(0))
+    call add('walowit_anno', 'deflection of single bumps without friction', companions%walowit_anno)
+    call add('curved_bump', 'deflection of exact single bumps, feet rubbing', &
+             companions%curved_bump)
+    if (size(companions%chain) > 0) then
+      call add('planar_chain', 'deflection of a planar chain of bumps', companions%chain)
+    end if
+
+  contains
+
+    !> One number a bump.
+    subroutine add(name, meaning, values)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: values(:) !! [m]
+      type(case_array_type) :: array(1)
+      call fill_array(group//name, 'm', meaning, reshape(values, [size(values), 1]), array(1))
+      call add_arrays(arrays, array)
+    end subroutine add
+  end function companion_arrays
+
+  !> Saves or restores a run but for the contacts; one that is restored knows its number of bumps.
+  pure subroutine visit_run(archive, run)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(strip_run_type), intent(inout) :: run !! written where the archive restores
+
+    call archive%part('history')
+    call visit_rows(archive, run%history)
+    call archive%part('full')
+    call visit_answer(archive, run%full)
+    call archive%part('last')
+    call visit_answer(archive, run%last)
+    call archive%visit('steps', run%steps)
+  end subroutine visit_run
 
   !> A row of the history.
   function step_quantities(answer, step, plates, newton_iterations, factorizations) result(list)

@@ -14,7 +14,7 @@ module gfb_tilt_response
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, visit_answer
   use gfb_newton, only: newton_type
-  use gfb_angular_stiffness, only: angular_stiffness
+  use gfb_static_stiffness, only: angular_stiffness
   implicit none (type, external)
   private
   public :: begin_tilt, measure_tilt, row_quantities, summary_quantities, show_tilt_response

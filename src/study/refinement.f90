@@ -1,25 +1,69 @@
 !> A study on nested meshes, until the error of one number is as small as asked for.
 module gfb_refinement
   use gfb_kinds, only: wp
+  use gfb_grid_convergence, only: convergence_type, estimate_errors, estimate_error
+  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_accuracy_case, only: accuracy_case_type, all_coefficients, asked_name
+  use gfb_quantity, only: quantity_type
+  use gfb_result_names, only: is_nodal
+  use gfb_results, only: add_result
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text
   use gfb_errors, only: error_type
-  use gfb_accuracy_case, only: all_coefficients, asked_name
-  use gfb_mesh_sequence, only: mesh_sequence_type, start_sequence
   use gfb_model_case, only: foil_shell, foil_beam
   use gfb_nested_meshes, only: nested_mesh, mesh_words, formal_order, keep_scheme
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
   use gfb_reasons, only: reason_inaccurate, reason_stopped
   use gfb_run_context, only: run_context_type
-  use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing
   use gfb_scene_rules, only: is_symmetric
   use gfb_study, only: study_type
-  use gfb_text, only: text
   implicit none (type, external)
   private
+
+  integer, parameter :: side = 2 !! of a block: displacements or rotations
+  integer, parameter :: blocks = shaft_coordinates/side
+  real(wp), parameter :: vanishing = 1.0e-9_wp !! a coupling block below that of its neighbours [1]
+
+  integer, parameter :: least_meshes = 3 !! that show an order
+  character(len=*), parameter :: row_format = '(a16,a11,a18,a14,a7,a10)'
+
+  !> A mesh and its answer.
+  type :: mesh_answer_type
+    character(len=:), allocatable :: mesh  !! in words
+    logical :: found = .false.             !! it has an answer
+    integer :: unknowns = 0
+    real(wp) :: seconds = 0.0_wp           !! CPU time of all ranks [s]
+    type(convergence_type) :: estimate     !! with this mesh as the finest
+  end type mesh_answer_type
+
+  !> The meshes so far.
+  type :: mesh_sequence_type
+    character(len=:), allocatable :: name  !! of the number
+    character(len=:), allocatable :: unit  !! its unit
+    real(wp) :: target = 0.0_wp            !! error allowed, relative
+    real(wp) :: formal_order = 0.0_wp      !! of the elements [1]
+    logical :: nodal = .false.             !! the number is the largest or smallest at the nodes
+    type(mesh_answer_type), allocatable :: answer(:)
+    real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
+    real(wp), allocatable :: coefficients(:, :) !! (entry, mesh) the same of stiffness, damping [SI]
+  contains
+    procedure :: add => sequence_add
+    procedure :: add_failure => sequence_add_failure
+    procedure :: add_coefficients => sequence_add_coefficients
+    procedure :: drop_coefficients => sequence_drop_coefficients
+    procedure :: coefficient_errors => sequence_coefficient_errors
+    procedure :: is_of_many => sequence_is_of_many
+    procedure :: met => sequence_met
+    procedure :: quantities => sequence_quantities
+    procedure :: show => sequence_show
+    procedure :: needs => sequence_needs
+    procedure :: value_words => sequence_value_words
+    procedure, private :: has_error => sequence_has_error
+    procedure, private :: last => sequence_last
+  end type mesh_sequence_type
 
   !> The finest mesh's study, and what all meshes say of the number.
   type, extends(study_type), public :: refinement_type
@@ -38,6 +82,323 @@ module gfb_refinement
   end type refinement_type
 
 contains
+
+  !> Error of every entry on the finest mesh.
+  pure function entry_errors(value, formal_order) result(error)
+    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), each mesh twice as fine as the last
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    real(wp), allocatable :: error(:) !! [SI] of the finest mesh
+    type(convergence_type), allocatable :: estimate(:)
+
+    estimate = entry_estimates(value, formal_order)
+    error = estimate%error
+  end function entry_errors
+
+  !> What the meshes say of every entry; those of a block share one order.
+  !>
+  !> Blocks are those of 2 x 2 of each matrix: force over displacement, force over rotation, ...
+  pure function entry_estimates(value, formal_order) result(estimate)
+    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), 4 x 4 matrices behind each other
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(convergence_type), allocatable :: estimate(:)
+    integer :: entry(side**2), i, j, k
+
+    allocate (estimate(size(value, 1)))
+    do k = 0, size(value, 1)/shaft_coordinates**2 - 1
+      do j = 0, blocks - 1
+        do i = 0, blocks - 1
+          entry = (k*shaft_coordinates + side*j)*shaft_coordinates + side*i + &
+                  [1, 2, shaft_coordinates + 1, shaft_coordinates + 2]
+          estimate(entry) = estimate_errors(value(entry, :), formal_order)
+        end do
+      end do
+    end do
+  end function entry_estimates
+
+  !> The largest error of an entry over the largest entry of its block, with that entry's order.
+  pure function worst_error(value, formal_order) result(worst)
+    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), 4 x 4 matrices behind each other
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(convergence_type) :: worst !! its value is 1, so that its error is relative
+    type(convergence_type), allocatable :: estimate(:)
+    real(wp), allocatable :: scale(:)
+    integer :: i
+
+    worst%value = 1.0_wp
+    if (size(value, 2) < 2) return
+    worst%error = 0.0_wp
+    worst%trusted = .true.
+    scale = block_sizes(value(:, size(value, 2)))
+    estimate = entry_estimates(value, formal_order)
+    do i = 1, size(scale)
+      if (.not. scale(i) > 0.0_wp) cycle
+      if (.not. estimate(i)%error/scale(i) > worst%error) cycle
+      worst%error = estimate(i)%error/scale(i)
+      worst%order = estimate(i)%order
+      worst%trusted = estimate(i)%trusted
+    end do
+  end function worst_error
+
+  !> Largest entry of the block that each entry belongs to; 0 where the block vanishes.
+  pure function block_sizes(value) result(sizes)
+    real(wp), intent(in) :: value(:) !! [SI] 4 x 4 matrices behind each other
+    real(wp), allocatable :: sizes(:) !! [SI]
+    real(wp), allocatable :: matrix(:, :, :)
+    real(wp) :: largest(blocks, blocks)
+    integer :: i, j, k, n
+
+    n = size(value)/shaft_coordinates**2
+    matrix = reshape(value, [shaft_coordinates, shaft_coordinates, n])
+    do k = 1, n
+      do j = 1, blocks
+        do i = 1, blocks
+          largest(i, j) = maxval(abs(matrix(side*i - 1:side*i, side*j - 1:side*j, k)))
+        end do
+      end do
+      where (largest <= vanishing*sqrt(largest(1, 1)*largest(2, 2))) largest = 0.0_wp
+      do j = 1, blocks
+        do i = 1, blocks
+          matrix(side*i - 1:side*i, side*j - 1:side*j, k) = largest(i, j)
+        end do
+      end do
+    end do
+    sizes = reshape(matrix, [size(value)])
+  end function block_sizes
+
+  !> A sequence without meshes.
+  pure function start_sequence(accuracy, formal_order) result(sequence)
+    type(accuracy_case_type), intent(in) :: accuracy !! what is asked for
+    real(wp), intent(in) :: formal_order !! of the elements [1]
+    type(mesh_sequence_type) :: sequence
+
+    sequence%name = asked_name(accuracy)
+    sequence%unit = ''
+    sequence%target = accuracy%target
+    sequence%formal_order = formal_order
+    sequence%nodal = is_nodal(sequence%name)
+    allocate (sequence%answer(0), sequence%value(0))
+  end function start_sequence
+
+  !> Takes a mesh's value, and judges all of them.
+  subroutine sequence_add(self, mesh, quantity, unknowns, seconds)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    character(len=*), intent(in) :: mesh     !! in words
+    type(quantity_type), intent(in) :: quantity !! its number on that mesh
+    integer, intent(in) :: unknowns !! of its equations
+    real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
+    type(mesh_answer_type) :: one
+
+    self%unit = quantity%unit
+    self%value = [self%value, quantity%number]
+    one%mesh = mesh
+    one%found = .true.
+    one%unknowns = unknowns
+    one%seconds = seconds
+    if (self%is_of_many()) then
+      one%estimate = worst_error(self%coefficients, self%formal_order)
+    else
+      one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
+    end if
+    self%answer = [self%answer, one]
+  end subroutine sequence_add
+
+  !> Takes a mesh's stiffness and damping, before its value.
+  pure subroutine sequence_add_coefficients(self, values)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    real(wp), intent(in) :: values(:) !! [SI] as many on every mesh
+    real(wp), allocatable :: all(:)
+
+    allocate (all(0))
+    if (allocated(self%coefficients)) all = reshape(self%coefficients, [size(self%coefficients)])
+    self%coefficients = reshape([all, values], [size(values), size(all)/size(values) + 1])
+  end subroutine sequence_add_coefficients
+
+  !> A mesh without an answer: coarser ones' stiffness and damping no longer count.
+  pure subroutine sequence_drop_coefficients(self)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    if (allocated(self%coefficients)) deallocate (self%coefficients)
+  end subroutine sequence_drop_coefficients
+
+  !> Errors of the finest mesh's stiffness and damping; not allocated where none is known.
+  pure subroutine sequence_coefficient_errors(self, errors)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    real(wp), allocatable, intent(out) :: errors(:) !! [SI] in the order of the coefficients
+
+    if (.not. allocated(self%coefficients)) return
+    if (size(self%coefficients, 2) < 2) return
+    errors = entry_errors(self%coefficients, self%formal_order)
+  end subroutine sequence_coefficient_errors
+
+  !> Whether the error is that of all stiffness and damping, relative, and belongs to no value.
+  pure function sequence_is_of_many(self) result(is)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    logical :: is
+    is = self%name == all_coefficients
+  end function sequence_is_of_many
+
+  !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
+  subroutine sequence_add_failure(self, mesh, unknowns, seconds)
+    class(mesh_sequence_type), intent(inout) :: self !! the sequence
+    character(len=*), intent(in) :: mesh     !! in words
+    integer, intent(in) :: unknowns !! of its equations
+    real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
+    type(mesh_answer_type) :: one
+
+    self%value = self%value(:0)
+    one%mesh = mesh
+    one%unknowns = unknowns
+    one%seconds = seconds
+    self%answer = [self%answer, one]
+  end subroutine sequence_add_failure
+
+  !> The finest mesh's estimate.
+  pure function sequence_last(self) result(estimate)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    type(convergence_type) :: estimate
+    if (size(self%value) > 0) estimate = self%answer(size(self%answer))%estimate
+  end function sequence_last
+
+  !> Whether the finest mesh's error is known.
+  pure function sequence_has_error(self) result(has)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    logical :: has
+    has = size(self%value) > 1
+  end function sequence_has_error
+
+  !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
+  !> an estimate without one is not enough.
+  pure function sequence_met(self) result(met)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    logical :: met
+    type(convergence_type) :: last
+
+    last = self%last()
+    met = size(self%value) >= least_meshes .and. last%error <= self%target*abs(last%value)
+  end function sequence_met
+
+  !> What the summary says of the error.
+  function sequence_quantities(self) result(list)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    type(quantity_type), allocatable :: list(:)
+    type(convergence_type) :: last
+
+    if (self%has_error()) then
+      last = self%last()
+      call add_result(list, self%name//'_error', last%error)
+      call add_result(list, self%name//'_order', last%order)
+    end if
+    call add_result(list, 'accuracy_met', self%met(), self%name)
+    call add_result(list, 'meshes', size(self%answer))
+  end function sequence_quantities
+
+  !> The meshes as a table.
+  subroutine sequence_show(self, log)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    type(run_log_type), intent(in) :: log !! where lines go
+    character(len=80) :: line
+    integer :: i
+
+    call log%heading('accuracy of '//self%name)
+    write (line, row_format) 'elements', 'unknowns', 'value ['//self%unit//']', 'estimate', &
+      'order', 'CPU [s]'
+    call log%line(trim(line))
+    do i = 1, size(self%answer)
+      associate (answer => self%answer(i))
+        if (answer%found) then
+          write (line, row_format) answer%mesh, text(answer%unknowns), &
+            shown_value(self, answer%estimate), error_words(answer%estimate), &
+            order_words(answer%estimate), text(answer%seconds, 3)
+        else
+          write (line, row_format) answer%mesh, text(answer%unknowns), 'no answer', '', '', &
+            text(answer%seconds, 3)
+        end if
+      end associate
+      call log%line(trim(line))
+    end do
+  end subroutine sequence_show
+
+  !> A value; none of many.
+  pure function shown_value(self, estimate) result(words)
+    class(mesh_sequence_type), intent(in) :: self
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (.not. self%is_of_many()) words = text(estimate%value, 8)
+  end function shown_value
+
+  !> An estimate; none on one mesh.
+  pure function error_words(estimate) result(words)
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (estimate%error < huge(1.0_wp)) words = '+- '//text(estimate%error, 3)
+  end function error_words
+
+  !> An order; none where it is not believed.
+  pure function order_words(estimate) result(words)
+    type(convergence_type), intent(in) :: estimate
+    character(len=:), allocatable :: words
+
+    words = '-'
+    if (estimate%trusted .and. estimate%order > 0.0_wp) words = text(estimate%order, 3)
+  end function order_words
+
+  !> The number with its error, in words.
+  function sequence_value_words(self) result(words)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    character(len=:), allocatable :: words
+    type(convergence_type) :: last
+
+    last = self%last()
+    if (self%is_of_many()) then
+      words = 'stiffness and damping: no error yet'
+      if (.not. self%has_error()) return
+      words = 'stiffness and damping: errors up to '//text(100.0_wp*last%error, 2)// &
+              ' % of the largest entry of a block ('//text(last%error, 2)
+    else
+      words = self%name//' = '//text(last%value, 6)//' '//self%unit
+      if (.not. self%has_error()) return
+      words = self%name//' = '//text(last%value, 6)//' +- '//text(last%error, 2)//' '//self%unit
+    end if
+    if (self%is_of_many()) then
+      words = words//' relative'
+    else if (abs(last%value) > 0.0_wp) then
+      words = words//' ('//text(100.0_wp*last%error/abs(last%value), 2)//' %'
+    else
+      words = words//' (a value of zero has no relative error'
+    end if
+    if (last%trusted .and. last%order > 0.0_wp) then
+      words = words//', observed order '//text(last%order, 3)//')'
+    else if (last%trusted) then
+      words = words//', finer meshes change nothing)'
+    else
+      words = words//', no order observed)'
+    end if
+  end function sequence_value_words
+
+  !> What a target that is not met would need, in words.
+  function sequence_needs(self) result(words)
+    class(mesh_sequence_type), intent(in) :: self !! the sequence
+    character(len=:), allocatable :: words
+    type(convergence_type) :: last
+    real(wp) :: order, ratio
+
+    last = self%last()
+    if (size(self%value) < least_meshes) then
+      words = 'answers on '//text(least_meshes)//' meshes at least'
+    else if (.not. abs(last%value) > 0.0_wp) then
+      words = 'another quantity: a relative target has no meaning for zero'
+    else if (.not. last%trusted) then
+      words = 'finer meshes, on which the values approach a limit'
+    else
+      order = max(min(last%order, self%formal_order), tiny(1.0_wp))
+      ratio = last%error/(self%target*abs(last%value))
+      words = 'about '//text(ceiling(log(ratio)/(order*log(2.0_wp))))// &
+              ' more refinement(s), if the order stays'
+    end if
+  end function sequence_needs
 
   !> Says what the scene needs on the mesh of its case, and with which meshes the refinement begins;
   !> all of them have the film's weighting of that one.

@@ -35,7 +35,7 @@ class NoAnswer(unittest.TestCase):
             if "solver" not in path.parts:
                 continue
             found = re.findall(r"report%reason = ['\"](.+?)['\"](?:\s|//|$|,)", text)
-            if path.name == "newton_report.F90":
+            if path.name == "newton.F90":
                 found += re.findall(r"words = '(.+?)'", text)
             missing += [piece for piece in (one.strip() for one in found) if len(piece) >= SHORTEST and piece not in self.page
                         and not any(known in piece for known in re.findall(r"`([^`]+)`", self.page) if len(known) >= SHORTEST)]

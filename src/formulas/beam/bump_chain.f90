@@ -5,15 +5,55 @@
 !> are exact circular beams, flats are beams that bend between two corners fixed to the sleeve, and
 !> the turns of corners and crests are eliminated. All per metre of width; x runs from bump 1 to the
 !> last, v away from the sleeve.
+!>
+!> Exact beam stiffnesses of a bump strip's pieces: half an arc, and a flat.
+!>
+!> Per metre of width. At each end of a piece stand three displacements: along x, along v (away from
+!> the sleeve), and the turn from x towards v.
+!>
+!> Coulomb friction at the contacts of an elastic body, under a load that grows in proportion.
+!>
+!> Elastic forces are linear in the contacts' displacements u; so is each normal force:
+!>
+!> $$ K u = q + f, \quad
+!>    N = N_0 + G u, \quad
+!>    |f_i| \le \mu_i \sum_k \max(N_k, 0), \quad
+!>    f_i = -\mu_i \sum_k \max(N_k, 0) \ \mathrm{sign}\, u_i \ \text{where} \ u_i \ne 0 $$
+!>
+!> with the sum over the normal forces k that contact i owns. All is homogeneous of first order, so
+!> a load that grows from zero in proportion keeps each contact sticking at its start or slipping
+!> in one direction: the end state needs no steps.
 module gfb_bump_chain
   use gfb_kinds, only: wp
+  use gfb_linear_solve, only: solve_positive, solve_general
   use gfb_curved_bump, only: bump_radius, bump_half_angle, bending_stiffness
-  use gfb_arch_beam, only: section_type, left_arch_stiffness, right_arch_stiffness, flat_stiffness
-  use gfb_linear_solve, only: solve_positive
-  use gfb_coulomb_contacts, only: coulomb_contacts_type, solve_contacts
   implicit none (type, external)
   private
-  public :: bump_chain_type, bump_chain_solution_type, solve_bump_chain
+  public :: section_type, arch_flexibility, left_arch_stiffness, right_arch_stiffness, &
+            flat_stiffness, bump_chain_type, bump_chain_solution_type, solve_bump_chain
+
+  !> What a foil's section answers, per metre of width.
+  type :: section_type
+    real(wp) :: bending = 0.0_wp  !! curvature over moment, 1/D [1/(N m)]
+    real(wp) :: membrane = 0.0_wp !! stretch over tension [m/N]; 0: inextensible
+    real(wp) :: shear = 0.0_wp    !! shear strain over shear force [m/N]; 0: none
+  end type section_type
+
+  integer, parameter :: largest_sweeps = 100000 !! mostly some thousand do
+  integer, parameter :: newton_tries = 30       !! if not by then, it cycles
+  integer, parameter :: sweeps_a_try = 10       !! a direct solve costs about so many sweeps
+  real(wp), parameter :: slack = 1.0e-11_wp     !! round-off of the direct solve, relative
+
+  !> The contacts and what is behind them, n contacts with m normal forces.
+  type :: coulomb_contacts_type
+    real(wp), allocatable :: stiffness(:, :)        !! K (n, n) [N/m]
+    real(wp), allocatable :: load(:)                !! q (n) [N]
+    real(wp), allocatable :: friction(:)            !! mu (n) [1]
+    real(wp), allocatable :: normal_load(:)         !! N_0 (m) [N]
+    real(wp), allocatable :: normal_stiffness(:, :) !! G (m, n) [N/m]
+    integer, allocatable :: owner(:)                !! (m), contact; 0: nobody's
+    logical :: floating = .false. !! all contacts can move together without any force
+  end type coulomb_contacts_type
 
   integer, parameter, public :: slips_back = -1   !! slipped towards smaller x
   integer, parameter, public :: sticks = 0        !! where it was
@@ -63,6 +103,282 @@ module gfb_bump_chain
   end type freedoms_type
 
 contains
+
+  !> Displacements of the crest of half an arc, its corner clamped, under forces on the crest.
+  !>
+  !> $$ F = \int_0^{t_0} \Bigl( \frac{b b^T}{D} + \frac{n n^T}{A} + \frac{q q^T}{S} \Bigr)
+  !>    R_b \, d\varphi, \quad
+  !>    b = \begin{pmatrix} -R_b (1 - \cos\varphi) \\ R_b \sin\varphi \\ 1 \end{pmatrix}, \
+  !>    n = \begin{pmatrix} \cos\varphi \\ \sin\varphi \\ 0 \end{pmatrix}, \
+  !>    q = \begin{pmatrix} -\sin\varphi \\ \cos\varphi \\ 0 \end{pmatrix} $$
+  !>
+  !> with the angle \(\varphi\) from the crest: moment, tension and shear force of unit forces along
+  !> x and v and of a unit moment. Exact for a thin circular beam; the differences of sines are
+  !> summed as series, so that flat arcs keep their digits.
+  pure function arch_flexibility(radius, angle, section) result(flexibility)
+    real(wp), intent(in) :: radius            !! R_b [m]
+    real(wp), intent(in) :: angle             !! t_0, of half the arc [rad]
+    type(section_type), intent(in) :: section !! of the foil
+    real(wp) :: flexibility(3, 3)             !! x, v, turn, of a metre of width
+    real(wp) :: sine, versine, sines, cosines, bending, stretch, shear
+
+    sine = sin(angle)
+    versine = 2.0_wp*sin(0.5_wp*angle)**2
+    ! Integrals of the squared sine and cosine.
+    sines = (8.0_wp*angle**3/6.0_wp - fifth_order(2.0_wp*angle))/4.0_wp
+    cosines = angle - sines
+    bending = section%bending*radius
+    stretch = section%membrane*radius
+    shear = section%shear*radius
+    flexibility(1, 1) = stretch*cosines + shear*sines + &
+      bending*radius**2*(fifth_order(2.0_wp*angle)/4.0_wp - 2.0_wp*fifth_order(angle))
+    flexibility(1, 2) = -bending*radius**2*0.5_wp*versine**2 + (stretch - shear)*0.5_wp*sine**2
+    flexibility(1, 3) = -bending*radius*(angle**3/6.0_wp - fifth_order(angle))
+    flexibility(2, 2) = (bending*radius**2 + stretch)*sines + shear*cosines
+    flexibility(2, 3) = bending*radius*versine
+    flexibility(3, 3) = bending*angle
+    flexibility(2, 1) = flexibility(1, 2)
+    flexibility(3, 1) = flexibility(1, 3)
+    flexibility(3, 2) = flexibility(2, 3)
+  end function arch_flexibility
+
+  !> The sine without its first two terms, sin x - x + x^3/6, to the last digit.
+  elemental function fifth_order(x) result(remainder)
+    real(wp), intent(in) :: x !! at most pi [1]
+    real(wp) :: remainder
+    real(wp) :: term
+    integer :: k
+
+    term = -x**3/6.0_wp
+    remainder = 0.0_wp
+    do k = 4, 30, 2
+      term = -term*x**2/real(k*(k + 1), wp)
+      remainder = remainder + term
+    end do
+  end function fifth_order
+
+  !> Stiffness of the half arc from a left corner (first three displacements) to the crest (last
+  !> three).
+  !>
+  !> $$ K = B^T F^{-1} B, \qquad B = (-T \ \ 1) $$
+  !>
+  !> where T moves the crest with the corner as a rigid body.
+  pure function left_arch_stiffness(half_length, height, radius, angle, section) result(stiffness)
+    real(wp), intent(in) :: half_length, height !! l, h_b [m]
+    real(wp), intent(in) :: radius, angle       !! R_b [m], t_0 [rad]
+    type(section_type), intent(in) :: section   !! of the foil
+    real(wp) :: stiffness(6, 6)                 !! [N/m^2, N/m, N]
+    real(wp) :: bending(3, 6), forces(3, 6)
+    integer :: i
+    logical :: solved
+
+    bending = 0.0_wp
+    do i = 1, 3
+      bending(i, i) = -1.0_wp
+      bending(i, i + 3) = 1.0_wp
+    end do
+    bending(1, 3) = height
+    bending(2, 3) = -half_length
+    forces = bending
+    call solve_positive(arch_flexibility(radius, angle, section), forces, solved)
+    if (.not. solved) error stop 'the flexibility of an arc is not positive definite'
+    stiffness = matmul(transpose(bending), forces)
+  end function left_arch_stiffness
+
+  !> Stiffness of the half arc from a right corner to the crest: the mirror image of the left one.
+  pure function right_arch_stiffness(left) result(stiffness)
+    real(wp), intent(in) :: left(6, 6) !! [N/m], [N], [N m] of the left half arc
+    real(wp) :: stiffness(6, 6)
+    real(wp), parameter :: mirror(6) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
+    integer :: i, j
+
+    do j = 1, 6
+      do i = 1, 6
+        stiffness(i, j) = mirror(i)*left(i, j)*mirror(j)
+      end do
+    end do
+  end function right_arch_stiffness
+
+  !> Stiffness of a flat as a straight beam: v and turn of its left end, v and turn of its right
+  !> end.
+  pure function flat_stiffness(length, section) result(stiffness)
+    real(wp), intent(in) :: length            !! from corner to corner [m]
+    type(section_type), intent(in) :: section !! of the foil
+    real(wp) :: stiffness(4, 4)               !! [N/m^2, N/m, N]
+    real(wp) :: a, b, c, d, softening
+
+    softening = 12.0_wp*section%shear/(section%bending*length**2)
+    d = 1.0_wp/(section%bending*length*(1.0_wp + softening))
+    a = 12.0_wp*d/length**2
+    b = 6.0_wp*d/length
+    c = (2.0_wp - softening)*d
+    d = (4.0_wp + softening)*d
+    stiffness = reshape([a, b, -a, b, b, d, -b, c, -a, -b, a, -b, b, c, -b, d], [4, 4])
+  end function flat_stiffness
+
+  !> Finds displacements that satisfy all laws to round-off.
+  !>
+  !> Sweeps with the exact answer of one contact at a time guess which contacts stick and slip; a
+  !> direct solve with these states is the answer if it agrees with all of them. First one sweep
+  !> from each direct solve (Newton's method, which often converges in ten solves, but can cycle),
+  !> then sweeps alone (Gauss-Seidel, slow and sure). Where friction leaves a floating body's
+  !> position open, because all contacts slip, their displacements' sum is zero.
+  pure subroutine solve_contacts(contacts, displacement, converged)
+    type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
+    real(wp), intent(out) :: displacement(:) !! u (n), exactly 0 where a contact sticks [m]
+    logical, intent(out) :: converged        !! all laws are satisfied
+
+    real(wp) :: swept(size(displacement))
+    integer :: slip(size(displacement)), tried(size(displacement)), sweep
+    logical :: pressed(size(contacts%owner)), tried_pressed(size(contacts%owner))
+
+    swept = 0.0_wp
+    tried = huge(1)
+    tried_pressed = .false.
+    converged = .false.
+    do sweep = 1, largest_sweeps
+      call sweep_contacts(contacts, swept)
+      if (sweep > newton_tries .and. modulo(sweep, sweeps_a_try) /= 0) cycle
+      slip = direction(swept)
+      pressed = normal_forces(contacts, swept) > 0.0_wp
+      if (all(slip == tried) .and. all(pressed .eqv. tried_pressed)) cycle
+      tried = slip
+      tried_pressed = pressed
+      call solve_states(contacts, slip, pressed, displacement, converged)
+      if (converged) exit
+      if (sweep < newton_tries) swept = displacement
+      if (sweep == newton_tries) swept = 0.0_wp
+    end do
+    if (.not. converged) displacement = swept
+    if (converged .and. contacts%floating) call centre(contacts, pressed, displacement)
+  end subroutine solve_contacts
+
+  !> Moves a floating body to its middle position where friction leaves that open: where each
+  !> contact that sticks is about to slip, all may slip.
+  pure subroutine centre(contacts, pressed, displacement)
+    type(coulomb_contacts_type), intent(in) :: contacts
+    logical, intent(in) :: pressed(:)          !! (m), the normal force is positive
+    real(wp), intent(inout) :: displacement(:) !! u (n), one answer [m]
+    real(wp) :: centred(size(displacement)), force(size(displacement))
+    logical :: fits
+
+    force = matmul(contacts%stiffness, displacement) - contacts%load
+    call solve_states(contacts, direction(-force), pressed, centred, fits)
+    if (fits) displacement = centred
+  end subroutine centre
+
+  !> Friction each contact can bear, \( \mu_i \sum_k \max(N_k, 0) \) [N].
+  pure function friction_limits(contacts, displacement) result(limits)
+    type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
+    real(wp), intent(in) :: displacement(:) !! u (n) [m]
+    real(wp) :: limits(size(displacement))
+    real(wp) :: normal(size(contacts%owner))
+    integer :: k
+
+    normal = normal_forces(contacts, displacement)
+    limits = 0.0_wp
+    do k = 1, size(normal)
+      associate (i => contacts%owner(k))
+        if (i > 0) limits(i) = limits(i) + contacts%friction(i)*max(normal(k), 0.0_wp)
+      end associate
+    end do
+  end function friction_limits
+
+  !> Normal forces [N].
+  pure function normal_forces(contacts, displacement) result(normal)
+    type(coulomb_contacts_type), intent(in) :: contacts
+    real(wp), intent(in) :: displacement(:) !! u (n) [m]
+    real(wp) :: normal(size(contacts%owner))
+    normal = contacts%normal_load + matmul(contacts%normal_stiffness, displacement)
+  end function normal_forces
+
+  !> -1, 0 or 1: in which direction each contact has slipped.
+  elemental function direction(displacement) result(slip)
+    real(wp), intent(in) :: displacement !! [m]
+    integer :: slip
+    slip = 0
+    if (displacement > 0.0_wp) slip = 1
+    if (displacement < 0.0_wp) slip = -1
+  end function direction
+
+  !> One sweep: each contact answers its own law while the others and the normal forces rest.
+  pure subroutine sweep_contacts(contacts, displacement)
+    type(coulomb_contacts_type), intent(in) :: contacts
+    real(wp), intent(inout) :: displacement(:) !! u (n) [m]
+    real(wp) :: limits(size(displacement)), force
+    integer :: i
+
+    limits = friction_limits(contacts, displacement)
+    do i = 1, size(displacement)
+      associate (own => contacts%stiffness(i, i))
+        force = contacts%load(i) + own*displacement(i) &
+          - dot_product(contacts%stiffness(:, i), displacement)
+        displacement(i) = sign(max(abs(force) - limits(i), 0.0_wp), force)/own
+      end associate
+    end do
+  end subroutine sweep_contacts
+
+  !> Displacements that fit with given states, and whether these states fit with them.
+  pure subroutine solve_states(contacts, slip, pressed, displacement, fits)
+    type(coulomb_contacts_type), intent(in) :: contacts
+    integer, intent(in) :: slip(:)           !! (n), -1, 0 (sticks) or 1
+    logical, intent(in) :: pressed(:)        !! (m), the normal force is positive
+    real(wp), intent(out) :: displacement(:) !! u (n) [m]
+    logical, intent(out) :: fits
+
+    real(wp), allocatable :: matrix(:, :), right_side(:)
+    real(wp) :: limits(size(slip)), force(size(slip)), tolerance
+    integer, allocatable :: moving(:)
+    integer :: n, i
+
+    moving = pack([(i, i=1, size(slip))], slip /= 0)
+    n = size(moving)
+    call slip_equations(contacts, slip, pressed, moving, matrix, right_side)
+    call solve_general(matrix, right_side, fits)
+    displacement = 0.0_wp
+    if (.not. fits) return
+    displacement(moving) = right_side(:n)
+    limits = friction_limits(contacts, displacement)
+    force = matmul(contacts%stiffness, displacement) - contacts%load
+    tolerance = slack*max(maxval(abs(contacts%load)), maxval(limits))
+    fits = all(direction(displacement) == slip) .and. all(abs(force) <= limits + tolerance) .and. &
+      all(slip == 0 .or. abs(force + slip*limits) <= tolerance) .and. &
+      all((normal_forces(contacts, displacement) > 0.0_wp) .eqv. pressed)
+  end subroutine solve_states
+
+  !> Equations of the contacts that slip. A body that floats with all its contacts slipping gets one
+  !> unknown more, an even force on all of them that is zero in the answer, and one equation: the
+  !> displacements' sum.
+  pure subroutine slip_equations(contacts, slip, pressed, moving, matrix, right_side)
+    type(coulomb_contacts_type), intent(in) :: contacts
+    integer, intent(in) :: slip(:)    !! (n), -1, 0 (sticks) or 1
+    logical, intent(in) :: pressed(:) !! (m), the normal force is positive
+    integer, intent(in) :: moving(:)  !! contacts that slip
+    real(wp), allocatable, intent(out) :: matrix(:, :)  !! one row and column a slipping contact
+    real(wp), allocatable, intent(out) :: right_side(:)
+    real(wp), allocatable :: rows(:, :), loads(:)
+    real(wp) :: stiffest
+    integer :: n, extra, i, k
+
+    rows = contacts%stiffness
+    loads = contacts%load
+    do k = 1, size(contacts%owner)
+      i = contacts%owner(k)
+      if (i == 0 .or. .not. pressed(k)) cycle
+      rows(i, :) = rows(i, :) + slip(i)*contacts%friction(i)*contacts%normal_stiffness(k, :)
+      loads(i) = loads(i) - slip(i)*contacts%friction(i)*contacts%normal_load(k)
+    end do
+    n = size(moving)
+    extra = 0
+    if (contacts%floating .and. n == size(slip)) extra = 1
+    allocate (matrix(n + extra, n + extra), right_side(n + extra), source=0.0_wp)
+    matrix(:n, :n) = rows(moving, moving)
+    right_side(:n) = loads(moving)
+    if (extra == 0) return
+    stiffest = maxval(abs(contacts%stiffness))
+    matrix(:n, n + 1) = stiffest
+    matrix(n + 1, :n) = stiffest
+  end subroutine slip_equations
 
   !> Presses on the crests of a chain.
   pure subroutine solve_bump_chain(chain, crest_force, solution)

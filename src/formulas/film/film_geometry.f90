@@ -9,12 +9,12 @@ module gfb_film_geometry
   use gfb_errors, only: error_type, fail
   implicit none (type, external)
   private
-  public :: film_geometry, film_shape, biquadratic_shape, film_shapes
+  public :: rigid_gap, gap_towards, film_geometry, film_shape, biquadratic_shape, film_shapes
 
   integer, parameter, public :: film_nodes = 4         !! nodes of a bilinear element
   integer, parameter, public :: film_points = 4        !! its Gauss points, 2 x 2
   integer, parameter, public :: biquadratic_nodes = 9  !! nodes of a biquadratic element
-  integer, parameter, public :: biquadratic_points = 9 !! its Gauss points, 3 x 3
+  integer, parameter :: biquadratic_points = 9 !! its Gauss points, 3 x 3
   integer, parameter, public :: most_film_nodes = 9    !! of any element
 
   real(wp), parameter :: abscissa = 1.0_wp/sqrt(3.0_wp) !! of two-point Gauss quadrature [1]
@@ -52,6 +52,41 @@ module gfb_film_geometry
   end type film_geometry_type
 
 contains
+
+  !> Gap at one point without foil deflection.
+  !>
+  !> $$ h_r = C + (e_x + z \phi_y) \cos\theta + (e_y - z \phi_x) \sin\theta $$
+  !>
+  !> Source: [Gu2020] eq. 12; see `gfb_shaft_motion`, which has its derivatives.
+  elemental function rigid_gap(angle, axial, clearance, eccentricity_x, eccentricity_y, &
+                               tilt_x, tilt_y) result(gap)
+    real(wp), intent(in) :: angle          !! theta [rad]
+    real(wp), intent(in) :: axial          !! z, zero at the midplane [m]
+    real(wp), intent(in) :: clearance      !! C [m]
+    real(wp), intent(in) :: eccentricity_x !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: eccentricity_y !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: tilt_x         !! of the sleeve relative to the shaft about x [rad]
+    real(wp), intent(in) :: tilt_y         !! of the sleeve relative to the shaft about y [rad]
+    real(wp) :: gap                        !! h_r [m]
+
+    gap = gap_towards(cos(angle), sin(angle), axial, clearance, eccentricity_x, eccentricity_y, &
+                      tilt_x, tilt_y)
+  end function rigid_gap
+
+  !> The same where cosine and sine of the angle are known.
+  elemental function gap_towards(cosine, sine, axial, clearance, eccentricity_x, eccentricity_y, &
+                                 tilt_x, tilt_y) result(gap)
+    real(wp), intent(in) :: cosine, sine   !! of theta [1]
+    real(wp), intent(in) :: axial          !! z, zero at the midplane [m]
+    real(wp), intent(in) :: clearance      !! C [m]
+    real(wp), intent(in) :: eccentricity_x !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: eccentricity_y !! of the sleeve relative to the shaft [m]
+    real(wp), intent(in) :: tilt_x         !! of the sleeve relative to the shaft about x [rad]
+    real(wp), intent(in) :: tilt_y         !! of the sleeve relative to the shaft about y [rad]
+    real(wp) :: gap                        !! h_r [m]
+
+    gap = clearance + (eccentricity_x + axial*tilt_y)*cosine + (eccentricity_y - axial*tilt_x)*sine
+  end function gap_towards
 
   !> Gradients, areas and lengths of one element.
   !>

@@ -1,26 +1,220 @@
 !> MITC4 shell element, linear: stiffness and internal force.
 !>
 !> Source: [DvorkinBathe1984]. Five strains in the lamina, plane stress; membrane and bending from
-!> the displacements, transverse shear tied at the sides (`gfb_shell_shear`). Rule: 2 x 2 Gauss
+!> the displacements, transverse shear tied at the sides (`gfb_shell_element`). Rule: 2 x 2 Gauss
 !> points in the plane, 2 over the thickness.
+!>
+!> Transverse shear of MITC4: covariant strains tied at the middles of the four sides.
+!>
+!> $$ 2 \tilde e_{\xi\zeta} = \frac{1 + \eta}{2} \gamma^A + \frac{1 - \eta}{2} \gamma^C, \qquad
+!>    2 \tilde e_{\eta\zeta} = \frac{1 + \xi}{2} \gamma^D + \frac{1 - \xi}{2} \gamma^B $$
+!> $$ \gamma = \frac{\mathbf{x}_j - \mathbf{x}_i}{2} \cdot \frac{\boldsymbol\varphi_i +
+!>    \boldsymbol\varphi_j}{2} + \frac{h}{4} (\mathbf{V}_i + \mathbf{V}_j) \cdot
+!>    \frac{\mathbf{u}_j - \mathbf{u}_i}{2}, \qquad
+!>    \boldsymbol\varphi = \frac{h}{2} \boldsymbol\theta \times \mathbf{V} $$
+!>
+!> Source: [DvorkinBathe1984]; A is the middle of the side at \( \eta = 1 \), C at \( \eta = -1 \),
+!> D at \( \xi = 1 \), B at \( \xi = -1 \), from node i to node j. The part of the
+!> displacement-based strain that is linear in \( \zeta \) vanishes there, so the tied strains are
+!> constant over the thickness.
 module gfb_shell_element
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
-  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
+  use gfb_shell_geometry, only: shell_section_type, shell_lamina_type, shell_geometry_type, &
                                 shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, &
                                 check_shell, bilinear, shell_base, shell_lamina
-  use gfb_shell_shear, only: shear_points, shear_rows, shear_strains, shear_forces, shear_weights
-  use gfb_shell_strain, only: shear_factor, lamina_strain, lamina_stress
   use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized
+  use gfb_errors, only: error_type
   implicit none (type, external)
   private
-  public :: shell_stiffness, shell_internal_force
+  public :: lamina_strain, lamina_stress, shear_strains, shear_weights, pressure_weights, &
+            shell_stiffness, shell_internal_force
+
+  real(wp), parameter :: shear_factor = 5.0_wp/6.0_wp !! of the transverse shear [1]
+
+  integer, parameter, public :: shear_points = 4 !! A, C, D, B
+
+  integer, parameter :: from(shear_points) = [4, 1, 2, 1] !! node i
+  integer, parameter :: to(shear_points) = [3, 2, 3, 4]   !! node j
 
   integer, parameter :: strains = 5                !! in the lamina
   integer, parameter :: columns = 8*strains        !! strains of all Gauss points
   real(wp), parameter :: round_off = 1.0e-14_wp    !! of an entry, against the diagonal
 
 contains
+
+  !> Strain tensor in the lamina frame.
+  !>
+  !> $$ \varepsilon_{ij} = \sum_{kl} e_{kl} (\mathbf{g}^k \cdot \mathbf{l}_i)
+  !>    (\mathbf{g}^l \cdot \mathbf{l}_j), \qquad
+  !>    e_{kl} = \tfrac12 (\mathbf{g}_k \cdot \mathbf{u}_{,l} + \mathbf{g}_l \cdot \mathbf{u}_{,k})
+  !> $$
+  !>
+  !> with the tied transverse shear strains in place of the displacement-based ones; the normal
+  !> strain along the thickness is left out (plane stress).
+  pure function lamina_strain(base, lamina, slope_xi, slope_eta, tied, weight) result(strain)
+    real(wp), intent(in) :: base(3, 3)          !! covariant base vectors [m]
+    type(shell_lamina_type), intent(in) :: lamina !! directions at a Gauss point
+    real(wp), intent(in) :: slope_xi(3)         !! derivative of the displacement by xi [m]
+    real(wp), intent(in) :: slope_eta(3)        !! derivative of the displacement by eta [m]
+    real(wp), intent(in) :: tied(shear_points)  !! of `shear_strains` [m2]
+    real(wp), intent(in) :: weight(shear_points) !! of `shear_weights` [1]
+    real(wp) :: strain(3, 3)                    !! [1]
+    real(wp) :: covariant(3, 3)
+
+    covariant(1, 1) = dot_product(base(:, 1), slope_xi)
+    covariant(2, 2) = dot_product(base(:, 2), slope_eta)
+    covariant(3, 3) = 0.0_wp
+    covariant(1, 2) = 0.5_wp*(dot_product(base(:, 1), slope_eta) + &
+                              dot_product(base(:, 2), slope_xi))
+    covariant(1, 3) = 0.5_wp*(weight(1)*tied(1) + weight(2)*tied(2))
+    covariant(2, 3) = 0.5_wp*(weight(3)*tied(3) + weight(4)*tied(4))
+    covariant(2, 1) = covariant(1, 2)
+    covariant(3, 1) = covariant(1, 3)
+    covariant(3, 2) = covariant(2, 3)
+    strain = matmul(lamina%dual, matmul(covariant, transpose(lamina%dual)))
+  end function lamina_strain
+
+  !> Plane stress in the lamina, and transverse shear.
+  !>
+  !> $$ \sigma_{11} = \frac{E}{1 - \nu^2} (\varepsilon_{11} + \nu \varepsilon_{22}), \quad
+  !>    \sigma_{12} = 2 G \varepsilon_{12}, \quad \sigma_{13} = 2 k G \varepsilon_{13}, \quad
+  !>    \sigma_{33} = 0, \quad k = 5/6 $$
+  pure function lamina_stress(section, strain) result(stress)
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
+    real(wp), intent(in) :: strain(3, 3) !! in the lamina frame [1]
+    real(wp) :: stress(3, 3)             !! in the lamina frame [Pa]
+    real(wp) :: plane, shear
+
+    plane = section%youngs_modulus/(1.0_wp - section%poissons_ratio**2)
+    shear = section%youngs_modulus/(1.0_wp + section%poissons_ratio)
+    stress = shear*shear_factor*strain
+    stress(1, 1) = plane*(strain(1, 1) + section%poissons_ratio*strain(2, 2))
+    stress(2, 2) = plane*(strain(2, 2) + section%poissons_ratio*strain(1, 1))
+    stress(3, 3) = 0.0_wp
+    stress(1, 2) = shear*strain(1, 2)
+    stress(2, 1) = stress(1, 2)
+  end function lamina_stress
+
+  !> Derivatives of the four tied strains with respect to the element's unknowns.
+  pure function shear_rows(geometry, thickness, turn) result(rows)
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    real(wp), intent(in) :: thickness                !! h [m]
+    type(shell_turn_type), intent(in) :: turn !! rotations of the directors
+    real(wp) :: rows(shell_unknowns, shear_points)
+    real(wp) :: side(3), half_thickness(3)
+    integer :: point, i, j, row_i, row_j, k
+
+    rows = 0.0_wp
+    do point = 1, shear_points
+      i = from(point)
+      j = to(point)
+      row_i = node_unknowns*(i - 1)
+      row_j = node_unknowns*(j - 1)
+      call mid_side(geometry, thickness, point, side, half_thickness)
+      rows(row_i + 1:row_i + 3, point) = -0.5_wp*half_thickness
+      rows(row_j + 1:row_j + 3, point) = 0.5_wp*half_thickness
+      do k = 1, 2
+        rows(row_i + 3 + k, point) = 0.5_wp*dot_product(side, turn%rate(:, k, i))
+        rows(row_j + 3 + k, point) = 0.5_wp*dot_product(side, turn%rate(:, k, j))
+      end do
+      if (turn%kink(i)) rows(:, point) = rows(:, point) &
+        + 0.5_wp*dot_product(side, turn%drill_rate(:, i))*turn%drill(:, i)
+      if (turn%kink(j)) rows(:, point) = rows(:, point) &
+        + 0.5_wp*dot_product(side, turn%drill_rate(:, j))*turn%drill(:, j)
+    end do
+  end function shear_rows
+
+  !> The four tied strains.
+  pure function shear_strains(geometry, thickness, translation, change) result(strain)
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    real(wp), intent(in) :: thickness                   !! h [m]
+    real(wp), intent(in) :: translation(3, shell_nodes) !! of the nodes [m]
+    real(wp), intent(in) :: change(3, shell_nodes)      !! of half the thickness vectors [m]
+    real(wp) :: strain(shear_points)                    !! covariant, doubled [m2]
+    real(wp) :: side(3), half_thickness(3)
+    integer :: point
+
+    do point = 1, shear_points
+      associate (i => from(point), j => to(point))
+        call mid_side(geometry, thickness, point, side, half_thickness)
+        strain(point) = 0.5_wp*dot_product(side, change(:, i) + change(:, j)) &
+          + 0.5_wp*dot_product(half_thickness, translation(:, j) - translation(:, i))
+      end associate
+    end do
+  end function shear_strains
+
+  !> Adds the nodal forces of four numbers that do work on the tied strains.
+  pure subroutine shear_forces(geometry, thickness, work, force, couple)
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    real(wp), intent(in) :: thickness                  !! h [m]
+    real(wp), intent(in) :: work(shear_points)         !! conjugate to the tied strains [N/m]
+    real(wp), intent(inout) :: force(3, shell_nodes)   !! on the translations [N]
+    real(wp), intent(inout) :: couple(3, shell_nodes)  !! on the changes of half the thickness [N]
+    real(wp) :: side(3), half_thickness(3)
+    integer :: point
+
+    do point = 1, shear_points
+      associate (i => from(point), j => to(point), half => 0.5_wp*work(point))
+        call mid_side(geometry, thickness, point, side, half_thickness)
+        force(:, i) = force(:, i) - half*half_thickness
+        force(:, j) = force(:, j) + half*half_thickness
+        couple(:, i) = couple(:, i) + half*side
+        couple(:, j) = couple(:, j) + half*side
+      end associate
+    end do
+  end subroutine shear_forces
+
+  !> Weights of the four tied strains in the two shear strains (along xi, along eta) at a point.
+  pure function shear_weights(xi, eta) result(weight)
+    real(wp), intent(in) :: xi, eta    !! in [-1, 1]
+    real(wp) :: weight(shear_points)   !! of A, C in the first, of D, B in the second [1]
+
+    weight = 0.5_wp*[1.0_wp + eta, 1.0_wp - eta, 1.0_wp + xi, 1.0_wp - xi]
+  end function shear_weights
+
+  !> Half a side as a vector, and half the thickness vector at its middle.
+  pure subroutine mid_side(geometry, thickness, point, side, half_thickness)
+    type(shell_geometry_type), intent(in) :: geometry
+    real(wp), intent(in) :: thickness           !! h [m]
+    integer, intent(in) :: point                !! one of the four
+    real(wp), intent(out) :: side(3)            !! [m]
+    real(wp), intent(out) :: half_thickness(3)  !! [m]
+
+    associate (i => from(point), j => to(point))
+      side = 0.5_wp*(geometry%position(:, j) - geometry%position(:, i))
+      half_thickness = 0.25_wp*thickness*(geometry%director(:, i) + geometry%director(:, j))
+    end associate
+  end subroutine mid_side
+
+  !> Weights of the nodal overpressures in the nodal forces, for an element of area one.
+  !>
+  !> $$ f_a = - \int_{\Omega^e} N_a (p - p_a) \, \mathbf{n} \, d\Omega
+  !>        = - \mathbf{n} \, \Omega^e \sum_b W_{ab} (p_b - p_a), \qquad
+  !>    W_{ab} = \frac{1}{\Omega^e} \int_{\Omega^e} N_a M_b \, d\Omega $$
+  !>
+  !> Source: [Gu2020] eq. 2. \( M_b \) are the shape functions of the film's element, \( N_a \)
+  !> those of the shells, bilinear in each of the cells between its nodes. The top foil is loaded as
+  !> it was before it deformed: flat, its elements rectangles. So there are no couples, and the
+  !> integral is the product of two over lines of length one.
+  pure function pressure_weights(nodes) result(weight)
+    integer, intent(in) :: nodes          !! of the film's element: 4, round it, or 9, row by row
+    real(wp) :: weight(nodes, nodes)      !! W, (force, overpressure) [1]
+
+    integer, parameter :: corners = 4
+    ! Over a line: two linear functions; linear functions on both halves times quadratic ones.
+    real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
+    real(wp), parameter :: quadratic(3, 3) = reshape( &
+      [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
+    integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
+    integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3]
+    integer, parameter :: row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
+
+    if (nodes == corners) then
+      weight = linear(along, along)*linear(across, across)
+    else
+      weight = quadratic(station_of, station_of)*quadratic(row_of, row_of)
+    end if
+  end function pressure_weights
 
   !> Stiffness of one element.
   !>

@@ -5,8 +5,8 @@ module gfb_shell_stress
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, shell_lamina_type, &
                                 shell_nodes, shell_unknowns, check_shell, bilinear, shell_base, &
                                 shell_lamina
-  use gfb_shell_shear, only: shear_points, shear_strains, shear_weights
-  use gfb_shell_strain, only: lamina_strain, lamina_stress
+  use gfb_shell_element, only: shear_points, shear_strains, shear_weights, lamina_strain, &
+                               lamina_stress
   use gfb_shell_turn, only: shell_turn, shell_motion
   implicit none (type, external)
   private

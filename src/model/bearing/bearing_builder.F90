@@ -17,7 +17,7 @@ module gfb_bearing_builder
   use gfb_gas_film, only: put_bore
   use gfb_solid_contact, only: solid_contact_type
   use gfb_foil_models, only: build_foil
-  use gfb_changed_contacts, only: take_foil_numbers
+  use gfb_changed_foil, only: take_foil_numbers
   use gfb_foil_model, only: foil_model_type
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage

@@ -1,26 +1,34 @@
 #include "gfb_petsc.h"
 !> Pads and shaft as one set of equations.
+!>
+!> What the shaft's asperities add to the matrix: their pressure follows the gap.
+!>
+!> The asperities' pressure \( p_c(h) \) loads shaft and foil as the film's does, so their equations
+!> depend on what moves the foil, and on the shaft. The film's own equations do not know of it.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_gas_film, only: gas_film_type
+  use gfb_solid_contact, only: solid_contact_type, contact_pressure_rate
+  use gfb_foil_model, only: foil_model_type
+  use gfb_film_load, only: acts_on, film_forces
+  use gfb_shaft_motion, only: no_shaft
+  use gfb_matrix_rows, only: copy_row
+  use gfb_blocks, only: blocks_type
+  use gfb_cost_events, only: cost_events_type, register_cost_events
+  use gfb_operating_point, only: operating_point_type, visit_point
+  use gfb_pad, only: free_edge_type, pad_type, pad_place_type, complete_pad, place_pads
+  use gfb_film_matrix, only: make_film_room, add_film_rows, add_shaft_weights, add_shaft_stiffness
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
   use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_memory, only: visit_contacts
-  use gfb_film_load, only: film_forces, acts_on
-  use gfb_shaft_motion, only: no_shaft
-  use gfb_foil_model, only: foil_model_type
   use gfb_foil_momentum, only: foil_momentum_type
-  use gfb_cost_events, only: cost_events_type, register_cost_events
-  use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_matrix, only: add_shaft_stiffness
-  use gfb_pad, only: pad_place_type, complete_pad, place_pads
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
-  use gfb_pad_matrix, only: fill_pad_constant, fill_pad
   implicit none (type)
   private
   public :: create_bearing_system, number_by, bearing_order, path_order, visit_bearing, visit_switches
@@ -48,6 +56,146 @@ module gfb_bearing_system
   end type bearing_system_type
 
 contains
+
+  !> Adds their rows of shaft and foil; none where nothing touches.
+  subroutine add_solid_rows(contact, film, foil, shaft, fixed, gap, factor, matrix)
+    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
+    type(gas_film_type), intent(in) :: film !! this rank's share of it
+    class(foil_model_type), intent(in) :: foil !! under the film
+    integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
+    logical, intent(in) :: fixed     !! the shaft's equations are its position's
+    real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
+    real(wp), intent(in) :: factor  !! of the derivatives; 0: makes room [1]
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
+
+    integer :: column(film%coordinates + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft
+    real(wp) :: slope(film%coordinates + 1, size(gap)), rate(size(gap))
+    integer :: i
+
+    if (.not. contact%present) return
+    rate = factor*contact_pressure_rate(contact, gap)
+    column(1, :) = foil%source - 1
+    slope(1, :) = rate*foil%rate
+    column(2:, :) = -1
+    do i = 1, film%coordinates
+      if (shaft /= no_shaft) column(1 + i, :) = shaft + i - 1
+      slope(1 + i, :) = rate*film%motion(i, :)
+    end do
+    if (shaft /= no_shaft) call add_to_shaft(film, shaft, fixed, column, slope, matrix)
+    call foil%add_load_rates(column, slope, matrix)
+  end subroutine add_solid_rows
+
+  !> The shaft's rows: weights of the pressures in the force, times their slopes; zeros keep the
+  !> pattern where the shaft is fixed.
+  subroutine add_to_shaft(film, shaft, fixed, column, slope, matrix)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: shaft        !! local unknowns before e_x
+    logical, intent(in) :: fixed
+    integer, intent(in) :: column(:, :) !! (3 or 5, nodes) local numbers, from 0
+    real(wp), intent(in) :: slope(:, :) !! (3 or 5, nodes) of the pressure by them
+    Mat, intent(in) :: matrix
+
+    ! a row of the matrix in each column, as PETSc reads it
+    real(wp) :: block(size(column, 1), film%coordinates)
+    PetscInt :: row(film%coordinates)
+    integer :: node, i
+    PetscErrorCode :: ierr
+
+    row = [(int(shaft + i - 1, pint), i=1, film%coordinates)]
+    block = 0.0_wp
+    do node = 1, size(column, 2)
+      if (.not. fixed) then
+        do i = 1, film%coordinates
+          block(:, i) = acts_on(i)*film%force_weight(i, node)*slope(:, node)
+        end do
+      end if
+      PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column, 1), pint), int(column(:, node), pint), [block], ADD_VALUES, ierr))
+    end do
+  end subroutine add_to_shaft
+
+  !> Fills in what never changes, with room for everything else.
+  subroutine fill_pad_constant(pad, blocks, foil_block, shaft, matrix)
+    type(pad_type), intent(in) :: pad !! film and foil
+    type(blocks_type), intent(in) :: blocks !! of unknowns
+    integer, intent(in) :: foil_block !! the foil's among them
+    integer, intent(in) :: shaft      !! local unknowns before e_x, or `no_shaft`
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
+
+    PetscInt :: first, last, row, entries, number(maxval([0, pad%foil%row_entries]))
+    PetscInt, allocatable :: renumbered(:)
+    PetscScalar :: value(size(number))
+    PetscErrorCode :: ierr
+    integer, allocatable :: kept(:)
+    integer :: i
+
+    PetscCallA(MatGetOwnershipRange(pad%foil%elastic, first, last, ierr))
+    do row = first, last - 1
+      call copy_row(pad%foil%elastic, row, entries, number, value)
+      ! Membrane and bending of a condensed flat do not know each other either: exact zeros fill half of its block.
+      kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp .or. number(:entries) == row)
+      renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
+      PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
+    end do
+    call pad%foil%add_constant(matrix)
+    call make_film_room(pad%film, pad%foil, shaft, pad%mesh%owned, matrix)
+    call add_shaft_weights(pad%film, shaft, .false., 0.0_wp, matrix)
+    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, .true., &
+                        spread(pad%film%clearance, 1, size(pad%film%angle)), 0.0_wp, matrix)
+  end subroutine fill_pad_constant
+
+  !> Fills in the derivatives of film and foil, and of the pad's force.
+  subroutine fill_pad(pad, point, unknown, gap, shaft, fixed, events, matrix)
+    type(pad_type), intent(in) :: pad !! film and foil
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! the pad's, in SI
+    real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
+    integer, intent(in) :: shaft       !! local unknowns before e_x, or `no_shaft`
+    logical, intent(in) :: fixed        !! the shaft is fixed
+    type(cost_events_type), intent(in) :: events !! of PETSc's log
+    Mat, intent(in) :: matrix !! of the bearing, by local numbers
+    PetscErrorCode :: ierr
+
+    PetscCallA(PetscLogEventBegin(events%film, ierr))
+    call add_film_rows(pad%film, pad%foil, shaft, pad%mesh%owned, unknown(:size(gap)), gap, point, matrix)
+    call add_shaft_weights(pad%film, shaft, fixed, 1.0_wp, matrix)
+    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, fixed, gap, 1.0_wp, matrix)
+    PetscCallA(PetscLogEventEnd(events%film, ierr))
+    PetscCallA(PetscLogEventBegin(events%foil, ierr))
+    call pad%foil%add_jacobian(unknown, matrix)
+    if (abs(point%edge_tension(pad%number)) > 0.0_wp) call add_tension(pad%edge, point%edge_tension(pad%number), matrix)
+    if (point%edge_hold(pad%number) > 0.0_wp) call add_hold(pad%edge, point%edge_hold(pad%number), matrix)
+    PetscCallA(PetscLogEventEnd(events%foil, ierr))
+  end subroutine fill_pad
+
+  !> Adds the stiffness of the string along the free edge.
+  subroutine add_tension(edge, tension, matrix)
+    type(free_edge_type), intent(in) :: edge
+    real(wp), intent(in) :: tension !! [N]
+    Mat, intent(in) :: matrix
+    integer :: pair, number(2)
+    real(wp) :: block(2, 2)
+    PetscErrorCode :: ierr
+
+    do pair = 1, edge%pairs()
+      call edge%tension_block(pair, tension, number, block)
+      PetscCallA(MatSetValuesLocal(matrix, 2_pint, int(number - 1, pint), 2_pint, int(number - 1, pint), [block], ADD_VALUES, ierr))
+    end do
+  end subroutine add_tension
+
+  !> Adds the stiffness of the springs that keep the free edge at a height.
+  subroutine add_hold(edge, stiffness, matrix)
+    type(free_edge_type), intent(in) :: edge
+    real(wp), intent(in) :: stiffness !! of the whole width [N/m]
+    Mat, intent(in) :: matrix
+    PetscInt :: number(1)
+    integer :: i
+    PetscErrorCode :: ierr
+
+    do i = 1, size(edge%unknown)
+      number = int(edge%unknown(i) - 1, pint)
+      PetscCallA(MatSetValuesLocal(matrix, 1_pint, number, 1_pint, number, [stiffness*edge%hold_stiffness(i)], ADD_VALUES, ierr))
+    end do
+  end subroutine add_hold
 
   !> Puts film, foil and shaft together; the foil moves into the system.
   subroutine create_bearing_system(bearing, foil, floats, place)

@@ -2,8 +2,8 @@
 module gfb_film_measures
   use gfb_kinds, only: wp
   use gfb_film_load, only: film_forces, film_force, film_friction, film_friction_rates
-  use gfb_general_drag, only: general_friction, general_friction_rates
-  use gfb_general_film, only: film_flow_type, general_peclet
+  use gfb_general_film, only: general_friction, general_friction_rates, film_flow_type, &
+                              general_peclet
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)

@@ -2,9 +2,9 @@
 module gfb_gas_film
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes
+  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes, &
+                               gap_towards
   use gfb_bore_profile, only: bore_profile_type, bore_height
-  use gfb_film_gap, only: gap_towards
   use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns, shaft_motion, point_motions, &
                               motion_excess, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights

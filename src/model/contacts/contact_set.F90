@@ -7,8 +7,8 @@
 !> line search.
 module gfb_contact_set
   use gfb_kinds, only: wp
-  use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, &
-                             next_place, contact_state, keep_friction
+  use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, next_place, contact_state, &
+                             keep_friction
   use gfb_contact_point, only: contact_point_type, spatial, moved_apart, add_at_contact, unknowns_of, &
                                block_of
   implicit none (type, external)

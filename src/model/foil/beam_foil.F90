@@ -8,6 +8,10 @@
 !>
 !> which knows of the film no more than its mean along the axis. Forces are those on the solved
 !> width. What differs from shells is the stiffness, and how the foil is built and shown.
+!>
+!> From a scene to the beams under its film: stations, numbers, stiffness, contacts, pressure.
+!>
+!> Beams are so small beside the film that the first rank owns all of them, and their contacts.
 module gfb_beam_foil
   use petscmat
   use gfb_kinds, only: wp
@@ -15,21 +19,33 @@ module gfb_beam_foil
   use gfb_petsc_kinds, only: pint
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
-  use gfb_bump_contacts, only: line_shares, line_length
+  use gfb_bump_contacts, only: line_shares, line_length, bump_contact, touch_with_face, touch_top_face, crest_name, &
+                               contact_sleeve, contact_top
   use gfb_contact_point, only: contact_point_type
   use gfb_contact_set, only: contact_set_type
-  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, solid_rows
   use gfb_planar_beam, only: beam_unknowns, beam_mass, beam_section_type, plane_strain_section, linear_beam_stiffness, &
                              bent_beam_stiffness
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_stress, only: beam_stresses
-  use gfb_foil_pieces, only: element_section
-  use gfb_shell_geometry, only: shell_section_type
+  use gfb_foil_structure, only: element_section
+  use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
+  use gfb_petsc_session, only: this_rank
+  use gfb_scene, only: scene_type
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_bump_foil_case, only: fixed_edge_trailing, gap_of_crest, gap_of_corner
+  use gfb_model_case, only: coupling_partitioned
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_foil_mesh, only: station_positions, top_mesh
+  use gfb_foil_builder, only: shape_on_pad, plate_section, section_of, strip_on_pad
+  use gfb_initial_moment, only: add_initial_moment
+  use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
-  public :: stiffness_behind, width_of
+  public :: stiffness_behind, width_of, create_beam_foil
 
   integer, parameter, public :: of_beam(beam_unknowns) = [1, 2, 4] !! of a node's: along x, along v, about the axis
 
@@ -50,6 +66,11 @@ module gfb_beam_foil
     procedure :: sizes => beam_sizes
     procedure :: destroy => beam_destroy
   end type beam_foil_type
+
+  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
+  integer, parameter :: about_axis = 4                        !! the turn among a node's unknowns
+  integer, parameter :: ends = 2
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of crests at the top foil's edge, over the pitch
 
 contains
 
@@ -241,4 +262,228 @@ contains
     class(beam_foil_type), intent(inout) :: self !! the beam foil
     call self%free_matrix()
   end subroutine beam_destroy
+
+  !> Both foils under a film.
+  subroutine create_beam_foil(scene, film, mesh, element_nodes, foil)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(local_mesh_type), intent(in) :: mesh  !! this rank's part of the film
+    integer, intent(in) :: element_nodes(:, :) !! (nodes, elements) its elements, local nodes
+    type(beam_foil_type), intent(out) :: foil !! top foil and bumps, ready for the bearing
+
+    integer :: unknowns, window(2), i
+    logical :: mine
+
+    mine = this_rank() == 0
+    foil%ambient_pressure = scene%gas%ambient_pressure
+    window = [1, merge(film%stations(), 0, mine)]
+    foil%top%mesh = top_mesh(film, top_height(scene), window)
+    window = [1, merge(size(station_positions(shape_on_pad(scene))), 0, mine)]
+    foil%bumps%mesh = strip_on_pad(scene, film, window)
+    unknowns = 0
+    call number_stations(foil%top%mesh%stations, scene%top_foil%fixed_edge == top_foil_leading, unknowns, foil%top_number)
+    call number_stations(foil%bumps%mesh%stations, scene%bump_foil%fixed_edge /= fixed_edge_trailing, unknowns, &
+                         foil%bump_number)
+    foil%owned = merge(unknowns, 0, mine)
+    foil%top%section = plate_section(scene)
+    foil%bumps%section = section_of(scene%bump_foil)
+    call own_nodes(mine, foil%top)
+    call own_nodes(mine, foil%bumps)
+    call set_laws(scene, foil)
+    foil%contacts%rows = foil%bumps%mesh%rows
+    call add_contacts(scene, foil)
+    call create_stiffness(foil)
+    call place_unknowns(foil, merge(0, unknowns, mine), &
+                        [(foil%top_number(radial, (mesh%mesh_node(i) - 1)/film%rows() + 1), i=1, size(mesh%mesh_node))])
+    call add_initial_moment(scene%top_foil, film, foil)
+    call add_pressure(film, mesh, element_nodes, &
+                      scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
+    call size_unknowns(scene, film, turning(foil), foil)
+    foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
+    call count_entries(foil, film)
+  end subroutine create_beam_foil
+
+  !> Numbers the unknowns of a foil, station by station.
+  pure subroutine number_stations(stations, leading, last, number)
+    integer, intent(in) :: stations
+    logical, intent(in) :: leading                    !! clamped at the leading edge, else the trailing one
+    integer, intent(inout) :: last                    !! number in use
+    integer, allocatable, intent(out) :: number(:, :) !! (5, stations), from 1; 0: fixed
+    integer :: station, k
+
+    allocate (number(node_unknowns, stations), source=0)
+    do station = 1, stations
+      if (station == merge(1, stations, leading)) cycle
+      do k = 1, beam_unknowns
+        last = last + 1
+        number(of_beam(k), station) = last
+      end do
+    end do
+  end subroutine number_stations
+
+  !> Numbers of this rank's rotations.
+  pure function turning(foil) result(list)
+    type(beam_foil_type), intent(in) :: foil
+    integer, allocatable :: list(:)
+
+    list = [integer ::]
+    if (foil%owned == 0) return
+    list = [foil%top_number(about_axis, :), foil%bump_number(about_axis, :)]
+    list = pack(list, list > 0)
+  end function turning
+
+  !> All nodes and elements of a foil, or none, are this rank's.
+  pure subroutine own_nodes(mine, surface)
+    logical, intent(in) :: mine
+    type(foil_surface_type), intent(inout) :: surface
+    integer :: i
+
+    associate (mesh => surface%mesh)
+      surface%local_node = [(i, i=1, merge(mesh%nodes(), 0, mine))]
+      surface%part%mesh_node = surface%local_node
+      allocate (surface%part%owned(size(surface%part%mesh_node)), source=.true.)
+      surface%my_elements = [(i, i=1, merge(mesh%elements(), 0, mine))]
+      if (allocated(mesh%cut) .and. mine) then
+        surface%my_elements = pack(surface%my_elements, [(solid_rows(mesh), i=2, mesh%stations)])
+      end if
+    end associate
+  end subroutine own_nodes
+
+  !> One matrix of both foils' stiffness, on the solved width.
+  subroutine create_stiffness(foil)
+    type(beam_foil_type), intent(inout) :: foil
+
+    integer, parameter :: around = 3*beam_unknowns !! unknowns of a station and its neighbours
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
+    PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, int(around, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
+    if (foil%owned > 0) then
+      call add_beam(foil%top, .false., foil%top_number, foil%elastic)
+      call add_beam(foil%bumps, .true., foil%bump_number, foil%elastic)
+    end if
+    PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
+    foil%has_matrix = .true.
+    allocate (foil%row_entries(foil%owned), source=around)
+  end subroutine create_stiffness
+
+  !> Adds the stiffness of a beam through a surface's stations.
+  subroutine add_beam(surface, bent, number, matrix)
+    type(foil_surface_type), intent(in) :: surface
+    logical, intent(in) :: bent         !! elements bend between their ends
+    integer, intent(in) :: number(:, :) !! (5, stations)
+    Mat, intent(in) :: matrix
+    PetscInt :: row(ends*beam_unknowns)
+    PetscErrorCode :: ierr
+    integer :: station
+
+    associate (mesh => surface%mesh)
+      do station = 1, mesh%stations - 1
+        row = int([number(of_beam, station), number(of_beam, station + 1)] - 1, pint)
+        PetscCallA(MatSetValues(matrix, int(size(row), pint), row, int(size(row), pint), row, [width_of(mesh)*stiffness_behind(mesh, surface%section, station, bent)], ADD_VALUES, ierr))
+      end do
+    end associate
+  end subroutine add_beam
+
+  !> One contact a line; their unknowns stand as the foil's own numbers for now.
+  subroutine add_contacts(scene, foil)
+    type(scene_type), intent(in) :: scene
+    type(beam_foil_type), intent(inout) :: foil
+
+    integer, allocatable :: line(:)
+    integer :: bump, i
+
+    allocate (foil%contacts%point(0))
+    if (foil%owned == 0) return
+    associate (mesh => foil%bumps%mesh)
+      line = node_set(mesh, 'corners')
+      do i = 1, size(line)/mesh%rows
+        call add_line(foil, line((i - 1)*mesh%rows + 1), contact_sleeve, i, 0.0_wp, &
+                      gap_of_corner(scene%bump_foil, i))
+      end do
+      do bump = 1, scene%bump_foil%bumps
+        line = node_set(mesh, crest_name(bump))
+        call add_line(foil, line(1), contact_top, bump, rounding*scene%bump_foil%pitch%value, &
+                      gap_of_crest(scene%bump_foil, bump))
+      end do
+    end associate
+  end subroutine add_contacts
+
+  !> Contact of a line that is not fixed, nor beyond the top foil.
+  subroutine add_line(foil, node, law, number, overhang, gap)
+    type(beam_foil_type), intent(inout) :: foil
+    integer, intent(in) :: node     !! first of the line
+    integer, intent(in) :: law      !! `contact_sleeve` or `contact_top`
+    integer, intent(in) :: number   !! of the line
+    real(wp), intent(in) :: overhang !! a crest so far beyond the top foil lies at its edge [m]
+    real(wp), intent(in) :: gap      !! at rest [m]
+
+    type(contact_point_type) :: point
+
+    integer :: station
+
+    station = (node - 1)/foil%bumps%mesh%rows + 1
+    if (.not. any(foil%bump_number(:, station) > 0)) return
+    point = bump_contact(law, node, number, width_of(foil%bumps%mesh))
+    point%slave = foil%bump_number(:axial, station)
+    point%gap = gap
+    if (foil%contacts%at_faces) then
+      call touch_with_face(foil%bumps%mesh, foil%bumps%section%thickness, foil%bump_number(axial + 1:, station), point)
+    end if
+    if (law == contact_top) then
+      call find_master(foil, overhang, point)
+      if (size(point%share) == 0) return
+    end if
+    foil%contacts%point = [foil%contacts%point, point]
+  end subroutine add_line
+
+  !> The top foil's element above a crest, where there is one.
+  pure subroutine find_master(foil, overhang, point)
+    type(beam_foil_type), intent(in) :: foil
+    real(wp), intent(in) :: overhang !! [m]
+    type(contact_point_type), intent(inout) :: point
+    real(wp) :: along
+    integer :: station, here, next
+
+    associate (mesh => foil%top%mesh, x => foil%bumps%mesh%position(tangential, point%node))
+      if (x < mesh%position(tangential, 1) - overhang) return
+      do station = 1, mesh%stations - 1
+        here = (station - 1)*mesh%rows + 1
+        next = here + mesh%rows
+        if (x > mesh%position(tangential, next) + overhang) cycle
+        along = (x - mesh%position(tangential, here))/ &
+                (mesh%position(tangential, next) - mesh%position(tangential, here))
+        along = min(1.0_wp, max(0.0_wp, along))
+        point%share = [1.0_wp - along, along]
+        point%master = foil%top_number(:axial, [station, station + 1])
+        if (allocated(point%turn)) then
+          call touch_top_face(foil%top%section%thickness, foil%top_number(axial + 1:, [station, station + 1]), point)
+        end if
+        return
+      end do
+    end associate
+  end subroutine find_master
+
+  !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
+  subroutine count_entries(foil, film)
+    type(beam_foil_type), intent(inout) :: foil
+    type(film_mesh_type), intent(in) :: film
+
+    integer :: tally(0:size(foil%global_unknown)), i, around
+
+    around = 2*film%order + 1 ! a station and those of the elements beside it
+    foil%couplings = around
+    tally = 0
+    do i = 1, size(foil%contacts%point)
+      associate (unknown => foil%contacts%point_unknowns(i))
+        tally(unknown) = tally(unknown) + count(unknown > 0)
+      end associate
+    end do
+    foil%row_entries = foil%row_entries + around*film%rows() + merge(around, 0, foil%has_room) + tally(foil%own_place)
+  end subroutine count_entries
 end module gfb_beam_foil

@@ -12,10 +12,8 @@ module gfb_foil_models
   use gfb_foil_model, only: foil_model_type
   use gfb_rigid_foil, only: rigid_foil_type, create_rigid_foil
   use gfb_foundation_foil, only: foundation_foil_type, build_foundation
-  use gfb_shell_foil, only: shell_foil_type
-  use gfb_shell_foil_builder, only: create_shell_foil
-  use gfb_beam_foil, only: beam_foil_type
-  use gfb_beam_foil_builder, only: create_beam_foil
+  use gfb_shell_foil, only: shell_foil_type, create_shell_foil
+  use gfb_beam_foil, only: beam_foil_type, create_beam_foil
   implicit none (type, external)
   private
   public :: build_foil

@@ -12,7 +12,7 @@ module gfb_foundation_foil
   use gfb_scene, only: scene_type
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, foundation_pressure_axial_mean
-  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_curved_bump, only: walowit_anno_stiffness
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_contact_set, only: contact_set_type

@@ -13,15 +13,32 @@ module gfb_shell_foil
   use gfb_substructures, only: kind_count
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
-  use gfb_foil_pieces, only: element_geometry, element_section, assemble_piece, retained_in_piece
+  use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry, element_section, assemble_piece, &
+                                retained_in_piece
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
-  use gfb_foil_ranges, only: foil_ranges_type, ranges_of
+  use gfb_foil_places, only: foil_ranges_type, ranges_of, top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_stress, only: shell_stresses
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
+  use gfb_text, only: text
+  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
+  use gfb_scene, only: scene_type
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, strip_at
+  use gfb_contact_point, only: contact_point_type
+  use gfb_bump_contacts, only: bump_contact, touch_with_face, touch_top_face, line_shares, line_length, crest_name, corner_name, &
+                               contact_sleeve, contact_top
+  use gfb_master_search, only: find_masters, projection_type, project
+  use gfb_foil_mesh, only: top_mesh
+  use gfb_model_case, only: coupling_partitioned, reduction_guyan
+  use gfb_partition, only: division_type
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_matrix_rows, only: copy_row
+  use gfb_foil_builder, only: build_top, build_bumps
+  use gfb_initial_moment, only: add_initial_moment
   implicit none (type)
   private
+  public :: create_shell_foil
 
   !> Both foils, each a structure of shells, full or condensed.
   type, extends(meshed_foil_type), public :: shell_foil_type
@@ -37,6 +54,11 @@ module gfb_shell_foil
     procedure :: sizes => shell_sizes
     procedure :: destroy => shell_destroy
   end type shell_foil_type
+
+  integer, parameter :: tangential = 1, axial = 3 !! components of a displacement
+  integer, parameter :: corners = 4
+
+  integer, parameter :: radial = 2 !! components of a displacement
 
 contains
 
@@ -221,4 +243,279 @@ contains
     call destroy_foil_structure(self%top)
     call destroy_foil_structure(self%bumps)
   end subroutine shell_destroy
+
+  !> Contacts of this rank's bump nodes; their unknowns stand as the foil's own numbers for now.
+  subroutine add_shell_contacts(scene, height, film, ranges, foil)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(foil_ranges_type), intent(in) :: ranges     !! numbers of its unknowns
+    type(shell_foil_type), intent(inout) :: foil     !! with its structures and laws
+
+    type(contact_point_type), allocatable :: point(:)
+    integer :: i, found
+
+    associate (mesh => foil%bumps%mesh)
+      allocate (point(size(node_set(mesh, 'corners')) + size(node_set(mesh, 'crests'))))
+      found = 0
+      do i = 1, set_count(mesh, corner_name)
+        call add_line(foil, ranges, node_set(mesh, corner_name//text(i)), contact_sleeve, i, point, found)
+      end do
+      do i = 1, scene%bump_foil%bumps
+        call add_line(foil, ranges, node_set(mesh, crest_name(i)), contact_top, i, point, found)
+      end do
+      do i = 1, found
+        point(i)%strip = strip_at(mesh, point(i)%node)
+        if (point(i)%law == contact_top) then
+          point(i)%gap = gap_of_crest(scene%bump_foil, point(i)%line, point(i)%strip)
+        else
+          point(i)%gap = gap_of_corner(scene%bump_foil, point(i)%line)
+        end if
+      end do
+      foil%contacts%point = point(:found)
+    end associate
+    call find_masters_of_crests(height, film, ranges, foil)
+  end subroutine add_shell_contacts
+
+  !> Contacts of a line's own nodes that are not fixed everywhere.
+  subroutine add_line(foil, ranges, line, law, number, point, found)
+    type(shell_foil_type), intent(in) :: foil
+    type(foil_ranges_type), intent(in) :: ranges
+    integer, intent(in) :: line(:)
+    integer, intent(in) :: law    !! `contact_sleeve` or `contact_top`
+    integer, intent(in) :: number !! of the line
+    type(contact_point_type), intent(inout) :: point(:)
+    integer, intent(inout) :: found
+
+    real(wp), allocatable :: length(:)
+    integer :: i, k, unknown(node_unknowns)
+
+    if (size(line) == 0) return
+    length = line_shares(foil%bumps%mesh, line)*line_length(foil%bumps%mesh, line)
+    do i = 1, size(line)
+      if (.not. foil%bumps%owns(line(i))) cycle
+      unknown = [(ranges%of_bumps(foil%bumps%unknown(k, line(i))), k=1, node_unknowns)]
+      if (.not. any(unknown(:axial) > 0)) cycle
+      found = found + 1
+      point(found) = bump_contact(law, line(i), number, length(i))
+      point(found)%slave = unknown(:axial)
+      if (.not. foil%contacts%at_faces) cycle
+      call touch_with_face(foil%bumps%mesh, foil%bumps%section%thickness, unknown(axial + 1:), point(found))
+    end do
+  end subroutine add_line
+
+  !> The top foil's elements above the crests.
+  subroutine find_masters_of_crests(height, film, ranges, foil)
+    real(wp), intent(in) :: height        !! of the top foil's mid-surface [m]
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(foil_ranges_type), intent(in) :: ranges
+    type(shell_foil_type), intent(inout) :: foil
+
+    type(projection_type) :: foot
+    type(quad_mesh_type) :: above
+    real(wp), allocatable :: points(:, :), coordinates(:, :)
+    real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function
+    integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :), pressed(:)
+    integer :: i, k, before
+
+    crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
+    allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
+    points = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
+    above = top_mesh(film, height, stations_above(film, points(tangential, :)))
+    before = lbound(above%position, 2) - 1
+    call find_masters(points, above%position, above%element_nodes - before, height, element, coordinates)
+    do i = 1, size(crest)
+      nodes(:, i) = 1
+      if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)
+    end do
+    number = ranges%of_top(foil%top%numbers_at([nodes]))
+    do i = 1, size(crest)
+      if (element(i) == 0) cycle
+      associate (point => foil%contacts%point(crest(i)))
+        foot = project(above%position(:, nodes(:, i)), points(:, i))
+        ! A crest on a line of nodes has one master; the others would only fill the matrix.
+        pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
+        point%share = foot%shape(pressed)
+        point%master = number(:axial, (i - 1)*corners + pressed)
+        if (foil%contacts%at_faces) call touch_top_face(foil%top%section%thickness, number(axial + 1:, (i - 1)*corners + pressed), point)
+      end associate
+    end do
+    ! A crest beyond the top foil's edge touches nothing.
+    kept = [(i, i=1, size(foil%contacts%point))]
+    kept = pack(kept, foil%contacts%point%law == contact_sleeve .or. has_master(foil%contacts%point))
+    foil%contacts%point = foil%contacts%point(kept)
+  end subroutine find_masters_of_crests
+
+  !> The stretch of the film's stations above some points, with a column to spare on both sides.
+  pure function stations_above(film, x) result(window)
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    real(wp), intent(in) :: x(:) !! from the leading edge on [m]
+    integer :: window(2)
+    real(wp) :: station(film%stations())
+
+    window = [1, 0]
+    if (size(x) == 0) return
+    station = film%radius*(film%station_angle - film%station_angle(1))
+    window(1) = max(1, count(station <= minval(x)) - 1)
+    window(2) = min(size(station), max(2, count(station < maxval(x)) + 2))
+    window(1) = min(window(1), window(2) - 1)
+  end function stations_above
+
+  !> Whether a contact has a master of its own.
+  elemental function has_master(point) result(has)
+    type(contact_point_type), intent(in) :: point
+    logical :: has
+    has = size(point%share) > 0
+  end function has_master
+
+  !> Both foils under a film.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine create_shell_foil(scene, film, mesh, element_nodes, division, foil, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(local_mesh_type), intent(in) :: mesh        !! this rank's part of the film
+    integer, intent(in) :: element_nodes(:, :)       !! (nodes, elements) its elements, local nodes
+    type(division_type), intent(in) :: division      !! of film and bumps
+    type(shell_foil_type), intent(out) :: foil !! top foil and bumps, ready for the bearing
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
+
+    type(foil_ranges_type) :: ranges
+    integer :: v(node_unknowns, size(mesh%mesh_node))
+
+    foil%ambient_pressure = scene%gas%ambient_pressure
+    call build_top(scene, film, top_height(scene), division, foil%top, error)
+    if (allocated(error)) return
+    call build_bumps(scene, film, division, scene%model%reduction == reduction_guyan, foil%bumps, error)
+    if (allocated(error)) return
+    ranges = ranges_of(foil%top, foil%bumps)
+    foil%owned = foil%top%part%owned_unknowns + foil%bumps%part%owned_unknowns
+    call join_stiffnesses(foil, ranges)
+    call set_laws(scene, foil)
+    foil%contacts%rows = foil%bumps%mesh%rows
+    call add_shell_contacts(scene, top_height(scene), film, ranges, foil)
+    v = ranges%of_top(foil%top%numbers_at(mesh%mesh_node))
+    call place_unknowns(foil, foil%top%first + foil%bumps%first, v(radial, :))
+    call add_initial_moment(scene%top_foil, film, foil)
+    call add_pressure(film, mesh, element_nodes, &
+                      scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
+    call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
+    call count_entries(foil, film)
+  end subroutine create_shell_foil
+
+  !> Foil's numbers of this rank's own rotations.
+  function turning(structure, shift) result(list)
+    type(foil_structure_type), intent(in) :: structure
+    integer, intent(in) :: shift !! from a number of the structure, from 0, to the foil's
+    integer, allocatable :: list(:)
+    integer :: own(node_unknowns - axial, count(structure%part%owned)), i, k, component
+
+    k = 0
+    do i = 1, size(structure%part%mesh_node)
+      if (.not. structure%part%owned(i)) cycle
+      k = k + 1
+      do component = axial + 1, node_unknowns
+        own(component - axial, k) = structure%unknown(component, structure%part%mesh_node(i))
+      end do
+    end do
+    list = pack(own, own >= 0) + shift
+  end function turning
+
+  !> One matrix of both foils' stiffness.
+  subroutine join_stiffnesses(foil, ranges)
+    type(shell_foil_type), intent(inout) :: foil
+    type(foil_ranges_type), intent(in) :: ranges
+
+    PetscInt, allocatable :: inside(:), outside(:)
+    PetscErrorCode :: ierr
+
+    allocate (inside(foil%owned), outside(foil%owned))
+    associate (top => foil%top%part%owned_unknowns)
+      call count_rows(foil%top, inside(:top), outside(:top))
+      call count_rows(foil%bumps, inside(top + 1:), outside(top + 1:))
+    end associate
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, foil%elastic, ierr))
+    PetscCallA(MatSetSizes(foil%elastic, int(foil%owned, pint), int(foil%owned, pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(foil%elastic, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(foil%elastic, 0_pint, inside, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(foil%elastic, 0_pint, inside, 0_pint, outside, ierr))
+    foil%row_entries = int(inside + outside)
+    call copy_rows(foil%top, ranges, .false., foil%row_entries, foil%elastic)
+    call copy_rows(foil%bumps, ranges, .true., foil%row_entries, foil%elastic)
+    PetscCallA(MatAssemblyBegin(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(foil%elastic, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
+    PetscCallA(MatDestroy(foil%top%stiffness, ierr))
+    PetscCallA(MatDestroy(foil%bumps%stiffness, ierr))
+    foil%has_matrix = .true.
+  end subroutine join_stiffnesses
+
+  !> Entries of a structure's own rows, in this rank's columns and in others.
+  subroutine count_rows(structure, inside, outside)
+    type(foil_structure_type), intent(in) :: structure
+    PetscInt, intent(out) :: inside(:), outside(:)
+    PetscInt :: first, last, row, found, column(structure%row_entries())
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
+    do row = first, last - 1
+      call copy_row(structure%stiffness, row, found, column)
+      inside(row - first + 1) = count(column(:found) >= first .and. column(:found) < last)
+      outside(row - first + 1) = found - inside(row - first + 1)
+    end do
+  end subroutine count_rows
+
+  !> A structure's rows with the foil's own numbers.
+  subroutine copy_rows(structure, ranges, of_bumps, entries_of_rows, matrix)
+    type(foil_structure_type), intent(in) :: structure
+    type(foil_ranges_type), intent(in) :: ranges
+    logical, intent(in) :: of_bumps
+    integer, intent(in) :: entries_of_rows(:)
+    Mat, intent(in) :: matrix
+
+    PetscInt :: first, last, row, shifted, entries, column(maxval([0, entries_of_rows]))
+    PetscScalar :: value(size(column))
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatGetOwnershipRange(structure%stiffness, first, last, ierr))
+    do row = first, last - 1
+      call copy_row(structure%stiffness, row, entries, column, value)
+      shifted = row + int(merge(ranges%bump_shift, ranges%top_shift, of_bumps), pint) - 1_pint
+      if (of_bumps) then
+        PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_bumps(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
+      else
+        PetscCallA(MatSetValues(matrix, 1_pint, [shifted], entries, int(ranges%of_top(int(column(:entries))) - 1, pint), value, INSERT_VALUES, ierr))
+      end if
+    end do
+  end subroutine copy_rows
+
+  !> Entries that film and contacts add to the rows of the foil, and the foil to those of the film.
+  subroutine count_entries(foil, film)
+    type(shell_foil_type), intent(inout) :: foil
+    type(film_mesh_type), intent(in) :: film
+    integer, parameter :: per_crest = 25 !! unknowns of a contact
+    integer :: around, crests
+
+    around = (2*film%order + 1)**2 ! a node and those of the elements around it
+    foil%couplings = around
+    ! Elements of the film that are wide against the bumps can hold several crests.
+    crests = 4*(1 + maxval([0, count_crests(foil)]))
+    foil%row_entries = foil%row_entries + around + merge(around, 0, foil%has_room) + per_crest*crests
+  end subroutine count_entries
+
+  !> Crests over the element that has most of them, on this rank.
+  function count_crests(foil) result(most)
+    type(shell_foil_type), intent(in) :: foil
+    integer :: most
+    integer :: tally(size(foil%global_unknown)), i
+
+    tally = 0
+    do i = 1, size(foil%contacts%point)
+      associate (point => foil%contacts%point(i))
+        if (size(point%share) == 0) cycle
+        if (point%master(radial, 1) > 0) tally(point%master(radial, 1)) = tally(point%master(radial, 1)) + 1
+      end associate
+    end do
+    most = maxval(tally)
+  end function count_crests
 end module gfb_shell_foil

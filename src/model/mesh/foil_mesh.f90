@@ -2,18 +2,22 @@
 !>
 !> Stations follow each other along x, rows along z; node (station i, row j) is number
 !> (i - 1)*rows + j, wherever the strip is fixed. A rank needs a stretch of the stations only.
+!>
+!> The curve of one bump: a circular arc between its two corners.
+!>
+!> $$ R_b = \frac{l^2 + h_b^2}{2 h_b} $$
 module gfb_foil_mesh
   use gfb_kinds, only: wp
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_quad_mesh, only: quad_mesh_type, add_node_set, solid_rows, corner_face
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
   use gfb_text, only: text
-  use gfb_quad_mesh, only: quad_mesh_type, add_node_set, solid_rows, corner_face
-  use gfb_bump_profile, only: arc_point, arc_normal
   use gfb_substructures, only: substructure_type
   implicit none (type, external)
   private
-  public :: bump_strip_mesh, strip_substructures, top_foil_mesh
-  public :: crest_positions, station_positions, dividing_stations
-  public :: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
+  public :: arc_point, arc_normal, top_mesh, bump_strip_mesh, strip_substructures, top_foil_mesh, &
+            crest_positions, station_positions, dividing_stations, fixed_line_corner, &
+            fixed_line_flat, fixed_line_half_flat
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
@@ -47,6 +51,62 @@ module gfb_foil_mesh
   end type station_type
 
 contains
+
+  !> Radius of the arc [m].
+  elemental function arc_radius(half_length, height) result(radius)
+    real(wp), intent(in) :: half_length !! l, half the chord [m]
+    real(wp), intent(in) :: height      !! h_b, at most l [m]
+    real(wp) :: radius
+    radius = (half_length**2 + height**2)/(2.0_wp*height)
+  end function arc_radius
+
+  !> Point (x, v) at a fraction of the arc's length, from the corner (0, 0) over the crest (l, h_b).
+  pure function arc_point(half_length, height, fraction) result(point)
+    real(wp), intent(in) :: half_length, height !! l, h_b [m]
+    real(wp), intent(in) :: fraction !! 0 to 1; corners and crest are exact [1]
+    real(wp) :: point(2)
+    real(wp) :: turn
+
+    if (fraction <= 0.0_wp) then
+      point = 0.0_wp
+    else if (fraction >= 1.0_wp) then
+      point = [2.0_wp*half_length, 0.0_wp]
+    else
+      turn = (2.0_wp*fraction - 1.0_wp)*half_angle(half_length, height)
+      point(1) = half_length + arc_radius(half_length, height)*sin(turn)
+      ! Versine by the half angle: the crest is at h_b to the last digit.
+      point(2) = height - 2.0_wp*arc_radius(half_length, height)*sin(0.5_wp*turn)**2
+    end if
+  end function arc_point
+
+  !> Unit normal (x, v) there, away from the arc's centre: towards the shaft.
+  pure function arc_normal(half_length, height, fraction) result(normal)
+    real(wp), intent(in) :: half_length, height !! l, h_b [m]
+    real(wp), intent(in) :: fraction !! of the arc, 0 to 1 [1]
+    real(wp) :: normal(2)
+    real(wp) :: turn
+
+    turn = (2.0_wp*fraction - 1.0_wp)*half_angle(half_length, height)
+    normal = [sin(turn), cos(turn)]
+  end function arc_normal
+
+  !> Half the angle of the arc [rad].
+  pure function half_angle(half_length, height) result(angle)
+    real(wp), intent(in) :: half_length, height !! l, h_b [m]
+    real(wp) :: angle
+    angle = 2.0_wp*atan2(height, half_length)
+  end function half_angle
+
+  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0).
+  pure function top_mesh(film, height, window) result(mesh)
+    type(film_mesh_type), intent(in) :: film   !! the film's mesh
+    real(wp), intent(in) :: height             !! of the mid-surface above the flats' [m]
+    integer, intent(in), optional :: window(2) !! first and last station; default: all
+    type(quad_mesh_type) :: mesh
+
+    mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), height, &
+                         film%row_axial, film%half, window)
+  end function top_mesh
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
   !> trailing_edge, fixed_edge, free_edge, midplane; crest_1 and corner_1 lie at the smallest x.

@@ -9,7 +9,7 @@ module gfb_foil_stress
   use gfb_shell_geometry, only: shell_section_type, shell_unknowns
   use gfb_shell_stress, only: shell_stress_type, shell_stress, von_mises, lower_face, upper_face
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_pieces, only: element_geometry, element_section
+  use gfb_foil_structure, only: element_geometry, element_section
   implicit none (type, external)
   private
   public :: shell_stresses, beam_stresses

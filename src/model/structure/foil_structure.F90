@@ -8,16 +8,22 @@
 module gfb_foil_structure
   use petscksp
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
+  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns
+  use gfb_shell_element, only: shell_stiffness
+  use gfb_shell_mass, only: shell_mass
+  use gfb_quad_mesh, only: quad_mesh_type, own_thickness
+  use gfb_substructures, only: substructure_type, places_in
+  use gfb_super_element, only: super_element_type, hold_blocks, form_explicitly, destroy_super_element
   use gfb_petsc_session, only: fetch_entries
-  use gfb_shell_geometry, only: node_unknowns
-  use gfb_substructures, only: substructure_type
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_pieces, only: piece_unknowns, element_row
-  use gfb_super_element, only: super_element_type, destroy_super_element
   implicit none (type)
   private
-  public :: destroy_foil_structure
+  public :: number_slots, condense_piece, assemble_piece, retained_in_piece, piece_numbers, element_geometry, element_section, &
+            add_symmetric_block, create_foil_matrix, destroy_foil_structure
+
+  integer, parameter :: element_row = 9*node_unknowns !! entries of a row: a node, its neighbours
 
   !> One foil and this rank's part of its equations.
   type, extends(foil_surface_type), public :: foil_structure_type
@@ -42,6 +48,190 @@ module gfb_foil_structure
   end type foil_structure_type
 
 contains
+
+  !> Number of each free unknown of a kept node at its node, 0 for all others.
+  pure subroutine number_slots(free, substructure, reduced, slot)
+    logical, allocatable, intent(in) :: free(:, :)    !! (5, nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure(:) !! all of the foil's
+    logical, intent(in) :: reduced                    !! only retained nodes are kept
+    integer, allocatable, intent(out) :: slot(:, :)   !! (5, nodes)
+    logical :: kept(lbound(free, 2):ubound(free, 2))
+    integer :: node, i, component, slots
+
+    kept = .not. reduced
+    if (reduced) then
+      do i = 1, size(substructure)
+        kept(pack(substructure(i)%nodes, substructure(i)%retained)) = .true.
+      end do
+    end if
+    allocate (slot(node_unknowns, lbound(kept, 1):ubound(kept, 1)), source=0)
+    do node = lbound(kept, 1), ubound(kept, 1)
+      if (.not. kept(node)) cycle
+      slots = 0
+      do component = 1, node_unknowns
+        if (.not. free(component, node)) cycle
+        slots = slots + 1
+        slot(component, node) = slots
+      end do
+    end do
+  end subroutine number_slots
+
+  !> Assembles a substructure on its own and condenses it, or only keeps what recovers its interior.
+  !>
+  !> Fails where an element is clockwise or degenerate.
+  subroutine condense_piece(mesh, section, free, substructure, explicitly, super, error)
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! to be condensed
+    logical, intent(in) :: explicitly !! the condensed matrix too
+    type(super_element_type), intent(out) :: super !! what the substructure becomes
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
+    logical, allocatable :: is_retained(:)
+    Mat :: stiffness
+    PetscErrorCode :: ierr
+
+    call assemble_piece(mesh, section, free, substructure, .false., stiffness, error)
+    if (allocated(error)) return
+    is_retained = retained_in_piece(free, substructure)
+    call hold_blocks(stiffness, is_retained, 'super_', super)
+    if (explicitly) call form_explicitly(stiffness, is_retained, super)
+    PetscCallA(MatDestroy(stiffness, ierr))
+  end subroutine condense_piece
+
+  !> Stiffness or mass of a substructure on this rank alone, all of its unknowns.
+  !>
+  !> Fails where an element is clockwise or degenerate.
+  subroutine assemble_piece(mesh, section, free, substructure, mass, matrix, error)
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! whose matrix it is
+    logical, intent(in) :: mass       !! instead of stiffness
+    Mat, intent(out) :: matrix !! of all its unknowns, on this rank alone
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
+
+    integer :: number(node_unknowns, size(substructure%nodes))
+    real(wp) :: block(shell_unknowns, shell_unknowns)
+    PetscErrorCode :: ierr
+    integer :: i, unknowns
+
+    number = piece_numbers(free, substructure)
+    unknowns = maxval(number)
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(unknowns, pint), int(unknowns, pint), int(element_row, pint), PETSC_NULL_INTEGER_ARRAY, matrix, ierr))
+    do i = 1, size(substructure%elements)
+      associate (corner => places_in(substructure, mesh%element_nodes(:, substructure%elements(i))), &
+                 geometry => element_geometry(mesh, substructure%elements(i)))
+        if (mass) then
+          call shell_mass(geometry, element_section(mesh, section, substructure%elements(i)), block, error)
+        else
+          call shell_stiffness(geometry, element_section(mesh, section, substructure%elements(i)), block, error)
+        end if
+        if (allocated(error)) return
+        call add_symmetric_block(matrix, reshape(number(:, corner), [shell_unknowns]) - 1, block)
+      end associate
+    end do
+    PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
+  end subroutine assemble_piece
+
+  !> Which of a substructure's unknowns are kept.
+  pure function retained_in_piece(free, substructure) result(is_retained)
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
+    logical, allocatable :: is_retained(:)
+
+    is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(free, substructure))
+  end function retained_in_piece
+
+  !> Unknowns a super-element has, (5, nodes): all of its retained nodes, so that a support there
+  !> does not make it another kind, and the free ones inside.
+  pure function piece_unknowns(free, substructure) result(has)
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
+    logical :: has(node_unknowns, size(substructure%nodes))
+
+    has = free .or. spread(substructure%retained, 1, node_unknowns)
+  end function piece_unknowns
+
+  !> Numbers of a substructure's unknowns, from 1, node by node; 0 where there is none.
+  pure function piece_numbers(free, substructure) result(number)
+    logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
+    type(substructure_type), intent(in) :: substructure !! whose unknowns they are
+    integer :: number(node_unknowns, size(substructure%nodes))
+    integer :: i
+
+    associate (has => piece_unknowns(free, substructure))
+      number = unpack([(i, i=1, count(has))], has, 0)
+    end associate
+  end function piece_numbers
+
+  !> Where an element of a mesh is.
+  pure function element_geometry(mesh, element) result(geometry)
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    integer, intent(in) :: element !! number in the whole mesh
+    type(shell_geometry_type) :: geometry
+
+    associate (nodes => mesh%element_nodes(:, element))
+      geometry%position = mesh%position(:, nodes)
+      geometry%director = mesh%director(:, :, element)
+      geometry%axis(:, 1, :) = mesh%axis_1(:, nodes)
+      geometry%axis(:, 2, :) = mesh%axis_2(:, nodes)
+    end associate
+  end function element_geometry
+
+  !> What an element of a mesh is made of.
+  pure function element_section(mesh, section, element) result(own)
+    type(quad_mesh_type), intent(in) :: mesh !! of the foil
+    type(shell_section_type), intent(in) :: section !! thickness and material of the foil
+    integer, intent(in) :: element !! number in the whole mesh
+    type(shell_section_type) :: own
+
+    own = section
+    if (own_thickness(mesh, element) > 0.0_wp) own%thickness = own_thickness(mesh, element)
+  end function element_section
+
+  !> Adds a symmetric block by global numbers, from 0; negative ones are skipped.
+  !>
+  !> What couples unknowns of this rank only goes straight into the rank's own block, which costs an
+  !> eighth less a value than by the matrix of all ranks.
+  subroutine add_symmetric_block(matrix, number, block)
+    Mat, intent(in) :: matrix !! of the foil, over all ranks
+    integer, intent(in) :: number(:) !! of the block's unknowns, from 0
+    real(wp), intent(in) :: block(size(number)*size(number)) !! row by row, stiffness or mass [SI]
+    Mat :: own
+    PetscInt :: index(size(number)), first, last
+    PetscErrorCode :: ierr
+
+    index = int(number, pint)
+    PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
+    if (any(index >= 0 .and. (index < first .or. index >= last))) then
+      PetscCallA(MatSetValues(matrix, int(size(index), pint), index, int(size(index), pint), index, block, ADD_VALUES, ierr))
+      return
+    end if
+    PetscCallA(MatGetDiagonalBlock(matrix, own, ierr))
+    where (index >= 0) index = index - first
+    PetscCallA(MatSetValues(own, int(size(index), pint), index, int(size(index), pint), index, block, ADD_VALUES, ierr))
+  end subroutine add_symmetric_block
+
+  !> An empty matrix over all ranks with room for what a row couples.
+  subroutine create_foil_matrix(entries, at_seam, unknowns, matrix)
+    integer, intent(in) :: entries     !! of a row, at most
+    logical, intent(in) :: at_seam(:)  !! (unknowns of this rank) coupled to other ranks' unknowns
+    integer, intent(in) :: unknowns    !! of all ranks
+    Mat, intent(out) :: matrix !! empty, preallocated
+    PetscInt :: inside(size(at_seam)), outside(size(at_seam)), owned
+    PetscErrorCode :: ierr
+
+    owned = size(at_seam)
+    inside = min(int(entries, pint), owned)
+    outside = merge(min(int(entries, pint), int(unknowns, pint) - owned), 0_pint, at_seam)
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
+    PetscCallA(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(matrix, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(matrix, 0_pint, inside, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(matrix, 0_pint, inside, 0_pint, outside, ierr))
+  end subroutine create_foil_matrix
 
   !> Entries of a row of the foil's matrix, at most.
   pure function row_entries(self) result(entries)

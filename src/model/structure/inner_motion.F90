@@ -7,7 +7,16 @@
 !> $$ f = \sum_i m_i \ddot\eta_i, \qquad
 !>    \frac{\partial f}{\partial u} = -\sum_i \frac{a_0^4}{a_0^2 + \omega_i^2} m_i m_i^T, $$
 !>
-!> the block of `gfb_inner_modes` in a motion \( e^{a_0 t} \). Source: [CraigBampton1968].
+!> the block of `gfb_inner_motion` in a motion \( e^{a_0 t} \). Source: [CraigBampton1968].
+!>
+!> Fixed-interface modes inside the condensed pieces of a foil that moves.
+!>
+!> Modes \( \phi_i \) of unit modal mass with the natural frequencies \( \omega_i \) couple by \( m_i \) to the
+!> retained unknowns u of their piece:
+!>
+!> $$ \ddot\eta_i + \omega_i^2 \eta_i = -m_i^T \ddot u, \qquad f = \sum_i m_i \ddot\eta_i $$
+!>
+!> Source: [CraigBampton1968].
 module gfb_inner_motion
   use petscmat
   use gfb_kinds, only: wp
@@ -17,9 +26,17 @@ module gfb_inner_motion
   use gfb_natural_order, only: natural_order_type, visit_field
   use gfb_backward_difference, only: free_value, newest_rate
   use gfb_modal_step, only: modal_amplitude, modal_acceleration
-  use gfb_inner_modes, only: inner_modes_type, inner_block, add_to_pieces
   implicit none (type)
   private
+  public :: inner_block, add_to_pieces
+
+  !> Modes inside the condensed pieces of one kind.
+  type, public :: inner_modes_type
+    integer, allocatable :: number(:, :)     !! (retained, pieces) bearing's, from 0; -1: fixed
+    integer, allocatable :: place(:)         !! (pieces) from 1, pad by pad, whatever rank has them
+    real(wp), allocatable :: coupling(:, :)  !! (retained, modes) m_i [sqrt(kg)], of one sign on all ranks
+    real(wp), allocatable :: eigenvalue(:)   !! omega_i squared [1/s2]
+  end type inner_modes_type
 
   !> Modes of all pieces, and what of their past a step needs; nothing where it is not begun.
   type, public :: inner_motion_type
@@ -47,6 +64,39 @@ module gfb_inner_motion
   end type inner_motion_type
 
 contains
+
+  !> What the modes inside a piece do to its retained unknowns in a motion \( e^{\lambda t} \):
+  !> \( -\sum_i \lambda^4 m_i m_i^T/(\omega_i^2 (1 + l) + \lambda^2) \).
+  pure function inner_block(inner, rate, loss) result(block)
+    type(inner_modes_type), intent(in) :: inner !! of one kind
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(in) :: loss !! l of the stiffness [1]
+    complex(wp) :: block(size(inner%coupling, 1), size(inner%coupling, 1))
+    integer :: i
+
+    block = 0.0_wp
+    do i = 1, size(inner%eigenvalue)
+      associate (m => inner%coupling(:, i))
+        block = block - rate**4/(inner%eigenvalue(i)*(1.0_wp + loss) + rate**2)* &
+          spread(m, 2, size(m))*spread(m, 1, size(m))
+      end associate
+    end do
+  end function inner_block
+
+  !> Adds a block to a matrix at the retained unknowns of every piece of a kind.
+  subroutine add_to_pieces(inner, block, matrix)
+    type(inner_modes_type), intent(in) :: inner !! of one kind
+    real(wp), intent(in) :: block(:, :)         !! (retained, retained)
+    Mat, intent(in) :: matrix                   !! not assembled yet
+    PetscInt :: row(size(inner%number, 1))
+    PetscErrorCode :: ierr
+    integer :: k
+
+    do k = 1, size(inner%number, 2)
+      row = int(inner%number(:, k), pint)
+      PetscCallA(MatSetValues(matrix, size(row, kind=pint), row, size(row, kind=pint), row, [block], ADD_VALUES, ierr))
+    end do
+  end subroutine add_to_pieces
 
   !> Begins at rest.
   subroutine begin(self, inner, mass, left, right)

@@ -12,8 +12,7 @@ module gfb_strain_energy
   use gfb_petsc_session, only: sum_over_ranks, share_failure
   use gfb_shell_geometry, only: shell_geometry_type, node_unknowns, shell_nodes, shell_unknowns
   use gfb_shell_element, only: shell_internal_force
-  use gfb_foil_structure, only: foil_structure_type
-  use gfb_foil_pieces, only: element_geometry, element_section
+  use gfb_foil_structure, only: foil_structure_type, element_geometry, element_section
   implicit none (type)
   private
   public :: strain_products

@@ -5,8 +5,7 @@ module gfb_film_grid
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_fields, only: film_block, full_rows
-  use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
-  use gfb_strip_grid, only: strip_grid
+  use gfb_grid, only: result_grid_type, block_bounds, add_grid_field, strip_grid
   implicit none (type, external)
   private
   public :: add_film_grid

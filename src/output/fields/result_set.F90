@@ -8,14 +8,11 @@ module gfb_result_set
   use gfb_quantity, only: quantity_type
   use gfb_signals, only: hold_clock
   use gfb_petsc_session, only: this_rank, rank_count, share_failure
-  use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
+  use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished, has_answer, remove_unanswered
   use gfb_result_file, only: result_file_type
   use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, history_csv
-  use gfb_grid, only: result_grid_type
-  use gfb_grid_file, only: write_grid_file
-  use gfb_older_results, only: has_answer, remove_unanswered
-  use gfb_grid_series, only: grid_series_type, begin_step, add_surface
-  use gfb_series_file, only: write_series_file
+  use gfb_grid, only: result_grid_type, write_grid_file
+  use gfb_grid_series, only: grid_series_type, begin_step, add_surface, write_series_file
   use gfb_text_file, only: write_unfinished_text
   use gfb_run_log, only: run_log_type
   implicit none (type)

@@ -4,19 +4,24 @@
 !> writes it with a checksum under a temporary name; it takes its own when it is whole. Every
 !> dataset has a unit and a meaning.
 module gfb_result_file
-  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_null_ptr, c_int8_t
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int8_t, c_ptr, c_loc, c_null_ptr
   use hdf5
-  use mpi, only: MPI_INTEGER, MPI_Bcast
-  use gfb_kinds, only: wp, long
+  use mpi, only: MPI_BYTE, MPI_INTEGER, MPI_LOGICAL, MPI_LOR, MPI_Allreduce, MPI_Comm_size, &
+                 MPI_Gather, MPI_Gatherv, MPI_Type_contiguous, MPI_Type_commit, MPI_Type_free, &
+                 MPI_Bcast
+  use gfb_kinds, only: long, wp
   use gfb_errors, only: error_type, fail, status_machine
   use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
                           error_words
-  use gfb_rank_parts, only: gather_parts, share_truth
-  use gfb_dataset_layout, only: choose_layout
   use gfb_hdf5_text, only: text_kind, write_texts, write_text_attribute, write_fixed_attribute
   implicit none (type, external)
   private
-  public :: open_result_file, close_result_file, drop_result_file, keep_result_file
+  public :: gather_parts, open_result_file, close_result_file, drop_result_file, keep_result_file
+
+  integer(hsize_t), parameter :: few = 1000_hsize_t !! numbers that stay in one piece
+  !> 256 KiB of reals; HDF5 caches 1 MiB.
+  integer(hsize_t), parameter :: chunk_numbers = 32768_hsize_t
+  integer, parameter :: effort = 4 !! of deflate, 1 to 9: more takes longer and hardly saves
 
   integer(size_t), parameter :: growth = 1048576_size_t !! of a file in memory, at a time [B]
 
@@ -47,6 +52,82 @@ module gfb_result_file
   end type result_file_type
 
 contains
+
+  !> The property list of a new dataset, to be closed; compressed where the library has the filters.
+  subroutine choose_layout(extent, compressed, layout, status)
+    integer(hsize_t), intent(in) :: extent(:) !! of the dataset, fastest index first
+    logical, intent(in) :: compressed !! it may be
+    integer(hid_t), intent(out) :: layout !! of the HDF5 library
+    integer, intent(out) :: status !! 0, or HDF5's error
+    integer(hsize_t) :: chunk(size(extent)), left
+    logical :: has_filter
+    integer :: i
+
+    call h5pcreate_f(H5P_DATASET_CREATE_F, layout, status)
+    if (status /= 0 .or. .not. compressed .or. product(extent) <= few) return
+    call look_for(H5Z_FILTER_DEFLATE_F, has_filter)
+    if (.not. has_filter) return
+    left = chunk_numbers
+    do i = 1, size(extent)
+      chunk(i) = min(extent(i), left)
+      left = max(1_hsize_t, left/chunk(i))
+    end do
+    call h5pset_chunk_f(layout, size(chunk), chunk, status)
+    call look_for(H5Z_FILTER_SHUFFLE_F, has_filter)
+    if (status == 0 .and. has_filter) call h5pset_shuffle_f(layout, status)
+    if (status == 0) call h5pset_deflate_f(layout, effort, status)
+  end subroutine choose_layout
+
+  !> Whether the library can apply a filter.
+  subroutine look_for(filter, has_filter)
+    integer, intent(in) :: filter !! its number
+    logical, intent(out) :: has_filter !! it can
+    integer :: uses, status
+
+    call h5zfilter_avail_f(filter, has_filter, status)
+    has_filter = has_filter .and. status == 0
+    if (.not. has_filter) return
+    call h5zget_filter_info_f(filter, uses, status)
+    has_filter = status == 0 .and. iand(uses, H5Z_FILTER_ENCODE_ENABLED_F) /= 0
+  end subroutine look_for
+
+  !> Puts consecutive entries of every rank where they stand among all; zeros where no rank has any.
+  subroutine gather_parts(communicator, first_rank, bytes, buffer, entries, offset, total, all)
+    integer, intent(in) :: communicator !! MPI's
+    logical, intent(in) :: first_rank !! this is the rank that gets them
+    integer, intent(in) :: bytes !! of an entry
+    type(c_ptr), intent(in) :: buffer !! this rank's entries
+    integer, intent(in) :: entries, offset, total !! here, before this rank's, in all
+    !> on the first rank; next to nothing elsewhere
+    integer(c_int8_t), allocatable, intent(out) :: all(:)
+    integer(c_int8_t), pointer :: mine(:)
+    integer, allocatable :: counts(:), places(:)
+    integer :: ranks, one_entry, ignored
+
+    call MPI_Comm_size(communicator, ranks, ignored)
+    allocate (counts(ranks), places(ranks))
+    call MPI_Gather([entries], 1, MPI_INTEGER, counts, 1, MPI_INTEGER, 0, communicator, ignored)
+    call MPI_Gather([offset], 1, MPI_INTEGER, places, 1, MPI_INTEGER, 0, communicator, ignored)
+    allocate (all(merge(max(1_long, int(total, long)*bytes), 1_long, first_rank)))
+    all = 0_c_int8_t
+    call c_f_pointer(buffer, mine, [max(1_long, int(entries, long)*bytes)])
+    call MPI_Type_contiguous(bytes, MPI_BYTE, one_entry, ignored)
+    call MPI_Type_commit(one_entry, ignored)
+    call MPI_Gatherv(mine, entries, one_entry, all, counts, places, one_entry, 0, communicator, &
+                     ignored)
+    call MPI_Type_free(one_entry, ignored)
+  end subroutine gather_parts
+
+  !> Makes what is true on one rank true on all.
+  subroutine share_truth(truth, communicator)
+    logical, intent(inout) :: truth !! of this rank; on return of all
+    integer, intent(in) :: communicator !! MPI's
+    logical :: mine
+    integer :: ignored
+
+    mine = truth
+    call MPI_Allreduce(mine, truth, 1, MPI_LOGICAL, MPI_LOR, communicator, ignored)
+  end subroutine share_truth
 
   !> Begins a file in memory.
   subroutine open_result_file(path, communicator, first_rank, file, error)

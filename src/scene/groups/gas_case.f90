@@ -3,9 +3,8 @@ module gfb_gas_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
-                         density_peng_robinson, density_table
-  use gfb_monotone_table, only: monotone_table, table_at
-  use gfb_peng_robinson, only: peng_robinson, saturate, amount_at, gas_constant
+                         density_peng_robinson, density_table, monotone_table, table_at, &
+                         peng_robinson, saturate, amount_at, gas_constant
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
   use gfb_value_rules, only: any_value, not_negative, positive, rule_type

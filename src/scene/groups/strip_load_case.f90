@@ -2,7 +2,7 @@
 module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type, solid_width
-  use gfb_bump_stiffness, only: walowit_anno_stiffness
+  use gfb_curved_bump, only: walowit_anno_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text

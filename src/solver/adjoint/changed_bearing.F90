@@ -15,9 +15,8 @@ module gfb_changed_bearing
   use gfb_bearing_system, only: bearing_system_type
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: build_like, take_numbers
-  use gfb_changed_contacts, only: takes_numbers, add_contact_forces
-  use gfb_changed_foil, only: add_changed_force, changed_pieces_type
-  use gfb_answer_gradient, only: extreme_nodes_type, measure
+  use gfb_changed_foil, only: takes_numbers, add_contact_forces, add_changed_force, changed_pieces_type
+  use gfb_sensitivity, only: extreme_nodes_type, measure
   implicit none (type)
   private
   public :: evaluate_changed

@@ -3,7 +3,7 @@
 !>
 !> Harmonic balance with one harmonic. About the answer film, foils and normal forces are linear as in
 !> `gfb_dynamic_response`; each contact has the complex stiffness of the amplitude with which it slides
-!> (`gfb_vibrating_friction`), and both are found in turns: the matrix with these stiffnesses is
+!> (`gfb_contact_law`), and both are found in turns: the matrix with these stiffnesses is
 !> factorized, the motion scaled to the shaft's amplitude gives the amplitudes of the contacts.
 module gfb_amplitude_response
   use petscmat
@@ -11,7 +11,7 @@ module gfb_amplitude_response
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_vibrating_contacts, only: vibrate_contacts
+  use gfb_contacts_in_motion, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction
   use gfb_dynamic_response, only: dynamic_response_type, factor_part, solve_part
   use gfb_vibration_equations, only: combine

@@ -13,17 +13,21 @@
 !> On half the width translations have the symmetry of the steady state, tilts
 !> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay. Shells
 !> move against their mirror then: they are a bearing of their own, with other supports at z = 0.
+!>
+!> What motions of the shaft are felt by, and what they move, given their symmetry about z = 0.
+!>
+!> On half the width a bearing has motions of two symmetries: those of the steady state, and those
+!> against the other half's mirror, whose pressures vanish at z = 0. Tilts are of the second kind.
 module gfb_dynamic_response
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
-  use gfb_motion_symmetry, only: translations, tilts, motion_weights, motion_unknowns
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
   use gfb_direct_solver, only: failure_in_words
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
@@ -32,8 +36,11 @@ module gfb_dynamic_response
   private
   public :: create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
 
+  !> of the shaft's coordinates
+  integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
+
   !> The equations of motions with one symmetry about z = 0, or of all.
-  type, public :: part_type
+  type :: part_type
     integer, allocatable :: coordinate(:) !! of the shaft that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
@@ -55,6 +62,56 @@ module gfb_dynamic_response
   end type dynamic_response_type
 
 contains
+
+  !> \( B_j \, dA \) of the shaft's coordinates at the film nodes of all pads; torques are those
+  !> on the shaft.
+  pure function motion_weights(bearing, coordinate) result(weight)
+    type(bearing_system_type), intent(in) :: bearing !! that vibrates
+    integer, intent(in) :: coordinate(:) !! of the shaft; on half the width of one symmetry, or all
+    real(wp) :: weight(size(coordinate), bearing%film_nodes()) !! this rank's [m2], [m3]
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
+        if (against_mirror(bearing, coordinate)) then
+          weight(:, pad%first_node + 1:pad%last_node) = -film%half_torque_weight
+        else
+          weight(:, pad%first_node + 1:pad%last_node) = film%force_weight(coordinate, :)
+        end if
+      end associate
+    end do
+    if (size(coordinate) > size(tilts)) weight(tilts, :) = -weight(tilts, :)
+  end function motion_weights
+
+  !> 1 where such a motion has a local unknown of the bearing, else 0; the shaft's it never has.
+  pure function motion_unknowns(bearing, coordinate, foils_move) result(has)
+    type(bearing_system_type), intent(in) :: bearing !! that vibrates
+    integer, intent(in) :: coordinate(:) !! of the shaft that move
+    logical, intent(in) :: foils_move    !! or stay where they are
+    real(wp) :: has(bearing%local_size())
+    integer :: i
+
+    has = 1.0_wp
+    has(bearing%first_shaft + 1:) = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), film => bearing%pad(i)%film, first => bearing%pad(i)%first)
+        if (against_mirror(bearing, coordinate)) then
+          where (abs(film%axial) <= epsilon(1.0_wp)*film%width)
+            has(first + 1:first + size(film%axial)) = 0.0_wp
+          end where
+        end if
+        if (.not. foils_move) has(first + pad%foil%first + 1:pad%last) = 0.0_wp
+      end associate
+    end do
+  end function motion_unknowns
+
+  !> Whether motions on half the width are those against the other half's mirror.
+  pure function against_mirror(bearing, coordinate) result(against)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: coordinate(:) !! of the shaft that move
+    logical :: against
+    against = bearing%pad(1)%whole%half .and. coordinate(1) == tilts(1)
+  end function against_mirror
 
   !> Linearises a bearing about its present state, which must be an answer and is left as it is.
   subroutine create_response(bearing, vibration, response, opposite)

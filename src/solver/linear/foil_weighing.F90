@@ -16,8 +16,8 @@ module gfb_foil_weighing
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_rates, only: fill_from_foil
   use gfb_steady_tangent, only: linearise_steady
-  use gfb_inner_modes, only: inner_modes_type
-  use gfb_foil_inertia, only: foil_inertia_type
+  use gfb_inner_motion, only: inner_modes_type
+  use gfb_vibration_equations, only: foil_inertia_type
   use gfb_dynamic_response, only: dynamic_response_type
   implicit none (type)
   private

@@ -4,7 +4,7 @@ module gfb_steady_tangent
   use petscmat
   use gfb_kinds, only: wp
   use gfb_solid_contact, only: contact_pressure_rate
-  use gfb_stick_tangent, only: stick_contacts
+  use gfb_contacts_in_motion, only: stick_contacts
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private

@@ -8,8 +8,7 @@ module gfb_free_motions
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type
   use gfb_rigid_modes, only: node_motions, rigid_motion_count
-  use gfb_eigenmodes, only: modes_type
-  use gfb_ritz_method, only: mass_products, solve_symmetric, combine
+  use gfb_eigenmodes, only: modes_type, mass_products, solve_symmetric, combine
   implicit none (type)
   private
   public :: free_motions

@@ -17,8 +17,7 @@ module gfb_mode_energies
   use gfb_errors, only: error_type
   use gfb_foil_structure, only: foil_structure_type
   use gfb_strain_energy, only: strain_products
-  use gfb_eigenmodes, only: modes_type, factor_shifted
-  use gfb_ritz_method, only: mass_products, solve_symmetric, combine
+  use gfb_eigenmodes, only: modes_type, factor_shifted, mass_products, solve_symmetric, combine
   implicit none (type)
   private
   public :: sharpen_modes

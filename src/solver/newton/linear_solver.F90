@@ -4,18 +4,58 @@
 !> - direct: factors. They serve again while that makes Newton's steps shrink fast.
 !> - lagged: where matrices differ in few entries, earlier factors precondition GMRES.
 !> - iterative: multigrid, where the system knows its motions.
+!>
+!> Earlier factors as preconditioner of GMRES, where matrices differ in few entries, and when new ones pay.
+!>
+!> All is decided by counts, so that runs repeat.
+!>
+!> An iterative linear solver for shells: conjugate gradients, or GMRES where the matrix is not
+!> symmetric, with two levels of multigrid below.
+!>
+!> The coarse level holds smoothed motions of patches as rigid bodies and is solved by MUMPS; it has
+!> a thirtieth of the unknowns. What is short waved is smoothed by Chebyshev's polynomial of Jacobi's
+!> method, which does not depend on the ranks. An answer of the iterations is taken only when its
+!> true residual is small.
 module gfb_linear_solver
+  use petscksp
   use petscsnes
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
+  use gfb_direct_solver, only: are_of_mumps, set_option_default, use_factors, factor_failure, enlarge_workspace, drop_factors
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: use_factors, factor_failure, enlarge_workspace, drop_factors
-  use gfb_multigrid, only: coarse_level_type, use_multigrid, judge_iterations
-  use gfb_lagged_factors, only: lagged_factors_type, use_lagged_factors, judge_factors
   implicit none (type)
   private
   public :: choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, ask_for_factors, &
             linear_failure, drop_failed_factors, forget_solver
+
+  integer, parameter :: longest_krylov = 60           !! GMRES iterations of a solve at most
+  integer, parameter :: cheap_krylov = 2              !! of a solve that new factors would not make shorter
+  integer, parameter :: least_krylov = 5              !! new factors never pay before
+  real(wp), parameter :: krylov_share = 0.1_wp        !! they pay after this share of flops over entries of theirs
+  real(wp), parameter :: krylov_tolerance = 1.0e-3_wp !! of the preconditioned residual, relative
+  real(wp), parameter :: hopeless_krylov = 1.0e10_wp  !! growth of that residual that ends a solve
+
+  !> What the present factors have cost so far.
+  type :: lagged_factors_type
+    logical :: outdated = .true.            !! GMRES has become expensive with them
+    integer, private :: spent = 0           !! GMRES iterations that new factors might have saved
+    integer, private :: price = least_krylov !! as many cost as much as new factors
+  end type lagged_factors_type
+
+  integer(pint), parameter :: longest = 500        !! iterations of a solve at most
+  integer(pint), parameter :: restart = 60         !! of GMRES
+  real(wp), parameter :: tolerance = 1.0e-5_wp     !! of the preconditioned residual, relative
+  !> Of the true residual, relative: Newton's last steps start at round-off, which is all that the
+  !> iterations can reach then.
+  real(wp), parameter :: true_tolerance = 1.0e-3_wp
+  integer, parameter :: slower = 2                 !! growth of the iterations after which a new coarse level pays
+  real(wp), parameter :: hopeless = 1.0e10_wp      !! growth of it that ends a solve
+
+  !> What the present coarse level has cost so far.
+  type :: coarse_level_type
+    logical :: outdated = .true.            !! it serves no longer
+    integer, private :: iterations = 0      !! of the solve for which it was made
+  end type coarse_level_type
 
   real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
   real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
@@ -39,6 +79,122 @@ module gfb_linear_solver
   end type linear_solver_type
 
 contains
+
+  !> Makes a linear solver keep the factors it has.
+  subroutine use_lagged_factors(linear)
+    KSP, intent(in) :: linear !! prepared by `use_factors`
+    PetscErrorCode :: ierr
+
+    PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
+    PetscCallA(KSPGMRESSetRestart(linear, int(longest_krylov, pint), ierr))
+    PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, hopeless_krylov, int(longest_krylov, pint), ierr))
+  end subroutine use_lagged_factors
+
+  !> Whether GMRES converged with the present factors, and whether they serve it further.
+  subroutine judge_factors(factors, linear, fresh, solved, ierr)
+    type(lagged_factors_type), intent(inout) :: factors !! what they have cost; brought up to date
+    KSP, intent(in) :: linear    !! after a solve
+    logical, intent(in) :: fresh !! they belong to the present matrix
+    logical, intent(out) :: solved !! GMRES reached its tolerance
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
+    KSPConvergedReason :: reason
+    PetscInt :: iterations
+
+    PetscCall(KSPGetConvergedReason(linear, reason, ierr))
+    PetscCall(KSPGetIterationNumber(linear, iterations, ierr))
+    solved = GFB_REASON(reason) > 0 .or. fresh
+    if (fresh) then
+      factors%spent = 0
+      call price_factors(linear, factors%price, ierr)
+      CHKERRQ(ierr)
+    end if
+    factors%spent = factors%spent + max(0, int(iterations) - cheap_krylov)
+    factors%outdated = .not. solved .or. factors%spent > factors%price
+  end subroutine judge_factors
+
+  !> How many GMRES iterations cost as much as the factors of a solver: by counts, so that runs
+  !> repeat.
+  subroutine price_factors(linear, price, ierr)
+    KSP, intent(in) :: linear
+    integer, intent(out) :: price
+    PetscErrorCode, intent(out) :: ierr
+    integer, parameter :: flops_place = 3, entries_place = 29 !! in MUMPS' RINFOG and INFOG
+    PetscReal :: flops
+    PetscInt :: entries
+    Mat :: factors
+    PC :: preconditioner
+
+    price = least_krylov
+    PetscCall(KSPGetPC(linear, preconditioner, ierr))
+    if (.not. are_of_mumps(preconditioner)) return
+    PetscCall(PCFactorGetMatrix(preconditioner, factors, ierr))
+    PetscCall(MatMumpsGetRinfog(factors, int(flops_place, pint), flops, ierr))
+    PetscCall(MatMumpsGetInfog(factors, int(entries_place, pint), entries, ierr))
+    if (entries < 0) entries = -1000000*entries ! in millions where they are many
+    price = max(least_krylov, nint(min(krylov_share*flops/max(1, entries), real(longest_krylov, wp))))
+  end subroutine price_factors
+
+  !> Makes a linear solver iterate.
+  subroutine use_multigrid(linear, prefix, symmetric, motions)
+    KSP, intent(in) :: linear              !! without a type yet
+    character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'strip_'
+    logical, intent(in) :: symmetric       !! the matrix is, and positive definite
+    Mat, intent(in) :: motions             !! coarse unknowns to fine ones
+    character(len=:), allocatable :: levels, coarse
+    PC :: grids
+    PetscErrorCode :: ierr
+
+    levels = '-'//prefix//'mg_levels_'
+    coarse = '-'//prefix//'mg_coarse_'
+    call set_option_default('-'//prefix//'pc_mg_levels', '2')
+    call set_option_default('-'//prefix//'pc_mg_galerkin', 'both')
+    call set_option_default(levels//'ksp_type', 'chebyshev')
+    call set_option_default(levels//'ksp_max_it', '4')
+    call set_option_default(levels//'pc_type', 'jacobi')
+    call set_option_default(coarse//'ksp_type', 'preonly')
+    call set_option_default(coarse//'pc_type', trim(merge('cholesky', 'lu      ', symmetric)))
+    call set_option_default(coarse//'pc_factor_mat_solver_type', MATSOLVERMUMPS)
+    if (symmetric) then
+      PetscCallA(KSPSetType(linear, KSPCG, ierr))
+      PetscCallA(KSPSetNormType(linear, KSP_NORM_NATURAL, ierr))
+    else
+      PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
+      PetscCallA(KSPGMRESSetRestart(linear, restart, ierr))
+    end if
+    PetscCallA(KSPSetTolerances(linear, tolerance, 0.0_wp, hopeless, longest, ierr))
+    PetscCallA(KSPGetPC(linear, grids, ierr))
+    PetscCallA(PCSetType(grids, PCMG, ierr))
+    PetscCallA(PCSetFromOptions(grids, ierr))
+    PetscCallA(PCMGSetInterpolation(grids, 1_pint, motions, ierr))
+  end subroutine use_multigrid
+
+  !> Whether the iterations converged by their true residual, and whether the coarse level serves on.
+  subroutine judge_iterations(level, linear, matrix, right, solution, work, fresh, solved, ierr)
+    type(coarse_level_type), intent(inout) :: level !! what it has cost; brought up to date
+    KSP, intent(in) :: linear          !! after a solve
+    Mat, intent(in) :: matrix          !! of the system that was solved
+    Vec, intent(in) :: right, solution !! of the system, scaled
+    Vec, intent(in) :: work            !! overwritten
+    logical, intent(in) :: fresh       !! the coarse level belongs to this matrix
+    logical, intent(out) :: solved     !! the true residual is small
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
+    KSPConvergedReason :: reason
+    PetscInt :: iterations
+    PetscReal :: wanted, left
+
+    PetscCall(KSPGetConvergedReason(linear, reason, ierr))
+    PetscCall(KSPGetIterationNumber(linear, iterations, ierr))
+    solved = GFB_REASON(reason) > 0
+    if (solved) then
+      PetscCall(MatMult(matrix, solution, work, ierr))
+      PetscCall(VecAXPY(work, -1.0_wp, right, ierr))
+      PetscCall(VecNorm(work, NORM_2, left, ierr))
+      PetscCall(VecNorm(right, NORM_2, wanted, ierr))
+      solved = left <= true_tolerance*wanted
+    end if
+    if (fresh) level%iterations = int(iterations)
+    level%outdated = .not. solved .or. int(iterations) > slower*level%iterations
+  end subroutine judge_iterations
 
   !> Gives SNES the solver that suits a system: multigrid where it has motions, else factors.
   subroutine choose_solver(snes, prefix, system, solver)

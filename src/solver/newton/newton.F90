@@ -10,30 +10,48 @@
 !> equations whose coefficients differ from the given ones in the last digits, by the theorem of
 !> Oettli and Prager. Such a solve is said to have converged at round-off, and its last step tells how
 !> many digits the equations have. A state that is no answer has a residual far above that.
+!>
+!> What rounding may leave of a residual.
+!>
+!> A computed sum \( \sum_j J_{ij} x_j \) is off by some \( \epsilon \sum_j |J_{ij}| |x_j| \). No state
+!> has a residual that is known better; one whose residual is no larger solves equations whose
+!> coefficients differ in their last digits alone, by the theorem of Oettli and Prager.
 module gfb_newton
-  use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, &
-                                           ieee_set_halting_mode
+  use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_halting_mode, ieee_set_halting_mode
   use petscsnes
+  use petscmat
   use gfb_kinds, only: wp
-  use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_petsc_kinds, only: pint
+  use gfb_matrix_rows, only: copy_row, row_length
+  use gfb_archive, only: archive_type
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_petsc_session, only: stop_is_asked
-  use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: factor_matrix, factors_by
   use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, &
                                linear_failure, drop_failed_factors, forget_solver
   use gfb_line_search, only: line_search_type, take_step, remaining_error, stagnation
   use gfb_secant_steps, only: secants_type, begin_secants, forget_secants, destroy_secants
-  use gfb_backward_error, only: backward_error
-  use gfb_newton_report, only: newton_report_type, reason_in_words, show_iteration, show_enlargements
   use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, gave_up_words
   implicit none (type)
   private
-  public :: create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, solve_transposed, &
-            forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
+  public :: show_enlargements, create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
+            solve_transposed, forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
+
+  !> How a solve ended.
+  type, public :: newton_report_type
+    logical :: converged = .false.
+    character(len=:), allocatable :: reason !! in words
+    integer :: iterations = 0
+    real(wp) :: residual = 0.0_wp !! root mean square of the scaled residual [1]
+    logical :: at_round_off = .false. !! the residual is above its tolerance, but all of it is rounding
+    real(wp) :: round_off = 0.0_wp !! then: the last relative step [1]
+  end type newton_report_type
+
+  !> Roundings of a row's sum that do not cancel each other, with those of the solution before it.
+  real(wp), parameter :: roundings = 4.0_wp
 
   real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing tells how steps shrink [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
@@ -71,6 +89,98 @@ module gfb_newton
   end type newton_type
 
 contains
+
+  !> SNES' reason as a sentence; empty where the linear solver knows more.
+  function reason_in_words(reason, impossible, maximum_iterations) result(words)
+    integer, intent(in) :: reason             !! SNES' number
+    logical, intent(in) :: impossible         !! no trial along the last step could be evaluated
+    integer, intent(in) :: maximum_iterations !! that were allowed
+    character(len=:), allocatable :: words
+
+    if (reason > 0) then
+      words = 'converged'
+    else if (impossible) then
+      words = 'every trial along the step closed the gap or emptied the film'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_FUNCTION_DOMAIN))) then
+      words = 'the gap or the pressure was not positive at the start'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_LINEAR_SOLVE))) then
+      words = ''
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_MAX_IT))) then
+      words = 'no convergence in '//text(maximum_iterations)//' iterations'
+    else if (reason == int(GFB_REASON(SNES_DIVERGED_LINE_SEARCH)) .or. &
+             reason == int(GFB_REASON(SNES_DIVERGED_LOCAL_MIN))) then
+      words = 'no step made the residual smaller'
+    else
+      words = 'SNES stopped with reason '//text(reason)
+    end if
+  end function reason_in_words
+
+  !> A line of the table of iterations.
+  subroutine show_iteration(log, iteration, residual, step, length, new_factors)
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    integer, intent(in) :: iteration  !! 0: the start, whose line has no step
+    real(wp), intent(in) :: residual  !! root mean square of the scaled residual [1]
+    real(wp), intent(in) :: step      !! largest change of an unknown by the full step, relative [1]
+    real(wp), intent(in) :: length    !! share of the step that was taken [1]
+    logical, intent(in) :: new_factors !! the step's factors belong to its own matrix
+    character(len=80) :: line
+
+    if (iteration == 0) then
+      call log%detail('iteration    residual        step      length  factors')
+      write (line, '(i9, es12.3)') iteration, residual
+    else
+      write (line, '(i9, 2es12.3, f12.6, a9)') iteration, residual, step, length, &
+        merge('new   ', 'lagged', new_factors)
+    end if
+    call log%detail(trim(line))
+    call log%waiting('Newton iteration '//text(iteration)//', residual '//text(residual, 2))
+  end subroutine show_iteration
+
+  !> Says that MUMPS found its workspace too small, and how often so far.
+  subroutine show_enlargements(log, enlargements)
+    type(run_log_type), intent(in) :: log   !! gets the line
+    integer, intent(in) :: enlargements !! of the workspace, since the solver's creation
+
+    call log%line('the factors'' workspace was too small (MUMPS'' INFOG(1) = -9): enlarged, '//text(enlargements)// &
+                  ' time(s) so far')
+  end subroutine show_enlargements
+
+  !> The norm over all equations of what rounding may leave of the scaled residual [1].
+  function backward_error(matrix, state) result(rounding)
+    Mat, intent(in) :: matrix !! the derivative of the residual, scaled
+    Vec, intent(in) :: state  !! scaled
+    real(wp) :: rounding
+
+    Mat :: magnitudes
+    Vec :: sizes, sums
+    PetscInt, allocatable :: column(:)
+    PetscScalar, allocatable :: value(:)
+    PetscInt :: first, last, row, entries
+    PetscReal :: norm
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDuplicate(matrix, MAT_DO_NOT_COPY_VALUES, magnitudes, ierr))
+    PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
+    do row = first, last - 1
+      entries = row_length(matrix, row)
+      allocate (column(entries), value(entries))
+      call copy_row(matrix, row, entries, column, value)
+      PetscCallA(MatSetValues(magnitudes, 1_pint, [row], entries, column, abs(value), INSERT_VALUES, ierr))
+      deallocate (column, value)
+    end do
+    PetscCallA(MatAssemblyBegin(magnitudes, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(magnitudes, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(VecDuplicate(state, sizes, ierr))
+    PetscCallA(VecDuplicate(state, sums, ierr))
+    PetscCallA(VecCopy(state, sizes, ierr))
+    PetscCallA(VecAbs(sizes, ierr))
+    PetscCallA(MatMult(magnitudes, sizes, sums, ierr))
+    PetscCallA(VecNorm(sums, NORM_2, norm, ierr))
+    rounding = roundings*0.5_wp*epsilon(1.0_wp)*norm
+    PetscCallA(VecDestroy(sums, ierr))
+    PetscCallA(VecDestroy(sizes, ierr))
+    PetscCallA(MatDestroy(magnitudes, ierr))
+  end function backward_error
 
   !> Sets up SNES for a system; both must stay where they are.
   subroutine create_newton(newton, system, prefix, settings, log)

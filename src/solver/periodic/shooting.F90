@@ -7,17 +7,35 @@
 !>
 !> Period and parameter are entries of x like all others, and two linear equations close the system: a given value, a phase,
 !> an arc length.
+!>
+!> Where a shaft begins to whirl as a parameter changes: the equilibrium's least damped mode, by the map of one turn.
+!>
+!> A mode of rate lambda has the multiplier exp(lambda T). The turns that it makes in T, of which the multiplier says nothing,
+!> are known from the place one step ago, which is part of its vector.
 module gfb_shooting
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_linear_solve, only: solve_general
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
-  use gfb_period_map, only: period_map_type, apply_map, dots, tail
-  use gfb_eigenvalues, only: find_eigenvalues
+  use gfb_period_map, only: period_map_type, apply_map, dots, tail, period_of, drive_at, parameter_of
+  use gfb_shaft_drive, only: shaft_drive_type
   implicit none (type)
   private
-  public :: shoot, learn_map, model_step
+  public :: find_eigenvalues, shoot, learn_map, model_step
+
+  interface
+    !> LAPACK: eigenvalues and eigenvectors of a general matrix.
+    subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: jobvl, jobvr
+      integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+      real(wp), intent(inout) :: a(lda, n)
+      real(wp), intent(out) :: wr(n), wi(n), vl(ldvl, n), vr(ldvr, n), work(lwork)
+      integer, intent(out) :: info
+    end subroutine dgeev
+  end interface
 
   real(wp), parameter :: closed = 1.0e-11_wp     !! an orbit, and its conditions [1]
   real(wp), parameter :: nearly = 1.0e-9_wp      !! the same along a branch, or where round-off ends it [1]
@@ -49,7 +67,62 @@ module gfb_shooting
     complex(wp), allocatable :: vector(:, :) !! (entries, values), of length 1 [1]
   end type floquet_type
 
+  public :: find_onset, fixed_parameter
+
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter :: visible = 0.02_wp  !! multiplier of a mode that is looked at [1]
+  real(wp), parameter :: slow = 0.05_wp     !! whirl over the speed that is none [1]
+  real(wp), parameter :: neutral = 1.0e-7_wp !! growth over the speed that is none [1]
+  integer, parameter :: stretches = 8       !! in which a change of sign is looked for
+  integer, parameter :: most_trials = 12    !! then
+
+  !> An equilibrium and its least damped mode.
+  type, public :: whirl_type
+    real(wp), allocatable :: x(:)        !! the equilibrium [1]
+    real(wp) :: growth = 0.0_wp          !! over the speed [1]
+    real(wp) :: frequency = 0.0_wp       !! [rad/s]
+    real(wp) :: slope = 0.0_wp           !! sign of the growth over the parameter
+    complex(wp), allocatable :: mode(:)  !! as a point, its places of length 1 [1]
+  end type whirl_type
+
 contains
+
+  !> Eigenvalues by falling size, and their vectors of length 1.
+  subroutine find_eigenvalues(matrix, value, vector)
+    real(wp), intent(in) :: matrix(:, :)      !! (n, n) [1]
+    complex(wp), intent(out) :: value(:)      !! (n) [1]
+    complex(wp), intent(out) :: vector(:, :)  !! (n, n) a column a value [1]
+    real(wp) :: copy(size(matrix, 1), size(matrix, 1)), right(size(matrix, 1), size(matrix, 1)), &
+      left(1, size(matrix, 1))
+    real(wp) :: real_part(size(matrix, 1)), imaginary_part(size(matrix, 1)), work(8*size(matrix, 1))
+    complex(wp) :: found(size(matrix, 1)), column(size(matrix, 1), size(matrix, 1))
+    logical :: left_over(size(matrix, 1))
+    integer :: n, i, k, info
+
+    n = size(matrix, 1)
+    copy = matrix
+    call dgeev('N', 'V', n, copy, n, real_part, imaginary_part, left, 1, right, n, work, &
+      size(work), info)
+    if (info /= 0) error stop 'gfb_shooting: LAPACK found no eigenvalues'
+    found = cmplx(real_part, imaginary_part, wp)
+    i = 1
+    do while (i <= n)
+      column(:, i) = right(:, i)
+      if (abs(imaginary_part(i)) > 0.0_wp .and. i < n) then ! a conjugate pair has two real columns
+        column(:, i) = cmplx(right(:, i), right(:, i + 1), wp)
+        column(:, i + 1) = conjg(column(:, i))
+        i = i + 1
+      end if
+      i = i + 1
+    end do
+    left_over = .true.
+    do k = 1, n
+      i = maxloc(abs(found), 1, left_over)
+      left_over(i) = .false.
+      value(k) = found(i)
+      vector(:, k) = column(:, i)
+    end do
+  end subroutine find_eigenvalues
 
   !> From a point near an orbit to the orbit; `.false.` where none is found.
   function shoot(map, bearing, newton, condition, derivative, x, y, iterations) result(found)
@@ -276,4 +349,146 @@ contains
     floquet%value = value
     floquet%vector = matmul(derivative%basis, vector)
   end subroutine find_multipliers
+
+  !> The conditions that keep period and parameter as they are at a point.
+  pure function fixed_parameter(x) result(condition)
+    real(wp), intent(in) :: x(:) !! the point [1]
+    type(condition_type) :: condition
+
+    allocate (condition%row(size(x), conditions), source=0.0_wp)
+    condition%row(size(x) - 1, 1) = 1.0_wp
+    condition%row(size(x), 2) = 1.0_wp
+    condition%value = x(size(x) - 1:)
+  end function fixed_parameter
+
+  !> The first value of the parameter, from that of a point on, at which the growth of its equilibrium changes its sign.
+  function find_onset(map, bearing, newton, x, final_value, onset) result(found)
+    type(period_map_type), intent(inout) :: map !! of one turn, not free
+    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    real(wp), intent(in) :: x(:) !! equilibrium, to begin with [1]
+    real(wp), intent(in) :: final_value !! of the parameter [its unit]
+    type(whirl_type), intent(out) :: onset
+    logical :: found
+    type(whirl_type) :: low, high, trial
+    real(wp) :: way, share
+    integer :: i
+
+    found = look_at(map, bearing, newton, x, parameter_of(map, x), low)
+    if (.not. found) return
+    way = (final_value - parameter_of(map, x))/stretches
+    do i = 1, stretches
+      found = look_at(map, bearing, newton, low%x, parameter_of(map, low%x) + way, high)
+      if (.not. found) return
+      if ((low%growth > 0.0_wp) .neqv. (high%growth > 0.0_wp)) exit
+      low = high
+    end do
+    found = i <= stretches
+    map%problem = 'no onset of whirl on the way of the parameter'
+    if (.not. found) return
+    do i = 1, most_trials
+      share = low%growth/(low%growth - high%growth)
+      found = look_at(map, bearing, newton, low%x, (1.0_wp - share)*parameter_of(map, low%x) &
+                      + share*parameter_of(map, high%x), trial)
+      if (.not. found) return
+      trial%slope = sign(1.0_wp, (high%growth - low%growth)*(parameter_of(map, high%x) - parameter_of(map, low%x)))
+      if (abs(trial%growth) < neutral) exit
+      if ((trial%growth > 0.0_wp) .eqv. (low%growth > 0.0_wp)) then
+        low = trial
+      else
+        high = trial
+      end if
+    end do
+    found = refine(map, bearing, newton, (high%growth - low%growth)/(parameter_of(map, high%x) - parameter_of(map, low%x)), trial)
+    onset = trial
+  end function find_onset
+
+  !> The onset again in steps of which whole ones are a period of the whirl: those of its limit cycles.
+  function refine(map, bearing, newton, slope, onset) result(found)
+    type(period_map_type), intent(inout) :: map !! gets the steps of that period
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    real(wp), intent(in) :: slope !! of the growth over the parameter
+    type(whirl_type), intent(inout) :: onset
+    logical :: found
+    integer, parameter :: times = 2
+    type(shaft_drive_type) :: drive
+    type(whirl_type) :: trial
+    real(wp) :: steps
+    integer :: i, steps_of_turn
+
+    steps_of_turn = map%steps
+    found = .true.
+    do i = 0, times
+      drive = drive_at(map, onset%x)
+      steps = steps_of_turn*drive%speed/onset%frequency
+      map%stretch = steps/nint(steps)
+      if (i == times) exit
+      found = look_at(map, bearing, newton, onset%x, parameter_of(map, onset%x) - merge(0.0_wp, onset%growth/slope, i == 0), trial)
+      if (.not. found) return
+      trial%slope = onset%slope
+      onset = trial
+    end do
+    onset%x(size(onset%x)) = onset%x(size(onset%x)) - onset%growth/slope/map%parameter_scale
+    map%steps = nint(steps)
+  end function refine
+
+  !> The equilibrium at a value of the parameter, and its least damped mode.
+  function look_at(map, bearing, newton, x, value, whirl) result(found)
+    type(period_map_type), intent(inout) :: map
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    real(wp), intent(in) :: x(:) !! an equilibrium near by
+    real(wp), intent(in) :: value !! [its unit]
+    type(whirl_type), intent(out) :: whirl
+    logical :: found
+    type(derivative_type) :: derivative
+    type(floquet_type) :: floquet
+    type(condition_type) :: condition
+    real(wp) :: y(size(x))
+    integer :: periods
+
+    whirl%x = x
+    whirl%x(size(x)) = value/map%parameter_scale
+    condition = fixed_parameter(whirl%x)
+    allocate (derivative%basis(size(x), 0), derivative%image(size(x), 0))
+    found = shoot(map, bearing, newton, condition, derivative, whirl%x, y, periods)
+    if (.not. found) return
+    found = learn_map(map, bearing, newton, whirl%x, y, derivative, floquet)
+    if (.not. found) return
+    call take_mode(map, floquet, whirl)
+    found = whirl%frequency > 0.0_wp
+    map%problem = 'the equilibrium has no mode that whirls'
+  end function look_at
+
+  !> The mode that grows most among those that whirl.
+  subroutine take_mode(map, floquet, whirl)
+    type(period_map_type), intent(in) :: map
+    type(floquet_type), intent(in) :: floquet
+    type(whirl_type), intent(inout) :: whirl
+    type(shaft_drive_type) :: drive
+    complex(wp) :: now(2), before(2)
+    real(wp) :: period, speed, seen, frequency, growth, best
+    integer :: i, shaft
+
+    period = period_of(map, whirl%x)
+    drive = drive_at(map, whirl%x)
+    speed = drive%speed
+    shaft = size(whirl%x) - tail
+    best = -huge(best)
+    do i = 1, size(floquet%value)
+      if (abs(floquet%value(i)) < visible) cycle
+      now = floquet%vector(shaft + 1:shaft + 2, i)
+      before = floquet%vector(shaft + 3:shaft + 4, i)
+      seen = atan2(aimag(dot_product(before, now)), real(dot_product(before, now)))*map%steps/period
+      frequency = atan2(aimag(floquet%value(i)), real(floquet%value(i)))
+      frequency = (frequency + 2.0_wp*pi*nint((seen*period - frequency)/(2.0_wp*pi)))/period
+      growth = log(abs(floquet%value(i)))/period
+      if (frequency < slow*speed .or. growth < best) cycle
+      best = growth
+      whirl%growth = growth/speed
+      whirl%frequency = frequency
+      whirl%mode = floquet%vector(:, i)/sqrt(sum(abs(now)**2))
+    end do
+  end subroutine take_mode
 end module gfb_shooting

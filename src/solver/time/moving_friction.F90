@@ -2,7 +2,7 @@
 !> Friction of foils that begin to move: the law of motions takes over from that of the state at rest.
 module gfb_moving_friction
   use gfb_kinds, only: wp
-  use gfb_moving_contacts, only: set_contacts_moving, take_over_friction
+  use gfb_contacts_in_motion, only: set_contacts_moving, take_over_friction
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type)
   private

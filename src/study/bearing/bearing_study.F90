@@ -22,8 +22,7 @@ module gfb_bearing_study
   use gfb_motions, only: motion_type, moves
   use gfb_sweep, only: sweep_type
   use gfb_bearing_solution, only: solve_bearing
-  use gfb_dynamics_writing, only: record_arrays, write_coefficients
-  use gfb_bearing_writing, only: bearing_result_type, write_bearing
+  use gfb_bearing_writing, only: record_arrays, write_coefficients, bearing_result_type, write_bearing
   implicit none (type)
   private
 

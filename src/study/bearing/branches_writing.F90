@@ -17,10 +17,10 @@ module gfb_branches_writing
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
-  use gfb_foil_output, only: add_foil_grids
+  use gfb_foil_grid, only: add_foil_grids
   use gfb_contact_record, only: foil_contact_arrays
   use gfb_run_context, only: run_context_type
-  use gfb_answer_judgement, only: judge_answer
+  use gfb_answer_record, only: judge_answer
   implicit none (type, external)
   private
   public :: write_branches

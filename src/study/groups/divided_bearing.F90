@@ -20,13 +20,12 @@ module gfb_divided_bearing
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
   use gfb_grid_series, only: cut_series
-  use gfb_dynamics_writing, only: record_arrays, write_coefficients
+  use gfb_bearing_writing, only: record_arrays, write_coefficients, bearing_result_type, write_bearing
   use gfb_restart, only: drop_restart
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type
   use gfb_reasons, only: reason_failed
   use gfb_bearing_study, only: bearing_study_type
-  use gfb_bearing_writing, only: bearing_result_type, write_bearing
   use gfb_pool, only: pool_type, group_log_path, end_log
   use gfb_bearing_blocks, only: bearing_block_type, visit_block, merge_histories, merge_arrays, seam_words, place_text, &
                                 add_origin, merge_dynamics, merge_frequencies, merge_series

@@ -12,8 +12,7 @@ module gfb_divided_sample
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_run_context, only: run_context_type
-  use gfb_sample, only: sample_type
-  use gfb_sample_writing, only: write_sample
+  use gfb_sample, only: sample_type, write_sample
   use gfb_scene, only: scene_type
   use gfb_text, only: text
   implicit none (type, external)

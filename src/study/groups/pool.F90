@@ -15,7 +15,7 @@ module gfb_pool
   use gfb_quantity, only: quantity_type
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_table_file, only: table_member_type, visit_member
+  use gfb_text_file, only: table_member_type, visit_member
   use gfb_petsc_session, only: gfb_started, gfb_watch_start, any_rank
   use gfb_provenance, only: version_text
   use gfb_division, only: block_ends, owner_of

@@ -1,31 +1,35 @@
 #include "gfb_petsc.h"
 !> Orbits of a shaft that close after a period, at one point or along a branch.
 module gfb_periodic
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
   use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_scene, only: scene_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_periodic_case, only: motion_free, follow_speed, follow_unbalance, follow_mass
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass, drive_at, &
+                            period_of, rest_of, let_go, apply_map, dots, tail
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_shooting, only: floquet_type, shoot, learn_map, model_step, derivative_type, condition_type, conditions, whirl_type, &
+                          find_onset, fixed_parameter
+  use gfb_orbit_table, only: orbit_type, extent_of, leading, orbit_table_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
-  use gfb_text, only: text
-  use gfb_scene, only: scene_type
-  use gfb_periodic_case, only: motion_free
-  use gfb_shaft_drive, only: shaft_drive_type
-  use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_moving_friction, only: begin_rubbing
-  use gfb_period_map, only: period_map_type, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at, &
-                            moved_speed, tail
-  use gfb_shooting, only: shoot, learn_map, model_step, derivative_type, condition_type, floquet_type, conditions
-  use gfb_scene_map, only: set_map, value_words, words_at, step_within
-  use gfb_whirl_onset, only: whirl_type, find_onset, fixed_parameter
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
   use gfb_run_context, only: run_context_type
-  use gfb_orbit_judgement, only: judge_orbit, words_of
-  use gfb_orbit_table, only: orbit_table_type, orbit_type, extent_of
   implicit none (type)
   private
 
   real(wp), parameter :: pi = acos(-1.0_wp)
+
+  real(wp), parameter :: micro = 1.0e6_wp
+  real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
+
   real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
   real(wp), parameter :: shortest = 1.0e-3_wp !! step of the branch over the longest one [1]
   integer, parameter :: easy = 7, hard = 11    !! iterations after which steps grow, or shrink
@@ -59,6 +63,165 @@ module gfb_periodic
   end type periodic_type
 
 contains
+
+  !> The map of a scene, and the bounds of its parameter.
+  subroutine set_map(scene, bearing, map, bounds)
+    type(scene_type), intent(in) :: scene !! with `&periodic`
+    type(bearing_system_type), intent(in) :: bearing !! whose shaft is free
+    type(period_map_type), intent(out) :: map !! created
+    real(wp), intent(out) :: bounds(2) !! of the parameter of a point: begin, end [1]
+    real(wp) :: final
+
+    associate (periodic => scene%periodic)
+      map%drive%mass = scene%rotor%mass
+      map%drive%load = scene%operation%load
+      map%drive%speed = angular_speed(scene%operation%speed_rpm)
+      map%drive%unbalance = periodic%unbalance
+      map%drive%unbalance_angle = periodic%unbalance_angle
+      map%settings%damping = periodic%foundation_damping
+      map%settings%arm = periodic%arm
+      map%turns = 1
+      if (periodic%motion /= motion_free) map%turns = periodic%period_turns
+      map%steps = periodic%steps_per_turn*map%turns
+      map%period_scale = 2.0_wp*pi*map%turns/map%drive%speed
+      final = periodic%final_value
+      select case (periodic%parameter)
+      case (follow_speed)
+        map%parameter = moved_speed
+        final = angular_speed(final)
+        bounds = [map%drive%speed, final]
+      case (follow_unbalance)
+        map%parameter = moved_unbalance
+        bounds = [map%drive%unbalance, final]
+      case (follow_mass)
+        map%parameter = moved_mass
+        bounds = [map%drive%mass, final]
+      case default
+        map%parameter = 0
+        bounds = [0.0_wp, 1.0_wp]
+      end select
+    end associate
+    map%parameter_scale = abs(bounds(2) - bounds(1))
+    bounds = bounds/map%parameter_scale
+    call create_map(bearing, map)
+  end subroutine set_map
+
+  !> The parameter at an orbit, in words.
+  function value_words(map, x) result(words)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! the orbit's point [1]
+    character(len=:), allocatable :: words
+    real(wp) :: value
+
+    value = parameter_of(map, x)
+    select case (map%parameter)
+    case (moved_speed)
+      words = text(value*30.0_wp/pi, 7)//' rpm'
+    case (moved_unbalance)
+      words = 'unbalance '//text(value, 6)//' kg m'
+    case (moved_mass)
+      words = 'mass '//text(value, 6)//' kg'
+    case default
+      words = text(map%drive%speed*30.0_wp/pi, 7)//' rpm'
+    end select
+  end function value_words
+
+  !> Another value of the parameter, in words.
+  function words_at(map, x, parameter) result(words)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! any point [1]
+    real(wp), intent(in) :: parameter !! as points have it [1]
+    character(len=:), allocatable :: words
+
+    words = value_words(map, [x(:size(x) - 1), parameter])
+  end function words_at
+
+  !> A step along the branch, not beyond the bounds of the parameter.
+  function step_within(bounds, now, rate, step, at_bound) result(taken)
+    real(wp), intent(in) :: bounds(2) !! of the parameter of a point [1]
+    real(wp), intent(in) :: now, rate !! of the parameter: its value, and its change along the branch [1]
+    real(wp), intent(in) :: step !! along the branch [1]
+    logical, intent(out) :: at_bound !! the step ends there
+    real(wp) :: taken, low, high
+
+    low = minval(bounds)
+    high = maxval(bounds)
+    taken = step
+    if (now + rate*step > high) taken = (high - now)/rate
+    if (now + rate*step < low) taken = (low - now)/rate
+    at_bound = now + rate*step > high .or. now + rate*step < low
+  end function step_within
+
+  !> Fills an orbit whose places are known, and says how it is unstable; empty where it is not.
+  !>
+  !> A free orbit always has a multiplier of 1, that of a shift along itself, and the onset of whirl two: those nearest to 1 are
+  !> left out of the judgement.
+  subroutine judge_orbit(map, x, gap, floquet, neutral, orbit, loss)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! the orbit's point [1]
+    real(wp), intent(in) :: gap !! the smallest one of the orbit [m]
+    type(floquet_type), intent(in) :: floquet !! its multipliers, none where they are not known
+    integer, intent(in) :: neutral !! multipliers that are known to be 1
+    type(orbit_type), intent(inout) :: orbit !! with its places
+    character(len=:), allocatable, intent(out) :: loss !! of stability
+    type(shaft_drive_type) :: drive
+    complex(wp) :: largest
+    logical :: counts(size(floquet%value))
+    real(wp) :: period, size_of, stable
+    integer :: many, i
+
+    drive = drive_at(map, x)
+    period = period_of(map, x)
+    counts = .true.
+    do i = 1, neutral
+      counts(minloc(abs(floquet%value - 1.0_wp), 1, counts)) = .false.
+    end do
+    size_of = ieee_value(size_of, ieee_quiet_nan)
+    stable = size_of
+    loss = ''
+    if (size(floquet%value) > 0) then
+      largest = floquet%value(maxloc(abs(floquet%value), 1, counts))
+      size_of = abs(largest)
+      if (size_of > 1.0_wp + known) loss = kind_of(largest)
+      stable = merge(1.0_wp, 0.0_wp, loss == '')
+    end if
+    many = min(leading, size(floquet%value))
+    orbit%multiplier(:many) = floquet%value(:many)
+    associate (x_places => orbit%place(1, :map%steps), y_places => orbit%place(2, :map%steps))
+      orbit%value = [drive%speed, drive%unbalance, drive%mass, period, 2.0_wp*pi/(period*drive%speed), &
+                     extent_of(orbit%place(1, :)), extent_of(orbit%place(2, :)), sum(x_places)/map%steps, &
+                     sum(y_places)/map%steps, gap, size_of, stable, real(map%periods, wp)]
+    end associate
+  end subroutine judge_orbit
+
+  !> How an orbit with a multiplier beyond 1 leaves.
+  pure function kind_of(multiplier) result(words)
+    complex(wp), intent(in) :: multiplier
+    character(len=:), allocatable :: words
+
+    if (abs(aimag(multiplier)) > 0.0_wp) then
+      words = 'torus (Neimark-Sacker)'
+    else if (real(multiplier) > 0.0_wp) then
+      words = 'real multiplier above 1'
+    else
+      words = 'period doubling'
+    end if
+  end function kind_of
+
+  !> An orbit in words.
+  function words_of(orbit, clearance, loss) result(words)
+    type(orbit_type), intent(in) :: orbit !! complete
+    real(wp), intent(in) :: clearance !! C [m]
+    character(len=*), intent(in) :: loss !! of its stability, or none
+    character(len=:), allocatable :: words
+
+    words = 'orbit '//text(extent_of(orbit%place(1, :))*micro, 4)//' x '//text(extent_of(orbit%place(2, :))*micro, 4)// &
+            ' um, over C '//text(extent_of(orbit%place(1, :))/clearance, 3)//', frequency ratio ' &
+            //text(orbit%frequency_ratio(), 6)//', smallest film '//text(orbit%smallest_gap()*micro, 4)// &
+            ' um'
+    if (.not. ieee_is_nan(orbit%largest())) words = words//', largest multiplier '//text(orbit%largest(), 5)
+    if (loss /= '') words = words//': unstable, '//loss
+  end function words_of
 
   !> Finds the orbits, from an equilibrium on.
   subroutine run_periodic(self, scene, context, bearing, newton, reason)

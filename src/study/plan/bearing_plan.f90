@@ -1,33 +1,35 @@
 !> What a scene needs, and no more; each choice with its reason.
 module gfb_bearing_plan
   use gfb_kinds, only: wp
-  use gfb_text, only: text
-  use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: rank_count
-  use gfb_scene, only: scene_type
-  use gfb_scene_rules, only: is_symmetric
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
-  use gfb_model_case, only: foil_elastic_foundation, foil_shell, meshes_foils, foil_word, &
+  use gfb_bearing_case, only: bearing_case_type, pad_length
+  use gfb_foundation_foil, only: foundation_stiffness
+  use gfb_gas_case, only: gas_case_type
+  use gfb_model_case, only: foil_elastic_foundation, meshes_foils, foil_shell, foil_word, &
                             foil_meaning, reduction_guyan, half_width_auto, half_width_yes, &
                             film_scheme_supg, film_scheme_auto, film_order_biquadratic, &
                             foundation_pressure_axial_mean
-  use gfb_bearing_case, only: pad_length
   use gfb_operation_case, only: angular_speed
-  use gfb_sweep_case, only: sweep_speed
+  use gfb_run_log, only: run_log_type
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_strip_load_case, only: bump_stiffness
+  use gfb_sweep_case, only: sweep_load, sweep_speed
+  use gfb_text, only: text
+  use gfb_petsc_session, only: rank_count
+  use gfb_scene_rules, only: is_symmetric
   use gfb_shell_geometry, only: node_unknowns
   use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_shaft_motion, only: entraining_speed
-  use gfb_foundation_foil, only: foundation_stiffness
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_solver_case, only: linear_solver_out_of_core
-  use gfb_memory_estimate, only: film_memory, bearing_memory
-  use gfb_memory_check, only: show_memory
-  use gfb_scene_numbers, only: show_numbers
+  use gfb_memory_check, only: film_memory, bearing_memory, show_memory
   implicit none (type, external)
   private
   public :: plan_bearing
+
+  integer, parameter :: digits = 3 !! shown
 
   !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
   !> Lambda 0.1 to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error;
@@ -36,6 +38,62 @@ module gfb_bearing_plan
   real(wp), parameter :: galerkin_limit = 2.0_wp
 
 contains
+
+  !> Bearing number, load, clearance and stiffness of the bumps, as far as the scene has them.
+  subroutine show_numbers(scene, log)
+    type(scene_type), intent(in) :: scene !! of a bearing
+    type(run_log_type), intent(in) :: log !! where lines go
+    real(wp) :: stiffness !! of the bumps [N/m^3]
+    real(wp) :: p_a, area !! [Pa], D L [m^2]
+
+    p_a = scene%gas%ambient_pressure
+    area = 2.0_wp*scene%bearing%radius*scene%bearing%length
+    call log%line('numbers without unit:')
+    call log%line('  clearance over radius C/R: '// &
+                  text(scene%bearing%clearance/scene%bearing%radius, digits))
+    call log%line('  bearing number 6 mu Omega/p_a (R/C)^2: '// &
+                  spread_text(scene, sweep_speed, scene%operation%speed_rpm, &
+                              bearing_number(scene%bearing, scene%gas, 1.0_wp)))
+    if (scene%general%analysis == analysis_equilibrium) then
+      call log%line('  load over p_a D L: '// &
+                    spread_text(scene, sweep_load, norm2(scene%operation%load), 1.0_wp/(p_a*area)))
+    end if
+    stiffness = 0.0_wp
+    if (scene%model%foil == foil_elastic_foundation) then
+      stiffness = foundation_stiffness(scene%model, scene%bump_foil)
+    else if (meshes_foils(scene%model%foil)) then
+      stiffness = bump_stiffness(scene%bump_foil)
+    end if
+    if (stiffness > 0.0_wp) then
+      call log%line('  bump stiffness times C over p_a: '// &
+                    text(stiffness*scene%bearing%clearance/p_a, digits))
+    end if
+  end subroutine show_numbers
+
+  !> Bearing number 6 mu Omega / p_a (R / C)^2 [1].
+  elemental function bearing_number(bearing, gas, speed_rpm) result(number)
+    type(bearing_case_type), intent(in) :: bearing !! the pad
+    type(gas_case_type), intent(in) :: gas !! its gas
+    real(wp), intent(in) :: speed_rpm !! of the shaft [rpm]
+    real(wp) :: number
+
+    number = 6.0_wp*gas%viscosity*angular_speed(speed_rpm)/gas%ambient_pressure* &
+             (bearing%radius/bearing%clearance)**2
+  end function bearing_number
+
+  !> A number in proportion to what a sweep may change: one value, or the range of the sweep.
+  function spread_text(scene, parameter, value, factor) result(words)
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: parameter !! of the sweep that changes it
+    real(wp), intent(in) :: value    !! without such a sweep [its unit]
+    real(wp), intent(in) :: factor   !! number over value [1/its unit]
+    character(len=:), allocatable :: words
+
+    words = text(factor*value, digits)
+    if (.not. scene%sweep%present .or. scene%sweep%parameter /= parameter) return
+    words = text(factor*minval(scene%sweep%values), digits)//' to '// &
+            text(factor*maxval(scene%sweep%values), digits)
+  end function spread_text
 
   !> Chooses width, weighting and unknowns, and tells the log why.
   subroutine plan_bearing(scene, log, plan)

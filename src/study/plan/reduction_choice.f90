@@ -14,7 +14,7 @@ module gfb_reduction_choice
   use gfb_solver_case, only: linear_solver_iterative
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_plan, only: count_bumps, has_friction
-  use gfb_memory_estimate, only: strip_memory, bearing_memory, factor_entries
+  use gfb_memory_check, only: strip_memory, bearing_memory, factor_entries
   implicit none (type, external)
   private
   public :: choose_reduction, reduction_cost

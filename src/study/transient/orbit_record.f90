@@ -2,7 +2,7 @@
 module gfb_orbit_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
-  use gfb_motion_extremes, only: extremes_of
+  use gfb_spectra, only: extremes_of
   use gfb_time_march, only: march_type
   implicit none (type, external)
   private

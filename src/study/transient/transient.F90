@@ -2,19 +2,28 @@
 !> A shaft over time, from an equilibrium or a given position on.
 module gfb_transient
   use gfb_kinds, only: wp
+  use gfb_scene, only: scene_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_transient_case, only: duration_of
+  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_time_march, only: march_settings_type, march_type, begin_march, take_step, end_march, visit_past, rebuild_past
+  use gfb_run_log, only: run_log_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type, newton_report_type, forget_factors
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_moving_friction, only: begin_rubbing
+  use gfb_foil_mass_choice, only: choose_momentum, resume_momentum
+  use gfb_grid_series, only: grid_series_type
+  use gfb_result_set, only: result_grid_type, add_series_step
+  use gfb_film_grid, only: add_film_grid
+  use gfb_foil_grid, only: add_foil_grids
   use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
-  use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_text, only: text
-  use gfb_scene, only: scene_type
-  use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, newton_report_type, forget_factors
-  use gfb_transient_drive, only: drive_of, settings_of
-  use gfb_transient_start, only: begin_transient
-  use gfb_time_march, only: march_type, take_step, end_march, visit_past, rebuild_past
   use gfb_march_state, only: largest_way
   use gfb_case_file, only: case_array_type, add_arrays
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
@@ -23,12 +32,14 @@ module gfb_transient
   use gfb_orbit_record, only: plane_motion, tilt_motion
   use gfb_bearing_record, only: bearing_record_type
   use gfb_petsc_session, only: wall_time
-  use gfb_foil_mass_choice, only: resume_momentum
   use gfb_bearing_restart, only: visit_answer_and_record
   use gfb_restart, only: restart_type, save_restart, read_restart, end_reading
-  use gfb_transient_fields, only: keep_fields
   implicit none (type)
   private
+
+  real(wp), parameter :: shortest = 0.01_wp !! step of the way there [1]
+
+  real(wp), parameter :: round_off = 1.0e-9_wp !! of times over the interval [1]
 
   !> The way of a shaft.
   type, public :: transient_type
@@ -51,6 +62,134 @@ module gfb_transient
   end type transient_type
 
 contains
+
+  !> How the steps of a scene are chosen.
+  pure function settings_of(scene) result(settings)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(march_settings_type) :: settings
+
+    settings%steps_per_turn = scene%transient%steps_per_turn
+    settings%tolerance = scene%transient%time_tolerance
+    settings%damping = scene%transient%foundation_damping
+    settings%arm = scene%transient%arm
+    settings%end_time = duration_of(scene%transient, scene%operation)
+  end function settings_of
+
+  !> What drives the shaft of a scene: of a rotor that tilts what each of two bearings carries
+  !> counts twice.
+  pure function drive_of(scene) result(drive)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(shaft_drive_type) :: drive
+    real(wp) :: bearings
+
+    drive%bearing_distance = scene%rotor%distance_in_time
+    bearings = merge(2.0_wp, 1.0_wp, drive%bearing_distance > 0.0_wp)
+    associate (transient => scene%transient)
+      drive%mass = bearings*scene%rotor%mass
+      drive%transverse_inertia = scene%rotor%transverse_inertia
+      drive%polar_inertia = scene%rotor%polar_inertia
+      drive%load = bearings*scene%operation%load
+      drive%speed = angular_speed(scene%operation%speed_rpm)
+      drive%ramp = duration_of(transient, scene%operation)
+      if (transient%ramp_time > 0.0_wp) drive%ramp = transient%ramp_time
+      drive%acceleration = (angular_speed(transient%final_speed_rpm) - drive%speed)/drive%ramp
+      drive%unbalance = bearings*transient%unbalance
+      drive%unbalance_angle = transient%unbalance_angle
+      drive%couple_unbalance = transient%couple_unbalance
+      drive%couple_unbalance_angle = transient%couple_unbalance_angle
+      drive%pulse = bearings*transient%pulse
+      drive%couple_pulse = transient%couple_pulse
+      drive%pulse_start = transient%pulse_start
+      drive%pulse_length = transient%pulse_length
+      drive%orbit_radius = transient%orbit_radius
+      drive%orbit_frequency = transient%orbit_frequency
+      if (size(transient%base_time) == 0) return
+      drive%base_time = transient%base_time
+      allocate (drive%base_acceleration(2, size(drive%base_time)), source=0.0_wp)
+      if (size(transient%base_acceleration_x) > 0) then
+        drive%base_acceleration(1, :) = transient%base_acceleration_x
+      end if
+      if (size(transient%base_acceleration_y) > 0) then
+        drive%base_acceleration(2, :) = transient%base_acceleration_y
+      end if
+    end associate
+  end function drive_of
+
+  !> Begins at rest, or with what a restart file will overwrite.
+  subroutine begin_transient(scene, drive, settings, goes_on, log, bearing, newton, march)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(shaft_drive_type), intent(in) :: drive !! what drives the shaft
+    type(march_settings_type), intent(in) :: settings !! how steps are chosen
+    logical, intent(in) :: goes_on !! a restart file has the rest
+    type(run_log_type), intent(in) :: log !! is told what was chosen
+    type(bearing_system_type), target, intent(inout) :: bearing !! at its steady state
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(march_type), intent(out) :: march !! ready for its first step
+
+    if (.not. goes_on) then
+      call go_to_orbit(scene, log, bearing, newton)
+      call choose_momentum(scene, log, bearing)
+    end if
+    call begin_rubbing(bearing, goes_on)
+    call begin_march(drive, settings, bearing, march)
+    if (scene%transient%orbit_radius > 0.0_wp) march%start%eccentricity = scene%operation%eccentricity
+  end subroutine begin_transient
+
+  !> Moves the sleeve and its steady film from the centre of the circle to the circle, along x.
+  !>
+  !> Where that has an end before, the first step of time is a jump from there.
+  subroutine go_to_orbit(scene, log, bearing, newton)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(run_log_type), intent(in) :: log !! told where it cannot
+    type(bearing_system_type), target, intent(inout) :: bearing !! at the centre
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type) :: first
+    type(path_report_type) :: report
+
+    if (.not. scene%transient%orbit_radius > 0.0_wp) return
+    first = bearing%point
+    first%eccentricity(1) = first%eccentricity(1) + scene%transient%orbit_radius
+    associate (solver => scene%solver)
+      call follow_path(bearing, newton, first, 1.0_wp, &
+                       path_settings_type(solver%maximum_load_steps, max(shortest, solver%smallest_load_step), solver%touch_down_gap), &
+                       report)
+    end associate
+    if (.not. report%converged) call log%line('the sleeve jumps to its orbit: no steady film leads there ('//report%reason//')')
+  end subroutine go_to_orbit
+
+  !> Adds the present film and foils to the series: at the beginning, and by the first step that
+  !> reaches each chosen time.
+  subroutine keep_fields(scene, march, bearing, series)
+    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(march_type), intent(in) :: march !! at the beginning or after a step
+    type(bearing_system_type), intent(in) :: bearing !! at the same state
+    type(grid_series_type), intent(inout) :: series !! may get a step
+    type(result_grid_type), allocatable :: grids(:)
+
+    associate (interval => scene%transient%field_interval, start => scene%transient%field_start)
+      if (.not. interval > 0.0_wp) return
+      if (march%steps == 0) then
+        if (start > 0.0_wp) return
+      else if (passed(march%time) == passed(march%time - march%step)) then
+        return
+      end if
+    end associate
+    allocate (grids(0))
+    call add_film_grid(bearing, scene%output, grids)
+    if (size(grids) == 0) return ! no field is asked for
+    call add_foil_grids(bearing, grids)
+    call add_series_step(series, 'time', 's', march%time, grids)
+  contains
+    !> Chosen times until this one.
+    pure function passed(time) result(times)
+      real(wp), intent(in) :: time !! [s]
+      integer :: times
+      real(wp) :: intervals
+
+      intervals = (time - scene%transient%field_start)/scene%transient%field_interval
+      times = max(0, floor(intervals + round_off) + 1)
+    end function passed
+  end subroutine keep_fields
 
   !> Follows the shaft from an equilibrium, or a given position; or on from where a restart file has left it.
   !>

@@ -4,12 +4,14 @@ module gfb_foil_grid
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bump_contacts, only: normal_line_force
   use gfb_contact_set, only: contact_set_type
-  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_quad_mesh, only: solid_rows
   use gfb_grid, only: grid_field_type, result_grid_type, block_bounds, add_grid_field
+  use gfb_text, only: text
+  use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: create_foil_grid, add_displacement, add_contacts, add_stress
+  public :: create_foil_grid, add_displacement, add_contacts, add_stress, add_foil_grids
 
   !> sign of (u, v, w) in the other half
   real(wp), parameter :: mirror(3) = [1.0_wp, 1.0_wp, -1.0_wp]
@@ -229,4 +231,37 @@ contains
     if (foil%mesh%half) column = merge(column - half, half + 1 - column, column > half)
     element = (cell - 1)/size(kept)*half + column
   end function solved_cell
+
+  !> Adds the surfaces that the foil has at the present state, of several pads under names with their numbers; a foil
+  !> without a mesh has none.
+  subroutine add_foil_grids(bearing, grids)
+    type(bearing_system_type), intent(in) :: bearing !! at the state to be written
+    type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written
+
+    type(foil_surface_type), allocatable :: surface(:)
+    type(surface_motion_type), allocatable :: motion(:)
+    type(result_grid_type) :: grid
+    real(wp) :: unknown(bearing%local_size())
+    character(len=:), allocatable :: behind !! the surface's name
+    integer :: i, k
+
+    call bearing%get_unknowns(unknown)
+    surface = bearing%pad(1)%foil%surfaces()
+    if (size(surface) == 0) return
+    behind = ''
+    do k = 1, size(bearing%pad)
+      associate (pad => bearing%pad(k))
+        if (size(bearing%pad) > 1) behind = '_'//text(k)
+        motion = pad%foil%motions(unknown(pad%first + 1:pad%last))
+        do i = 1, size(surface)
+          call create_foil_grid(surface(i), surface(i)%name//behind, grid)
+          grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%offset
+          call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
+          call add_stress(surface(i), motion(i)%stress, grid)
+          if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)
+          grids = [grids, grid]
+        end do
+      end associate
+    end do
+  end subroutine add_foil_grids
 end module gfb_foil_grid

@@ -1,11 +1,14 @@
+#include "gfb_petsc.h"
 !> One case file from reading to results.
 module gfb_run_case
-  use gfb_errors, only: error_type
-  use gfb_run_log, only: run_log_type
-  use gfb_petsc_session, only: rank_count
-  use gfb_machine_memory, only: start_blas
+  use petscsys
+  use gfb_case_text, only: read_standard_input
+  use gfb_errors, only: error_type, fail
+  use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_read_input, only: read_input
+  use gfb_scene_reading, only: read_scene, read_scene_text
+  use gfb_run_log, only: run_log_type
+  use gfb_machine_memory, only: start_blas
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type
   use gfb_solver_case, only: linear_solver_out_of_core
@@ -13,16 +16,52 @@ module gfb_run_case
   use gfb_command_line, only: command_line_type
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type, prepare_folder
-  use gfb_study, only: study_type
-  use gfb_run_study, only: run_study
+  use gfb_study, only: study_type, run_study
   use gfb_reduction_choice, only: choose_reduction
   use gfb_studies, only: create_study
   use gfb_check_scene, only: check_scene
-  implicit none (type, external)
+  implicit none (type)
   private
   public :: run_case, run_scene
 
+  character(len=*), parameter :: standard_input = '-' !! as a case file
+  character(len=*), parameter :: its_name = 'stdin' !! in messages, and of the results
+
 contains
+
+  !> Reads the scene of a case file, or of the standard input, which the first rank alone has.
+  !>
+  !> Fails with all mistakes, one a line.
+  subroutine read_input(file, strict, scene, error)
+    character(len=*), intent(in) :: file !! name of the case file, `-` for the standard input
+    logical, intent(in) :: strict !! warnings are mistakes
+    type(scene_type), intent(out) :: scene !! what the case file asks for
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: problem
+    integer :: length(2), ierr
+
+    if (file /= standard_input) then
+      call read_scene(file, scene, error, strict)
+      return
+    end if
+    words = ''
+    problem = ''
+    if (this_rank() == 0) call read_standard_input(words, problem)
+    length = [len(words), len(problem)]
+    call MPI_Bcast(length, 2, MPI_INTEGER, 0, PETSC_COMM_WORLD, ierr)
+    if (this_rank() > 0) then
+      words = repeat(' ', length(1))
+      problem = repeat(' ', length(2))
+    end if
+    call MPI_Bcast(words, length(1), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
+    call MPI_Bcast(problem, length(2), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
+    if (problem /= '') then
+      call fail(error, its_name//': '//problem)
+    else
+      call read_scene_text(words, its_name, scene, error, strict)
+    end if
+  end subroutine read_input
 
   !> Reads, checks, computes, writes.
   !>
