@@ -12,8 +12,8 @@ module gfb_walk
   contains
     procedure(reach_point), deferred :: reach      !! finds its answer from the last point's
     procedure(end_point), deferred :: record_point !! records it
-    procedure(end_point), deferred :: keep_point   !! for a restart, where that is due
-    procedure :: keep_stopped => keep_nothing      !! for a restart, where the walk is stopped
+    procedure(end_point), deferred :: save_point   !! for a restart, where that is due
+    procedure :: save_stopped => save_nothing      !! for a restart, where the walk is stopped
   end type walk_type
 
   abstract interface
@@ -38,10 +38,10 @@ module gfb_walk
 contains
 
   !> A walk that cannot be resumed where it is stopped.
-  subroutine keep_nothing(self, point)
+  subroutine save_nothing(self, point)
     class(walk_type), target, intent(inout) :: self !! the walk
     integer, intent(in) :: point !! number of the last one that has an answer
-  end subroutine keep_nothing
+  end subroutine save_nothing
 
   !> Walks from a point to another; the first without an answer ends the walk, and so does a signal.
   subroutine take_walk(walk, first, last, reason)
@@ -55,11 +55,11 @@ contains
       if (stop_agreed()) then
         reason%code = reason_stopped
         reason%detail = stop_words()
-        call walk%keep_stopped(point - 1)
+        call walk%save_stopped(point - 1)
       end if
       if (reason%is_given()) return
       call walk%record_point(point)
-      call walk%keep_point(point)
+      call walk%save_point(point)
     end do
   end subroutine take_walk
 end module gfb_walk

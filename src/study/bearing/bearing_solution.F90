@@ -116,7 +116,7 @@ contains
     call sweep%approach_limit(report)
     if (.not. report%converged) call sweep%explain(report, .false., reason)
     call sweep%begin(report%converged)
-    if (report%converged) call sweep%keep_point(next - 1)
+    if (report%converged) call sweep%save_point(next - 1)
   end subroutine start
 
   !> Where the load from which the largest one is looked for has no answer, half of it may have one, and so on.
@@ -186,7 +186,7 @@ contains
       if (.not. allocated(error) .and. sweep%partitioned) then
         call create_partitioned(sweep%bearing, sweep%tolerances, log, sweep%sides)
       end if
-      if (.not. allocated(error)) call sweep%last%keep(sweep%bearing, sweep%newton)
+      if (.not. allocated(error)) call sweep%last%save(sweep%bearing, sweep%newton)
       next = next + 1
       if (scene%sweep%turn_folds) next = min(next, 2) ! answers along the branch are no points
     end associate
@@ -237,11 +237,11 @@ contains
       reason = reason_type()
       if (.not. report%converged) then
         call sweep%stop_short(report, reason)
-        if (reason%code == reason_stopped) call sweep%keep_stopped(point - 1)
+        if (reason%code == reason_stopped) call sweep%save_stopped(point - 1)
         exit
       end if
       call sweep%record_point(point)
-      call sweep%keep_point(point)
+      call sweep%save_point(point)
       next = point + 1
     end do
   end subroutine walk_along_points
@@ -274,7 +274,7 @@ contains
         return
       end if
       call sweep%record_point(point)
-      call sweep%keep_point(point)
+      call sweep%save_point(point)
     end do
   end subroutine walk_along_keys
 

@@ -17,15 +17,15 @@ module gfb_last_answer
     type(kept_state_type), private :: state
     type(contact_point_type), allocatable, private :: contact(:) !! of this rank
   contains
-    procedure :: keep
-    procedure :: put_back
+    procedure :: save
+    procedure :: restore
     procedure :: destroy
   end type last_answer_type
 
 contains
 
   !> Keeps the bearing's present answer instead of the one before.
-  subroutine keep(self, bearing, newton)
+  subroutine save(self, bearing, newton)
     class(last_answer_type), intent(inout) :: self !! the kept answer
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(newton_type), intent(in) :: newton !! its solver
@@ -35,10 +35,10 @@ contains
     call self%state%keep(bearing)
     self%contact = [(bearing%pad(i)%foil%contacts%point, i=1, size(bearing%pad))]
     self%counts = [newton%iterations, newton%factorizations, newton%factorizations_before]
-  end subroutine keep
+  end subroutine save
 
   !> Brings the bearing back to the answer.
-  subroutine put_back(self, bearing, newton)
+  subroutine restore(self, bearing, newton)
     class(last_answer_type), intent(in) :: self !! the kept answer
     type(bearing_system_type), intent(inout) :: bearing !! that had it
     type(newton_type), intent(inout) :: newton !! its solver; gets the counts it had
@@ -52,7 +52,7 @@ contains
     newton%iterations = self%counts(1)
     newton%factorizations = self%counts(2)
     newton%factorizations_before = self%counts(3)
-  end subroutine put_back
+  end subroutine restore
 
   !> Frees what PETSc holds.
   subroutine destroy(self)

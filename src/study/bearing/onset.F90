@@ -61,9 +61,9 @@ contains
     end associate
     if (.not. all(known) .or. excess(1)*excess(2) > 0.0_wp) return
     bracket = root_bracket_type(speed(1), speed(2), excess(1), excess(2))
-    call kept%keep(bearing, newton)
+    call kept%save(bearing, newton)
     call close_in(scene, path, bearing, newton, build, bracket, problem)
-    call kept%put_back(bearing, newton)
+    call kept%restore(bearing, newton)
     call bearing%linearise(bearing%state)
     call kept%destroy()
     if (.not. allocated(problem)) onset = bracket%high

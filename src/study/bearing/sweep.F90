@@ -50,8 +50,8 @@ module gfb_sweep
     procedure :: begin => begin_sweep
     procedure :: reach => reach_value
     procedure :: record_point => record_value
-    procedure :: keep_point => keep_value
-    procedure :: keep_stopped
+    procedure :: save_point => save_value
+    procedure :: save_stopped
     procedure :: target_at
     procedure :: approach_limit
     procedure :: leave
@@ -201,30 +201,30 @@ contains
   end subroutine watch
 
   !> Writes the restart file after a point, where one is due; 0: where the shaft is fixed.
-  subroutine keep_value(self, point)
+  subroutine save_value(self, point)
     class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point !! number of the sweep's value
 
     if (.not. self%scene%sweep%present) return
-    call self%last%keep(self%bearing, self%newton)
+    call self%last%save(self%bearing, self%newton)
     if (.not. self%context%restart%is_due(point)) return
     call save_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
                       self%record)
     if (self%context%restart%every > 0) call forget_partitioned(self%sides)
-  end subroutine keep_value
+  end subroutine save_value
 
   !> Writes the restart file of a sweep that is stopped after a point; 0: where the shaft is fixed.
-  subroutine keep_stopped(self, point)
+  subroutine save_stopped(self, point)
     class(sweep_type), target, intent(inout) :: self !! the sweep
     integer, intent(in) :: point !! number of the last value that has an answer
 
     if (.not. (self%last%known .and. self%context%restart%may_be_written())) return
-    call self%last%put_back(self%bearing, self%newton)
+    call self%last%restore(self%bearing, self%newton)
     call save_bearing(self%scene, self%context%restart, self%context%log, point, self%bearing, self%newton, &
                       self%record)
     call self%context%restart%tell(self%context%log, stop_words()//' after point '//text(point)//' of '// &
                                    text(size(self%scene%sweep%values)))
-  end subroutine keep_stopped
+  end subroutine save_stopped
 
   !> Where a sweep point puts the shaft; a fixed shaft stays where it is.
   function target_at(self, point) result(target)

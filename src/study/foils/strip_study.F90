@@ -60,8 +60,8 @@ module gfb_strip_study
   contains
     procedure :: reach => reach_step
     procedure :: record_point => record_step
-    procedure :: keep_point => keep_step
-    procedure :: keep_stopped
+    procedure :: save_point => save_step
+    procedure :: save_stopped
     procedure, private :: save
     procedure, private :: restore
     procedure, private :: visit
@@ -166,15 +166,15 @@ contains
   end subroutine record_step
 
   !> Writes the restart file, where one is due.
-  subroutine keep_step(self, point)
+  subroutine save_step(self, point)
     class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
 
     if (self%context%restart%is_due(point)) call self%save()
-  end subroutine keep_step
+  end subroutine save_step
 
   !> Writes the restart file of load steps that are stopped after one of them.
-  subroutine keep_stopped(self, point)
+  subroutine save_stopped(self, point)
     class(load_steps_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the last one that has an answer
 
@@ -182,7 +182,7 @@ contains
     call self%save()
     call self%context%restart%tell(self%context%log, stop_words()//' after step '//text(point)//' of '// &
                                    text(self%scene%strip_load%steps_up + self%scene%strip_load%steps_down))
-  end subroutine keep_stopped
+  end subroutine save_stopped
 
   !> Writes the restart file after a step; where files are asked for the solver loses its factors.
   subroutine save(self)
