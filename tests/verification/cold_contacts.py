@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Foils in contact, from nothing: every load, speed, friction and fixed edge converges, or its fold is named.
 
-With --long at other friction, on shells too, and to the fold by more ways.
+With --long at other friction, on shells too, also in many rows, and to the fold by more ways.
 """
 
 import re
@@ -79,11 +79,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if "--long" in sys.argv:
             check_points(checks, folder, (0.0, 0.3))
+            check_rows(checks, folder)
             check_shells(checks, folder)
             check_fold(checks, folder, WAYS)
         else:
             check_points(checks, folder, (0.1,))
-            check_rows(checks, folder)
             check_fold(checks, folder, WAYS[:2])
     checks.close()
 

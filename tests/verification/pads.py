@@ -143,8 +143,8 @@ def check_turns(checks, folder):
         for name in ("eccentricity_x", "minimum_gap", "minimum_gap_2", "force_x_1", "friction_torque"):
             checks.below(f"{foil}: in turns, {name}", turns[name]/together[name] - 1.0, limit)
     ranks = solve(folder, "ranks", of_pads("beam", {"count": 3}, load=(-60.0, 20.0),
-                                           model={"foil": "beam", "coupling": "partitioned"}), ranks=4)
-    checks.below("in turns, four ranks", ranks["minimum_gap"]/turns["minimum_gap"] - 1.0, limit)
+                                           model={"foil": "beam", "coupling": "partitioned"}), ranks=2)
+    checks.below("in turns, two ranks", ranks["minimum_gap"]/turns["minimum_gap"] - 1.0, limit)
 
 
 def turned(vector, times):
@@ -232,9 +232,9 @@ def check_sweep(checks, folder):
     """Ranks, and the end of a sweep, find what one rank finds at once."""
     for foil in ("beam", "shell"):
         once = solve(folder, "once", of_pads(foil, {"count": 3}, load=(-40.0, 0.0)))
-        others = {"3 ranks": (3, {}),
-                  "a sweep": (1, {"sweep": {"parameter": "load", "values": (60.0, 50.0, 40.0)}}),
-                  "a sweep over the preload": (1, {"sweep": {"parameter": "pads%preload", "values": (0.3, 0.2)}})}
+        others = {"a sweep over the preload": (1, {"sweep": {"parameter": "pads%preload", "values": (0.3, 0.2)}})}
+        if foil == "beam":  # shells on other ranks: every_input.py
+            others |= {"2 ranks": (2, {}), "a sweep": (1, {"sweep": {"parameter": "load", "values": (60.0, 50.0, 40.0)}})}
         for words, (ranks, more) in others.items():
             other = solve(folder, "other", of_pads(foil, {"count": 3}, load=(-40.0, 0.0), **more), ranks=ranks)
             worst = max(abs(other[name]/once[name] - 1.0) for name in ("eccentricity_x", "eccentricity_y", "force_x_2",

@@ -85,9 +85,8 @@ def check_same(checks, folder, strip):
     full = solve(folder, "full", model={"reduction": "none"})
     compare(checks, "full and condensed", full, strip, 1.0e-9)
     compare(checks, "half and whole width", solve(folder, "whole", model={"half_width": "no"}), strip, 1.0e-9)
-    for ranks in (2, 4):
-        compare(checks, f"{ranks} ranks", solve(folder, f"ranks_{ranks}", ranks=ranks), strip, 1.0e-8)
-    compare(checks, "full, 3 ranks", solve(folder, "full_3", ranks=3, model={"reduction": "none"}), full, 1.0e-8)
+    compare(checks, "2 ranks", solve(folder, "ranks", ranks=2), strip, 1.0e-8)
+    compare(checks, "full, 2 ranks", solve(folder, "full_2", ranks=2, model={"reduction": "none"}), full, 1.0e-8)
     mirrored = solve(folder, "mirrored", bump_foil={"fixed_edge": "trailing"})
     checks.below("mirrored strip", largest_difference(crests(mirrored)[::-1], crests(strip)), 1.0e-9)
     twice = solve(folder, "twice", strip_load={"pressure": 0.4e6, **HELD})
@@ -132,9 +131,6 @@ def check_modes(checks, folder):
         errors.append(numpy.abs(reduced/full - 1.0).max())
         checks.below(f"Craig-Bampton, {kept} modes", errors[-1], 1.0e-4 if kept == 0 else 1.0e-5)
     checks.that(f"more modes, smaller error: {errors[1]:.1e} < {errors[0]:.1e}", errors[1] < errors[0])
-    other = solve(folder, "modes_3", ranks=3, bump_foil=density, modes={"count": 10}, **case)
-    ranks = [other[f"frequency_{i}"]/strip[f"frequency_{i}"] - 1.0 for i in range(1, 11)]
-    checks.below("modes on 3 ranks", numpy.abs(ranks).max(), 1.0e-8)
     with h5py.File(f"{strip.stem}.h5", "r") as file:
         for kind in file["craig_bampton"]:
             if kind.startswith("kind_of"):
@@ -143,7 +139,7 @@ def check_modes(checks, folder):
             checks.below(f"{kind}: mass is symmetric", largest_difference(mass, mass.T), 1.0e-14)
             masses = numpy.linalg.eigvalsh(mass)
             checks.that(f"{kind}: mass is not negative", masses.min() > -1.0e-12*masses.max())
-    with h5py.File(f"{other.stem}.bump_foil.vtkhdf", "r") as file:
+    with h5py.File(f"{strip.stem}.bump_foil.vtkhdf", "r") as file:
         checks.that("every mode has its shape", all(f"mode_{i}" in file["VTKHDF/PointData"] for i in range(1, 11)))
     plate = solve(folder, "plate", scene={"analysis": "modes"}, modes={"part": "top_foil", "count": 2},
                   bearing={"radius": 19.05e-3, "length": 38.1e-3, "clearance": 31.8e-6},

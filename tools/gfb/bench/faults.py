@@ -287,7 +287,7 @@ def all_rows(gfb, long=True):
         faults = Faults(gfb, name)
         library = build_library(name)
         if library:
-            rows.append(faults.operations(library, "once", step=1 if long else 3))
+            rows.append(faults.operations(library, "once", step=1 if long else 5))
             if long:
                 rows.append(faults.operations(library, "full"))
                 rows.append(faults.operations(library, "kill"))
