@@ -92,7 +92,7 @@ def page_of(facts, found):
     systems = [row(f"Debian {system.removesuffix('-64')} ({known['release']}){', 64 bits' if system.endswith('-64') else ''}", known["date"],
                    known["gfortran"], "Open MPI " + known["MPI"], known["program"].partition("PETSc ")[2].partition(", BLAS")[0].replace("SLEPc ", ""),
                    known["HDF5"], known["MUMPS"], known["METIS"].partition(".dfsg")[0], known["KLU"], known.get("tests", "not run")) for system, known in facts.items()]
-    scenes = [row(words, *(f"{values[other][0]:.0e}, `{values[other][1]}`" for other in others)) for words, values in found.items()]
+    scenes = [row(words, *(f"{values[other][0]:.0e}, `{values[other][1]}`" if values[other][0] > 0.0 else "none" for other in others)) for words, values in found.items()]
     return PAGE.format(systems="\n".join(systems), first=first, others=" | ".join(others), rules=" | ".join("---" for _ in others),
                        scenes="\n".join(scenes), tolerance=TOLERANCE)
 
