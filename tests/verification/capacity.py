@@ -102,7 +102,7 @@ def check_beams(checks, folder):
     light, above, heavy = (solve(folder, "beams", content(load)) for load in (50.0, 160.0, 1500.0))
     found = light["load_capacity"]
     checks.below("capacity, beams: from a load at which the shaft touches down", heavy["load_capacity"]/found - 1.0, SAME)
-    checks.that("capacity, beams: it was halved", "from half of that load" in heavy.log)
+    checks.that("capacity, beams: it begins at the last equilibrium on the way there", "% of that load" in heavy.log)
     checks.below("capacity, beams: from above", above["load_capacity"]/found - 1.0, SAME)
     checks.that("capacity, beams: plain equilibria on both sides",
                 on_both_sides(lambda load: gap_of(folder, load=load, **BEAMS) > GAP_4, found))
@@ -154,25 +154,25 @@ def check_ends(checks, folder):
             ("without any tilt about x", case("misalignment_allowance", {"smallest_gap": GAP}, load=500.0)),
             ("at every speed tried, up to", case("lift_off", {"contact_part": 1.0e-6}, {"foil": "rigid"},
                                                     shaft_contact={"roughness": 4.0e-6, "pressure": 5.0e7})),
-            ("no equilibrium to begin with: the shaft touches down", case("load_capacity", {"smallest_gap": GAP}, {"foil": "rigid"},
+            ("no equilibrium to begin with: the shaft touches down", case("misalignment_allowance", {"smallest_gap": GAP}, {"foil": "rigid"},
                                                                          load=5.0e6))):
         log = solve(folder, "none", content, status=2).log
         checks.that(f"no limit: {words}", "no limit found: " in log and words in log)
 
 
 def check_suction(checks, folder):
-    """Where the film draws the free edge to the shaft the branch is lost without a fold: the search names it, and a plain
-    equilibrium at a load a tenth above ends for the same reason."""
+    """Where the film draws the free edge to the shaft the branch is lost without a fold: the search says that it may go on, and a
+    plain equilibrium at a load a tenth above names the reason."""
     def content(analysis, load, **groups):
         return case(analysis, model={"foil": "beam"}, mesh=(104, 4), speed_rpm=80000.0, bearing=BEARING_30, top_foil=FOIL_30,
                     bump_foil={**FOIL_30, "half_length": 1.4e-3, "height": 0.45e-3, "pitch": 3.6e-3, "bumps": 26},
                     contact=FOILS["contact"], operation={"speed_rpm": 80000.0, "load": (0.0, -load)}, **groups)
 
     reason = "the film draws the free edge of the top foil to the shaft"
-    # With the rounding of another processor the branch is lost at 41.5 N, and met again beyond.
+    # With the rounding of another processor the branch is lost at 41.5 N.
     end = solve(folder, "drawn", content("load_capacity", 40.0, capacity={"smallest_gap": GAP_4}),
                 environment={"OPENBLAS_CORETYPE": "Nehalem"})
-    checks.that("suction: told by the search", end["limit_reached"] == "false" and f"a little beyond {reason}" in end.log)
+    checks.that("suction: the search does not take it for the end", end["limit_reached"] == "false" and "the branch may go on" in end.log)
     over = solve(folder, "over", content("equilibrium", 1.1*end["load_capacity"]), status=2)
     checks.that("suction: told by an equilibrium beyond", reason in over.log)
 

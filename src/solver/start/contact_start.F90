@@ -38,7 +38,7 @@ module gfb_contact_start
 contains
 
   !> Soft two-way contacts first, then those of the scene.
-  recursive subroutine try_soft_contacts(problem, soft, report, ends)
+  subroutine try_soft_contacts(problem, soft, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(soft_contacts_type), intent(in) :: soft  !! how they are released
     type(path_report_type), intent(out) :: report !! how it ended
@@ -46,7 +46,7 @@ contains
     type(path_settings_type) :: settings
 
     settings = problem%settings
-    if (problem%others_left) settings = trial_settings(settings)
+    if (problem%may_give_up) settings = trial_settings(settings)
     call guess_position(problem%bearing, problem%scene, problem%target, soft%eccentricity)
     call approach(problem%bearing, problem%newton, problem%target, settings, soft, report)
     if (.not. (report%converged .or. report%shaft_fixed)) then

@@ -14,14 +14,13 @@ module gfb_edge_heights
   use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at
-  use gfb_start_problem, only: start_problem_type, with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
+  use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of
   use gfb_kept_state, only: kept_state_type
   implicit none (type)
   private
-  public :: ask_edges, release_edges, release, release_pressed
+  public :: release_edges, release, release_pressed
 
   real(wp), parameter, public :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
-  real(wp), parameter :: first_step = 0.25_wp    !! of a path with the edge fixed, to the target [1]
   real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
   real(wp), parameter, public :: lowest = -0.5_wp !! where the film still presses it down, the same [1]
   real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
@@ -43,26 +42,6 @@ module gfb_edge_heights
   real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
 
 contains
-
-  !> From an answer short of the target: fixes the edges where they are, goes to the target with them, and seeks the heights
-  !> where they stay by themselves.
-  subroutine ask_edges(problem, report, ends)
-    type(start_problem_type), intent(inout) :: problem !! what is to be solved, at an answer
-    type(path_report_type), intent(out) :: report !! how it ended; converged: with the edge released
-    logical, intent(out) :: ends !! an edge stays nowhere
-    type(operating_point_type) :: fixed
-    integer :: pad
-
-    ends = .false.
-    fixed = with_fixed_edges(problem)
-    do pad = 1, size(problem%bearing%pad)
-      fixed%edge_height(pad) = edge_lift(problem%bearing, pad)
-    end do
-    problem%bearing%point%edge_hold = fixed%edge_hold
-    problem%bearing%point%edge_height = fixed%edge_height
-    call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
-    if (report%converged) call release_edges(problem, report, ends)
-  end subroutine ask_edges
 
   !> At the target: releases all edges that are fixed; those of several pads at once, or one after the other, first those
   !> that the film presses down.
@@ -207,7 +186,6 @@ contains
       report%reason = report%reason//', as the film presses '//edge_words(problem%bearing, pad)//' down'
     else
       report%reason = 'the edge of the top foil stays at no height below that at rest'
-      report%names_cause = .true.
     end if
   end subroutine seek_below
 
@@ -221,8 +199,7 @@ contains
     logical, intent(out) :: ends !! it stays nowhere
     type(kept_state_type) :: nearest !! where the edge needs the least force
     type(operating_point_type) :: next
-    real(wp) :: force, force_before, height_before, highest, least, room, step
-    character(len=:), allocatable :: heights, suction
+    real(wp) :: force, force_before, height_before, least, room, step
     integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
 
     ends = .false.
@@ -256,20 +233,17 @@ contains
         ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
         if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
       end do
-      highest = bearing%point%edge_height(pad)
-      suction = 'the film draws '//edge_words(bearing, pad)//' to the shaft'
-      heights = ': fixed at '//text(number + 1)//' heights up to '//text(highest*micrometres, 3)//' um, '// &
-        text(room*micrometres, 2)//' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
       ends = report%converged .and. room < near_shaft*clearance .or. report%touched .and. rising >= long_rise
       if (ends) then
+        report%reason = 'the film draws '//edge_words(bearing, pad)//' to the shaft: fixed at '//text(number + 1)//' heights up to '// &
+          text(bearing%point%edge_height(pad)*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
+          ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
         call nearest%put_back(bearing)
         call problem%anchor%keep(bearing)
         report%shaft_fixed = .false.
         report%touched = .false.
         report%drawn = .true.
-        report%reason = suction//heights
       else
-        if (highest > 0.0_wp) problem%suspicion = suction//', as far as it was followed'//heights//'; higher up '//report%reason
         report%reason = 'fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
           text(least, 2)//' N or more; '//report%reason
       end if

@@ -14,7 +14,7 @@ module gfb_edge_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_bearing_directions, only: edge_force
   use gfb_start_position, only: guess_position
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings, with_fixed_edges, with_same_edges, &
+  use gfb_start_problem, only: start_problem_type, trial_settings, with_fixed_edges, with_same_edges, &
                                settings_with_fixed_edge, clearance_of
   use gfb_kept_state, only: kept_state_type
   use gfb_edge_heights, only: release_edges, release, release_pressed, lowest
@@ -35,9 +35,8 @@ contains
   !> Where it stays nowhere `ends` is true, the report says what was measured, and the state is left with the edge fixed
   !> where that took the least force. It is true as well where the load cannot be reached, and the report then has how
   !> that ended.
-  recursive subroutine try_free_edge(problem, soft, report, ends)
+  subroutine try_free_edge(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft !! none: the usual ones
     type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends !! there is no answer
     type(path_settings_type) :: settings
@@ -72,7 +71,7 @@ contains
 
   !> An edge that is drawn up where it is kept straight may yet rest with its middle lower than its ends: without any hold
   !> there is one more trial before it is refused.
-  recursive subroutine try_with_bent_edge(problem, report, ends)
+  subroutine try_with_bent_edge(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report !! of a straight edge; replaced where there is an answer
     logical, intent(inout) :: ends

@@ -11,7 +11,7 @@ module gfb_rigid_start
   use gfb_film_load, only: film_forces
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings, clearance_of
+  use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of
   use gfb_kept_state, only: kept_state_type
   use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at
   implicit none (type)
@@ -31,13 +31,10 @@ module gfb_rigid_start
 contains
 
   !> At rest the film is at ambient pressure wherever the shaft is: from there to the load, or to speed first.
-  recursive subroutine try_from_rest(problem, soft, report, ends)
+  subroutine try_from_rest(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends                  !! never
 
-    ends = .false.
     associate (bearing => problem%bearing, newton => problem%newton)
       call guess_position(bearing, problem%scene, problem%target, eccentricity)
       if (bearing%floats .and. problem%target%speed > 0.0_wp) then
@@ -56,17 +53,14 @@ contains
   !>
   !> As a load grows from nothing the shaft leaves the centre across it. Where the film has its gap there, that branch ends,
   !> and another one carries a shaft that came to speed on its foil.
-  recursive subroutine try_laid_down(problem, soft, report, ends)
+  subroutine try_laid_down(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved, at the end of that way
-    type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended; shaft fixed: nothing has been shown
-    logical, intent(out) :: ends                  !! never
     type(path_settings_type) :: quick, downwards
     type(operating_point_type) :: next
     real(wp) :: direction, force(film_forces), position(2)
     integer :: depth
 
-    ends = .false.
     report%shaft_fixed = .true.
     report%reason = 'the shaft lies where the load presses it'
     quick = trial_settings(problem%settings)

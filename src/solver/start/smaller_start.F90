@@ -2,15 +2,14 @@
 !> Starts from the answer of a smaller system: on a coarser mesh, or on half the width.
 module gfb_smaller_start
   use gfb_kinds, only: wp
-  use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, trial_settings
-  use gfb_start_position, only: release_shaft, solve_at
+  use gfb_start_problem, only: start_problem_type, trial_settings
+  use gfb_start_position, only: solve_at
   use gfb_answer_transfer, only: transfer_answer
   use gfb_bearing_directions, only: edge_force
   implicit none (type)
   private
-  public :: try_smaller_answer, try_smaller_position, try_smaller_refusal
+  public :: try_smaller_answer, try_smaller_end
 
   real(wp), parameter :: first_step = 0.25_wp !! of a path to the load [1]
   integer, parameter :: hasty_iterations = 16 !! where a mesh in between may help; 6 to 10 where none is needed
@@ -18,14 +17,11 @@ module gfb_smaller_start
 contains
 
   !> Newton's method at the target, from the smaller system's answer.
-  recursive subroutine try_smaller_answer(problem, soft, report, ends)
+  subroutine try_smaller_answer(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends                  !! never
     integer :: allowed
 
-    ends = .false.
     call transfer_answer(problem%smaller, problem%bearing)
     allowed = problem%newton%settings%maximum_iterations
     if (problem%carried_only) problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
@@ -34,27 +30,10 @@ contains
     problem%from_smaller = report%converged
   end subroutine try_smaller_answer
 
-  !> The shaft is fixed where the smaller system's is, and then released.
-  recursive subroutine try_smaller_position(problem, soft, report, ends)
-    type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft  !! none
-    type(path_report_type), intent(out) :: report !! how it ended
-    logical, intent(out) :: ends                  !! never
-    type(operating_point_type) :: fixed
-
-    ends = .false.
-    call transfer_answer(problem%smaller, problem%bearing)
-    fixed = problem%target
-    fixed%eccentricity = problem%bearing%eccentricity()
-    call solve_at(problem%bearing, problem%newton, fixed, .true., problem%settings, report)
-    if (report%converged) call release_shaft(problem%bearing, problem%newton, problem%target, problem%settings, report)
-    problem%from_smaller = report%converged
-  end subroutine try_smaller_position
   !> The smaller system's refusal is shown on this one from the state that it was shown from there: with the free edge
   !> fixed where that takes the least force, or else on the way to the load.
-  recursive subroutine try_smaller_refusal(problem, soft, report, ends)
+  subroutine try_smaller_end(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(soft_contacts_type), intent(in) :: soft  !! none
     type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends                  !! this system refuses the target, too
     integer :: pad
@@ -68,11 +47,11 @@ contains
     if (any(problem%bearing%point%edge_hold > 0.0_wp)) then
       ends = any([(edge_force(problem%bearing, pad), pad=1, size(problem%bearing%pad))] < 0.0_wp)
       report%reason = problem%refusal%reason
-      report%drawn = problem%refusal%drawn
+      report%drawn = ends .and. problem%refusal%drawn
     else
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, &
                        trial_settings(problem%settings), report)
       ends = report%has_cause()
     end if
-  end subroutine try_smaller_refusal
+  end subroutine try_smaller_end
 end module gfb_smaller_start

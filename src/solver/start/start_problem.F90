@@ -13,7 +13,6 @@ module gfb_start_problem
   public :: with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
   public :: trial_settings, drop_bearing, count_spent
 
-  integer, parameter, public :: never = 0        !! no soft contacts
   integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
   integer, parameter, public :: against_load = 2 !! the reverse
   integer, parameter, public :: after = 3        !! after the shaft
@@ -26,7 +25,7 @@ module gfb_start_problem
 
   !> How a start uses soft two-way contact springs.
   type, public :: soft_contacts_type
-    integer :: release = never          !! when they are released
+    integer :: release = by_load        !! when they are released
     real(wp) :: eccentricity = 0.0_wp   !! of the shaft where none is given, over the free clearance [1]
     real(wp) :: first_decades = 0.0_wp  !! of their stiffness, in the first step [1]
     real(wp) :: growth = 1.0_wp         !! of a step that succeeded [1]
@@ -42,41 +41,12 @@ module gfb_start_problem
     type(bearing_system_type), pointer :: smaller => null()    !! on a coarser mesh or half the width, if there is one
     logical :: refused = .false.         !! no start led to an answer of the smaller system, which is left where its search ended
     type(path_report_type) :: refusal    !! how, where it was refused
-    logical :: on_the_way = .false.      !! the target lies on the way to another one: one start, no more
     logical :: carried_only = .false.    !! no start but Newton's method from the smaller system's answer
-    logical :: others_left = .false.     !! other starts with soft contacts follow
-    logical :: shown = .false.           !! out: there is no answer, whatever start is tried
-    character(len=:), allocatable :: suspicion !! out: what speaks against an answer, where no start leads to one
+    logical :: may_give_up = .false.     !! the start has longer least steps than the scene, and fewer of them
     type(kept_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
   end type start_problem_type
 
-  !> A cold start: a row of the list of starts.
-  type, public :: cold_start_type
-    character(len=64) :: name = ''       !! as the log has it
-    procedure(applies_to), pointer, nopass :: applies => null()
-    procedure(try_start), pointer, nopass :: try => null()
-    type(soft_contacts_type) :: soft     !! where it uses them
-    logical :: counts = .false.          !! where it fails, its last state may be the nearest to an answer
-  end type cold_start_type
-
-  abstract interface
-    !> Whether a start can be tried on a problem.
-    function applies_to(problem) result(applies)
-      import :: start_problem_type
-      type(start_problem_type), intent(in) :: problem !! bearing and target
-      logical :: applies
-    end function applies_to
-
-    !> Tries to bring the problem's bearing to its target.
-    recursive subroutine try_start(problem, soft, report, ends)
-      import :: start_problem_type, soft_contacts_type, path_report_type
-      type(start_problem_type), intent(inout) :: problem !! bearing and target; the bearing is moved
-      type(soft_contacts_type), intent(in) :: soft !! of the start's row
-      type(path_report_type), intent(out) :: report !! how far it led
-      logical, intent(out) :: ends !! no other start can help: its report stands
-    end subroutine try_start
-  end interface
 contains
 
   !> The target with all edges fixed at their height at rest.

@@ -2,14 +2,16 @@
 !> The answers of a bearing: the first one, from nothing or from a restart file, and those of its sweep.
 module gfb_bearing_solution
   use petscsys
+  use gfb_kinds, only: wp
   use gfb_errors, only: error_type
+  use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_model_case, only: coupling_partitioned, foil_rigid
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_reading, only: scene_at_value
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_scene_point, only: operating_point
+  use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, build_opposite
   use gfb_changed_bearing, only: evaluate_changed
@@ -18,7 +20,7 @@ module gfb_bearing_solution
   use gfb_cold_start, only: start_bearing, restart_bearing, start_partitioned
   use gfb_partitioned, only: create_partitioned, destroy_partitioned
   use gfb_bearing_restart, only: restore_bearing
-  use gfb_key_path, only: follow_keys, come_from_thicker
+  use gfb_key_path, only: follow_keys
   use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: take_walk
@@ -27,8 +29,6 @@ module gfb_bearing_solution
   implicit none (type)
   private
   public :: solve_bearing
-
-  integer, parameter :: most_halvings = 6 !! of the load from which a load capacity is looked for
 
 contains
 
@@ -105,45 +105,31 @@ contains
       else
         call start_bearing(scene, plan, operating_point(operation), sweep%tolerances, sweep%path, log, &
                            sweep%bearing, sweep%newton, report, error)
-        if (.not. allocated(error)) then
-          call come_from_thicker(start_bearing, scene, plan, operation, sweep%path, sweep%bearing, sweep%newton, report, error)
-        end if
-        if (.not. allocated(error)) call start_lighter(scene, plan, operation, sweep, report, error)
       end if
     end associate
     if (allocated(error)) return
     call end_search(sweep, report)
+    call begin_lighter(sweep, operating_point(operation), report)
     call sweep%approach_limit(report)
     if (.not. report%converged) call sweep%explain(report, .false., reason)
     call sweep%begin(report%converged)
     if (report%converged) call sweep%save_point(next - 1)
   end subroutine start
 
-  !> Where the load from which the largest one is looked for has no answer, half of it may have one, and so on.
-  !>
-  !> Fails where the mesh cannot be cut.
-  subroutine start_lighter(scene, plan, operation, sweep, report, error)
-    type(scene_type), intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    type(operation_case_type), intent(in) :: operation !! with the first load
+  !> Where the load from which the largest one is looked for has no answer, the last equilibrium on the way to it is the begin.
+  subroutine begin_lighter(sweep, target, report)
     type(sweep_type), target, intent(inout) :: sweep
-    type(path_report_type), intent(inout) :: report !! of the last start
-    type(error_type), allocatable, intent(out) :: error
-    type(operation_case_type) :: lighter
-    integer :: halvings
+    type(operating_point_type), intent(in) :: target !! with that load
+    type(path_report_type), intent(inout) :: report !! of the start
 
-    if (.not. scene%capacity%seeks_load()) return
-    lighter = operation
-    do halvings = 1, most_halvings
-      if (report%converged) exit
-      lighter%load = lighter%load/2
-      call sweep%context%log%line('no equilibrium to begin with ('//report%reason//'): from half of that load')
-      call sweep%bound%begin(scene%solver%maximum_factorizations)
-      call restart_bearing(scene, plan, operating_point(lighter), sweep%tolerances, sweep%path, sweep%context%log, &
-                           sweep%bearing, sweep%newton, report, error)
-      if (allocated(error)) return
-    end do
-  end subroutine start_lighter
+    if (report%converged .or. report%shaft_fixed .or. .not. sweep%scene%capacity%seeks_load()) return
+    associate (reached => sweep%bearing%point)
+      if (any(reached%edge_hold > 0.0_wp) .or. .not. norm2(reached%load) > 0.0_wp) return
+      call sweep%context%log%line('no equilibrium to begin with ('//report%reason//'): from '// &
+                                  text(100.0_wp*norm2(reached%load)/norm2(target%load), 3)//' % of that load')
+    end associate
+    report%converged = .true.
+  end subroutine begin_lighter
 
   !> The scene with the value of a point in it, where the sweep changes keys; else as it is.
   !>
@@ -297,8 +283,7 @@ contains
     call restart_bearing(scene, plan, operating_point(scene%operation), sweep%tolerances, sweep%path, &
                          sweep%context%log, sweep%bearing, sweep%newton, report, error)
     if (allocated(error)) return
-    call come_from_thicker(start_bearing, scene, plan, scene%operation, sweep%path, sweep%bearing, sweep%newton, report, error)
-    if (.not. allocated(error)) call end_search(sweep, report)
+    call end_search(sweep, report)
   end subroutine start_anew
 
   !> What follows a search from nothing is not bounded; one that gave up says so.

@@ -11,8 +11,8 @@ module gfb_branches_study
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
-  use gfb_start_problem, only: start_problem_type, cold_start_type, never
-  use gfb_start_list, only: cold_starts
+  use gfb_start_problem, only: start_problem_type
+  use gfb_start_list, only: soft_starts_of, start_name, try_start
   use gfb_branch_list, only: branch_search_type, destroy_branches
   use gfb_branch_search, only: find_branches
   use gfb_bearing_plan, only: plan_bearing
@@ -112,7 +112,7 @@ contains
     type(path_settings_type) :: quick
     type(path_report_type) :: report
     type(start_problem_type) :: problem
-    type(cold_start_type), allocatable :: starts(:)
+    integer, allocatable :: starts(:)
     logical :: ends
     integer :: i
 
@@ -120,12 +120,10 @@ contains
     quick%look_for_folds = .false.
     quick%smallest_step = max(quick%smallest_step, 0.01_wp)
     problem = start_problem_type(scene, operating_point(scene%operation), quick, self%bearing, self%newton)
-    starts = cold_starts()
+    starts = soft_starts_of(problem) ! the others follow from these
     do i = 1, size(starts)
-      if (starts(i)%soft%release == never) cycle ! the others follow from these
-      if (.not. starts(i)%applies(problem)) cycle
-      call log%stage('start "'//trim(starts(i)%name)//'":')
-      call starts(i)%try(problem, starts(i)%soft, report, ends)
+      call log%stage('start "'//start_name(starts(i))//'":')
+      call try_start(starts(i), problem, report, ends)
       if (report%converged) then
         call find_branches(self%bearing, self%newton, self%search)
       else

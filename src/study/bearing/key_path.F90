@@ -1,7 +1,6 @@
 #include "gfb_petsc.h"
 !> A bearing along keys of its case file: it is built anew for every value, and starts from the answer of the
 !> value before, node by node: the meshes are the same, and displacements are kept in metres.
-!> A thick top foil hardly sags and stands on its bumps under light loads, too: its answer may be found where a thin one's is not.
 module gfb_key_path
   use petscvec
   use gfb_kinds, only: wp
@@ -9,23 +8,20 @@ module gfb_key_path
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_scene, only: scene_type
-  use gfb_scene_point, only: operating_point, operating_point_type
+  use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_bearing
   use gfb_pad_contacts, only: set_upwind
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
-  use gfb_start_problem, only: drop_bearing, count_spent
-  use gfb_kept_state, only: kept_state_type
-  use gfb_work_bound, only: gives_up
-  use gfb_operation_case, only: operation_case_type
+  use gfb_start_problem, only: drop_bearing
   use gfb_answer_transfer, only: transfer_answer
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
-  public :: follow_keys, come_from_thicker
+  public :: follow_keys
 
   abstract interface
     !> A scene with another value in it, on its mesh; fails where the value breaks a rule.
@@ -37,28 +33,12 @@ module gfb_key_path
       type(error_type), allocatable, intent(out) :: error !! which rule is broken
     end subroutine scene_at_interface
 
-    !> A start from nothing, as `start_bearing`.
-    subroutine start_interface(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-      import :: scene_type, bearing_plan_type, operating_point_type, newton_settings_type, path_settings_type, run_log_type, &
-                bearing_system_type, newton_type, path_report_type, error_type
-      type(scene_type), target, intent(in) :: scene !! what is asked for
-      type(bearing_plan_type), intent(in) :: plan !! its meshes
-      type(operating_point_type), intent(in) :: target !! where the answer is asked for
-      type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-      type(path_settings_type), intent(in) :: path_settings !! limits of a path
-      type(run_log_type), intent(in) :: log !! gets the lines of progress
-      type(bearing_system_type), target, intent(inout) :: bearing !! is built
-      type(newton_type), target, intent(inout) :: newton !! its solver, is created
-      type(path_report_type), intent(out) :: report !! how it ended
-      type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    end subroutine start_interface
   end interface
 
   integer, parameter :: hasty_iterations = 20      !! of a step that can be cut: one that converges does so soon
   integer, parameter :: straight_steps = 8         !! of a leap, before they are bent at contacts that change
   real(wp), parameter :: shortest_step = 1.0_wp/64.0_wp !! of the way from value to value: no step is shorter [1]
   integer, parameter :: easy_iterations = 8        !! a step that took no more of them is doubled
-  real(wp), parameter :: thicker(8) = [4.0_wp, 3.0_wp, 2.5_wp, 2.0_wp, 1.6_wp, 1.3_wp, 1.15_wp, 1.0_wp] !! top foils on the way [1]
   !> Of the shaft or the free edge in a step, over the clearance; beyond, it may be another branch [1].
   real(wp), parameter :: longest_move = 0.1_wp
 
@@ -145,80 +125,6 @@ contains
     end if
     report%reached = bearing%point
   end subroutine follow_keys
-
-  !> Where a start has found no answer and nothing tells why: from a thicker top foil, thinned in steps. Without an answer there
-  !> the bearing is left in the state in which it was, and the reason tells how thin the foil came.
-  !>
-  !> Fails when the mesh cannot be cut.
-  subroutine come_from_thicker(start, scene, plan, operation, settings, bearing, newton, report, error)
-    procedure(start_interface) :: start !! what was tried, for the thicker foil
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(bearing_plan_type), intent(in) :: plan !! of its meshes
-    type(operation_case_type), intent(in) :: operation !! the scene's, or that of a point of its sweep
-    type(path_settings_type), intent(in) :: settings !! limits of a path
-    type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft; is built anew
-    type(newton_type), target, intent(inout) :: newton !! of the bearing; is created anew
-    type(path_report_type), intent(inout) :: report !! in: of the start; out: of the way, where it tells more
-    type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    type(scene_type), allocatable, target :: here, thick
-    type(kept_state_type) :: refused
-    type(path_report_type) :: way
-    type(newton_settings_type) :: tolerances
-    type(run_log_type) :: log
-    real(wp) :: reached !! thinnest foil with an answer; 0: none [m]
-    integer :: spent(3), i
-    logical :: again
-
-    again = .not. (report%converged .or. report%has_cause() .or. report%drawn .or. operation%asks_for_lift())
-    if (again) again = bearing%floats .and. bearing%pad(1)%foil%has_contacts()
-    if (again) again = .not. gives_up(newton%settings%bound)
-    if (.not. again) return
-    log = newton%log
-    tolerances = newton%settings
-    call log%line('no answer from there ('//report%reason//'); from a top foil '//text(thicker(1), 2)//' times as thick:')
-    call refused%keep(bearing)
-    call drop_bearing(bearing, newton, spent)
-    allocate (here, thick, source=scene)
-    here%operation = operation
-    reached = 0.0_wp
-    call with_top_foil(here, thicker(1)*scene%top_foil%thickness, thick, error)
-    call start(thick, plan, operating_point(operation), tolerances, settings, log, bearing, newton, way, error)
-    call count_spent(newton, spent)
-    if (allocated(error)) return
-    if (way%converged) reached = thick%top_foil%thickness
-    do i = 2, size(thicker)
-      if (.not. way%converged) exit
-      call follow_keys(here, with_top_foil, plan, thicker(i - 1)*scene%top_foil%thickness, thicker(i)*scene%top_foil%thickness, &
-                       settings, bearing, newton, way)
-      reached = (thicker(i - 1) + way%fraction*(thicker(i) - thicker(i - 1)))*scene%top_foil%thickness
-    end do
-    if (way%converged) then
-      report = way
-    else
-      call build_anew(scene, plan, bearing, newton)
-      call refused%put_back(bearing)
-      if (way%touched .and. reached > 0.0_wp) then
-        report%touched = .true.
-        report%reason = way%reason//', with a top foil of '//text(reached*1.0e6_wp, 3)//' um on the way from a thicker one'
-      else if (reached > 0.0_wp) then
-        report%reason = report%reason//'; a top foil of '//text(reached*1.0e6_wp, 3)//' um has an answer'
-      else if (way%tells_why() .and. .not. report%tells_why()) then
-        report%reason = report%reason//'; with a top foil of '//text(thick%top_foil%thickness*1.0e6_wp, 3)//' um: '//way%reason
-      end if
-    end if
-    call refused%destroy()
-  end subroutine come_from_thicker
-
-  !> A scene with a top foil of another thickness.
-  subroutine with_top_foil(scene, value, there, error)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    real(wp), intent(in) :: value         !! thickness [m]
-    type(scene_type), intent(out) :: there !! the scene with that
-    type(error_type), allocatable, intent(out) :: error !! none
-
-    there = scene
-    there%top_foil%thickness = value
-  end subroutine with_top_foil
 
   !> The value at a path parameter; the last one to the last digit.
   pure function value_at(from, to, at) result(value)

@@ -11,7 +11,7 @@ module gfb_sweep
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type
-  use gfb_branch_end, only: path_settings_type, path_report_type, follow_branch, ask_beyond
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: save_bearing
@@ -94,7 +94,7 @@ contains
     if (self%partitioned) then
       call follow_partitioned(self%bearing, self%newton, self%target_at(point), self%path, self%sides, report)
     else
-      call follow_branch(self%scene, self%bearing, self%newton, self%target_at(point), self%path, report)
+      call follow_path(self%bearing, self%newton, self%target_at(point), 1.0_wp, self%path, report)
     end if
     call self%approach_limit(report)
     self%anew = .false.
@@ -133,8 +133,7 @@ contains
       report%reason = 'no equilibrium to begin with: '//report%reason
       return
     end if
-    call find_limit(self%here, self%context%log, self%path, ask_beyond, self%bearing, self%newton, &
-                    self%record%limit, report)
+    call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, report)
     self%record%at_fold = report%folded
   end subroutine approach_limit
 

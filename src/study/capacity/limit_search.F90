@@ -55,8 +55,6 @@ module gfb_limit_search
   integer, parameter :: most_trials = 40          !! between two values on both sides
   real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed or tilt, relative [1]
   real(wp), parameter :: settled = 1.0e-10_wp     !! reserve that needs no other trial [1]
-  real(wp), parameter :: a_little = 0.025_wp      !! of the step that failed, beyond the branch's end [1]
-  integer, parameter :: most_resumed = 4          !! ends of a branch that goes on beyond
   real(wp), parameter :: at_limit = 1.0e-6_wp     !! reserve that is none [1]
 
   !> Two values on both sides of the limit, and the last answer on its near side.
@@ -64,22 +62,6 @@ module gfb_limit_search
     type(root_bracket_type) :: bracket !! the bearing is at its `high`
     type(kept_state_type) :: within    !! with reserve; not created where none was met
   end type sides_type
-
-  abstract interface
-    !> Adds to a path's report what happens beyond its end: `ask_beyond` of gfb_branch_end.
-    subroutine asks_beyond(scene, bearing, newton, target, where, settings, report)
-      import :: scene_type, bearing_system_type, newton_type, operating_point_type, &
-        path_settings_type, path_report_type
-      implicit none (type, external)
-      type(scene_type), target, intent(in) :: scene !! what is asked for
-      type(bearing_system_type), target, intent(inout) :: bearing !! at the path's end
-      type(newton_type), target, intent(inout) :: newton !! its solver
-      type(operating_point_type), intent(in) :: target !! beyond the end
-      character(len=*), intent(in) :: where !! that is, in words
-      type(path_settings_type), intent(in) :: settings !! limits of paths
-      type(path_report_type), intent(inout) :: report !! of the path
-    end subroutine asks_beyond
-  end interface
 
 contains
 
@@ -271,11 +253,10 @@ contains
   !> Leads the bearing from an equilibrium to the limit that the scene asks for, or to the end of the branch before it.
   !>
   !> Without an answer the bearing is at the last state that was reached.
-  subroutine find_limit(scene, log, path, ask, bearing, newton, found, report)
+  subroutine find_limit(scene, log, path, bearing, newton, found, report)
     type(scene_type), intent(in) :: scene !! that asks for a limit
     type(run_log_type), intent(in) :: log !! where lines go
     type(path_settings_type), intent(in) :: path !! limits of paths
-    procedure(asks_beyond) :: ask !! why a branch ends
     type(bearing_system_type), target, intent(inout) :: bearing !! at an equilibrium
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: found(:) !! what summary and history say of the limit
@@ -286,7 +267,7 @@ contains
     logical :: passed
 
     limit = limit_of(scene, bearing%point)
-    call pass_limit(scene, limit, path, ask, bearing, newton, sides, passed, report)
+    call pass_limit(limit, path, bearing, newton, sides, passed, report)
     if (passed) call close_in(limit, path, bearing, newton, sides, report)
     if (stop_agreed()) then
       report%converged = .false. ! the caller knows why
@@ -308,28 +289,24 @@ contains
   end subroutine leave_limit
 
   !> Goes on, or back, until the limit lies between two answers, or the branch ends.
-  subroutine pass_limit(scene, limit, path, ask, bearing, newton, sides, passed, report)
-    type(scene_type), intent(in) :: scene
+  subroutine pass_limit(limit, path, bearing, newton, sides, passed, report)
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
-    procedure(asks_beyond) :: ask
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     type(sides_type), intent(inout) :: sides
     logical, intent(out) :: passed
     type(path_report_type), intent(out) :: report !! why not
     type(path_settings_type) :: settings
-    type(operating_point_type) :: beyond
     real(wp) :: value, left, next, first
     logical :: starts_within, stops
-    integer :: step, resumed
+    integer :: step
 
     value = limit%value_at(bearing%point)
     left = limit%reserve(bearing)
     first = left
     starts_within = first > 0.0_wp
     passed = .false.
-    resumed = 0
     settings = path
     ! The path ends where the limit is passed, so that nothing is looked for beyond.
     if (limit%is_of_film() .and. starts_within) settings%touch_down_gap = limit%smallest_gap
@@ -344,13 +321,6 @@ contains
       call look()
       stops = stop_agreed()
       if (passed .or. stops) return
-      if (.not. report%converged .and. starts_within .and. resumed < most_resumed) then
-        resumed = resumed + 1
-        beyond = limit%point_with(bearing%point, value + a_little*(next - value))
-        call ask(scene, bearing, newton, beyond, 'a little beyond', path, report)
-        if (report%converged) call look()
-        if (passed) return
-      end if
       if (.not. report%converged) then
         if (.not. starts_within) report%reason = 'beyond the limit at first, and on the way back '//report%reason
         return

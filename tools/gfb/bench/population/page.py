@@ -12,7 +12,7 @@ from gfb.tool import stop
 
 WORST = 10
 FILES = {"random": "population", "engineer": "population_engineer"}  # page and table, without .md and .csv
-MORE = {"random": " What refusals cost, and what was\ntried on members that have no reason: [population_refusals.md](population_refusals.md).", "engineer": ""}
+MORE = {"random": " What refusals cost, and what was\ntried on members that are lost: [population_refusals.md](population_refusals.md).", "engineer": ""}
 SAID = {
     "random": "Bearings drawn from a fixed seed: radius 8 to 50 mm, L/D 0.5 to 1.5, C/R 0.0005 to 0.003, 8 to 40 bumps of a pitch "
               "of 1.5 to 10 mm,\nfoils of 50 to 200 um, friction 0 to 0.3, either fixed edge, 5,000 to 120,000 rpm, loads in all "
@@ -30,9 +30,9 @@ Written by `tools/bench population --set {name} --count {count} --seconds {secon
 {said}
 
 Each run: one rank, one thread, at most {seconds:g} s of CPU time; one that takes more is stopped and counts as *CPU bound* (on a busy
-machine the system's limit may strike before that by the times given here). *no reason*: the run ends with status 2, but its
+machine the system's limit may strike before that by the times given here). *lost*: the run ends with status 2, but its
 sentence names nothing of the bearing; *gave up*: nor did its search find anything within `maximum_factorizations`. *suction*: the film draws the free edge to the shaft at every height from its rest up to near
-the shaft; *in part*: at every height that was reached. *emptied*: the pressure falls to nothing on cells that are too large.
+the shaft. *emptied*: the pressure falls to nothing on cells that are too large.
 Factorizations and CPU times are medians; the ratio is that of the medians of refusals to
 those of answers of the same model. Times depend on the machine and on what else runs there. All members, one by one, with the
 program that found the second way: [{table}]({table}).{more}
@@ -107,7 +107,7 @@ def facts(members, rows):
     named = sum(row["outcome"] in REFUSALS for row in rows)
     stopped = sum(row["outcome"] == BOUND for row in rows)
     text = (f"{len(rows)} members: {len(answers)} answers, {named} refused by name, {len(rows) - len(answers) - named} "
-            f"without a reason,\n{stopped} of these stopped at the bound; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
+            f"lost,\n{stopped} of these stopped at the bound; {sum(row['cpu'] for row in rows):.0f} s of CPU time.\n")
     if answers:
         text += f"Force of the answers off the load by at most {max(imbalance(*one) for one in answers):.0e} of it.\n"
     shown = [row["shown"] for row in rows if row["outcome"] in REFUSALS]
@@ -155,7 +155,7 @@ def ratio_table(members, rows):
     table = []
     for model in MODELS:
         answers = of(members, rows, model, (ANSWER,))
-        for words, outcomes in (("by name", tuple(REFUSALS)), ("without a reason", OUTCOMES[1 + len(REFUSALS):])):
+        for words, outcomes in (("by name", tuple(REFUSALS)), ("lost", OUTCOMES[1 + len(REFUSALS):])):
             refused = of(members, rows, model, outcomes)
             if answers and refused:
                 table.append([model, words, *(ratio(refused, answers, get) for get in

@@ -11,10 +11,10 @@ import tempfile
 from gfb.results import read_history, read_summary
 from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
 
-ANSWER, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID = "answer", "no reason", "gave up", "CPU bound", "broke off", "wrong input"
+ANSWER, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID = "answer", "lost", "gave up", "CPU bound", "broke off", "wrong input"
 REFUSALS = {"touch-down": ("touches down",), "fold": ("ends in a fold",), "emptied": ("film is emptied",),
-            "suction in part": ("as far as it was followed",), "suction": ("draws the free edge", "stays at no height below that at rest")}
-SUCTION = ("suction", "suction in part")
+            "suction": ("draws the free edge",)}
+SUCTION = "suction"
 OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
@@ -35,7 +35,7 @@ REST = (("load_angle", TURNED), ("load_angle", TURNED_BACK), (TOP_FOIL, THINNER)
 SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER), *REST),
           "emptied": (("load", RISING), ("speed_rpm", SLOWER), *REST),
           "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER), *REST),
-          **dict.fromkeys(SUCTION, (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *REST))}
+          SUCTION: (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *REST)}
 CHEAP, LEAST = 3.0, 30.0  # CPU time of a sweep: times that of the run that is to be shown, at least [s]
 SECOND_WAYS = (BY_GAP, *dict.fromkeys(BY_SWEEP.values()), BELOW, AGAINST, OPEN)
 
@@ -134,8 +134,8 @@ def second_way(gfb, member, row):
 
 def ends_of(outcome, parameter):
     """How a sweep ends that shows a refusal."""
-    if outcome in SUCTION:
-        return ("fold", *SUCTION)
+    if outcome == SUCTION:
+        return ("fold", SUCTION)
     if parameter in (TOP_FOIL, BUMP_FOIL) or (outcome == "touch-down" and parameter == "load_angle"):
         return (outcome, "touch-down", "fold")
     return (outcome,)
