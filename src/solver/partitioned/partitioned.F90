@@ -23,6 +23,7 @@ module gfb_partitioned
   use gfb_petsc_kinds, only: pint
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_ending, only: path_reached, path_thins, path_lost
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: largest_over_ranks
@@ -375,24 +376,26 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits
     type(partitioned_type), target, intent(inout) :: sides !! film and foil
     type(path_report_type), intent(out) :: report !! how it ended
+    character(len=:), allocatable :: reason
+    logical :: converged
     integer :: spent(5)
 
     spent = counts(sides)
     bearing%point = target
-    call repeat_loops(bearing, sides, report%converged, report%reason)
-    if (report%converged) then
-      report%touched = bearing%smallest_gap() < settings%touch_down_gap
-      report%converged = .not. report%touched
-      if (report%touched) report%reason = 'the film is thinner than touch_down_gap'
+    call repeat_loops(bearing, sides, converged, reason)
+    report%ending = path_lost(reason)
+    if (converged) then
+      report%ending = path_reached()
+      if (bearing%smallest_gap() < settings%touch_down_gap) report%ending = path_thins()
     end if
     spent = counts(sides) - spent
     newton%iterations = newton%iterations + spent(2) + spent(4)
     newton%factorizations = newton%factorizations + spent(3) + spent(5)
     call sides%log%line('partitioned: '//text(spent(1))//' loops, film '//text(spent(2))//' Newton iterations with '// &
                         text(spent(3))//' factorizations, foil '//text(spent(4))//' with '//text(spent(5))// &
-                        ': '//report%reason)
+                        ': '//report%reason())
     report%reached = target
-    report%fraction = merge(1.0_wp, 0.0_wp, report%converged)
+    report%fraction = merge(1.0_wp, 0.0_wp, report%converged())
     report%steps = 1
   end subroutine follow_partitioned
 

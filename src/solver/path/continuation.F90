@@ -3,6 +3,7 @@
 module gfb_continuation
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_touches, path_closes, path_folds, path_empties, path_lost
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_petsc_session, only: any_rank
@@ -12,6 +13,7 @@ module gfb_continuation
   use gfb_fold_search, only: look_beyond, branch_lost, branch_goes_on, branch_folds
   use gfb_path_report, only: path_settings_type, path_report_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent, steps_given_up
   implicit none (type)
   private
   public :: follow_path, path_settings_type, path_report_type
@@ -25,7 +27,30 @@ module gfb_continuation
   real(wp), parameter :: leaps(3) = [0.002_wp, 0.02_wp, 0.1_wp] !! of the path that is left [1]
   real(wp), parameter :: closing_gap = 0.01_wp       !! a gap this small ends paths, over the clearance [1]
   real(wp), parameter :: empty = 1.0e-3_wp           !! a pressure that is nothing, over the ambient one [1]
-  real(wp), parameter :: micrometres = 1.0e6_wp      !! in a metre
+
+  !> A bearing on its way to an operating point; the parameter is the share of the path.
+  type, extends(path_problem_type) :: point_path_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null() !! its solver
+    type(operating_point_type) :: start, reached, target !! first, last answer's and asked for
+    type(path_settings_type) :: settings
+    real(wp) :: smallest = 0.0_wp      !! step [1]
+    real(wp) :: at_before = -1.0_wp    !! parameter of the answer before the last; negative if there is none
+    integer :: most_steps = 0          !! that are allowed
+    integer :: rescues = 0
+    logical :: folds = .false.         !! the branch turns back
+    logical :: stopped = .false.       !! the search has to end
+    character(len=:), allocatable :: why !! the last trial has failed
+    Vec :: here, before                !! last two answers
+  contains
+    procedure :: try => try_point
+    procedure :: accept => accept_point
+    procedure :: restore => restore_point
+    procedure :: has_steps
+    procedure :: gives_up => path_gives_up
+    procedure :: rescue => rescue_path
+    procedure :: is_too_far => too_thin
+  end type point_path_type
 
 contains
 
@@ -41,142 +66,157 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(path_report_type), intent(out) :: report !! how far it led
 
-    type(operating_point_type) :: start
-    type(newton_report_type) :: solved
-    Vec :: here, before
-    real(wp) :: step, smallest, at_before, trial
-    integer :: most_steps, rescues
-    logical :: goes_on, just_cut, spent, closing, gave_up
+    type(point_path_type) :: path
+    real(wp) :: smallest
+    integer :: ending
     PetscErrorCode :: ierr
 
-    PetscCallA(VecDuplicate(bearing%state, here, ierr))
-    PetscCallA(VecDuplicate(bearing%state, before, ierr))
-    PetscCallA(VecCopy(bearing%state, here, ierr))
-    start = bearing%point
-    report%reached = start
+    path%bearing => bearing
+    path%newton => newton
+    path%start = bearing%point
+    path%reached = path%start
+    path%target = target
+    path%settings = settings
+    path%most_steps = settings%maximum_steps
+    PetscCallA(VecDuplicate(bearing%state, path%here, ierr))
+    PetscCallA(VecDuplicate(bearing%state, path%before, ierr))
+    PetscCallA(VecCopy(bearing%state, path%here, ierr))
     ! A path that is long against its beginning needs steps that are small against the path.
     smallest = min(settings%smallest_step, shortest_first*first_step)
-    step = min(1.0_wp, max(first_step, smallest))
-    at_before = -1.0_wp
-    just_cut = .false.
-    most_steps = settings%maximum_steps
-    rescues = 0
-    spent = .false.
-    gave_up = .false.
-    do while (report%fraction < 1.0_wp)
-      if (report%steps + report%cuts >= most_steps) then
-        ! A film that thins steadily gets its steps to touch down by.
-        spent = most_steps > settings%maximum_steps
-        if (.not. spent) spent = .not. is_closing(bearing)
-        if (spent) then
-          report%reason = 'more than '//text(most_steps)//' load steps'
-          exit
-        end if
-        most_steps = most_steps + closing_steps
-      end if
-      trial = min(1.0_wp, report%fraction + step)
-      call newton%log%is_at(text(100.0_wp*report%fraction, 2)//' % of the way', report%fraction)
-      bearing%point = point_between(start, target, trial)
-      call predict(bearing, here, before, report%fraction, at_before, trial)
-      call try_step(newton, step >= 2.0_wp*smallest, settings, solved)
-      if (.not. solved%converged) then
-        report%cuts = report%cuts + 1
-        just_cut = .true. ! what failed need not be tried again at once
-        call newton%log%detail('cut: '//solved%reason)
-        call bearing%return_to(here)
-        report%reason = solved%reason
-        gave_up = gives_up(newton%settings%bound)
-        if (gave_up .or. (report%steps > 0 .and. report%cuts >= settings%most_cuts)) exit
-        step = 0.5_wp*step
-        if (step < smallest) then
-          report%reason = 'no step, however short, leads on ('//solved%reason//')'
-          if (.not. (settings%look_for_folds .and. bearing%floats)) exit
-          ! A film without contacts that closes has told its end; beyond it there is only rounding.
-          closing = is_closing(bearing)
-          if (closing .and. .not. bearing%pad(1)%foil%has_contacts()) exit
-          rescues = rescues + 1
-          if (rescues > most_rescues) exit
-          call find_end(bearing, newton, target, smallest, settings, here, before, at_before, report, goes_on)
-          if (.not. goes_on) exit
-          step = 4.0_wp*smallest
-          if (too_thin(bearing, settings, report)) exit
-        end if
-        cycle
-      end if
-      PetscCallA(VecCopy(here, before, ierr))
-      PetscCallA(VecCopy(bearing%state, here, ierr))
-      at_before = report%fraction
-      report%fraction = trial
-      report%reached = bearing%point
-      report%steps = report%steps + 1
-      if (solved%iterations <= easy_iterations .and. .not. just_cut) step = 2.0_wp*step
-      just_cut = .false.
-      if (too_thin(bearing, settings, report)) exit
-    end do
-    report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
-    if (report%converged) report%reason = 'converged'
-    bearing%point = report%reached
-    if (.not. (report%converged .or. report%touched .or. gave_up)) call name_end(bearing, spent, report)
-    PetscCallA(VecDestroy(here, ierr))
-    PetscCallA(VecDestroy(before, ierr))
+    path%smallest = smallest
+    call follow_steps(path, step_rules_type(first_step=min(1.0_wp, max(first_step, smallest)), smallest_step=smallest, &
+                                            easy_iterations=easy_iterations, grows_at_once=.false.), ending)
+    report%reached = path%reached
+    report%fraction = path%at
+    report%steps = path%steps
+    report%cuts = path%cuts
+    bearing%point = path%reached
+    select case (ending)
+    case (steps_arrived)
+      report%ending = path_reached()
+    case (steps_too_far)
+      report%ending = path_touches(settings%touch_down_gap)
+    case (steps_given_up)
+      report%ending = path_lost(path%why)
+      if (.not. path%stopped) call name_end(path, .false., report)
+    case default
+      report%ending = path_lost(path%why)
+      call name_end(path, ending == steps_spent, report)
+    end select
+    PetscCallA(VecDestroy(path%here, ierr))
+    PetscCallA(VecDestroy(path%before, ierr))
   end subroutine follow_path
 
-  !> Whether the shaft has come too near, and what the report says then.
-  function too_thin(bearing, settings, report) result(thin)
-    type(bearing_system_type), intent(in) :: bearing
-    type(path_settings_type), intent(in) :: settings
-    type(path_report_type), intent(inout) :: report
-    logical :: thin
+  !> An answer at a point of the path, from the line through the last two.
+  subroutine try_point(self, trial, may_be_cut, converged, iterations)
+    class(point_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial     !! share of the path [1]
+    logical, intent(in) :: may_be_cut !! half the step is still allowed
+    logical, intent(out) :: converged !! there is an answer
+    integer, intent(out) :: iterations
+    type(newton_report_type) :: solved
 
-    thin = bearing%smallest_gap() < settings%touch_down_gap
-    if (.not. thin) return
-    report%touched = .true.
-    report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*micrometres, 3)//' um'
+    call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way', self%at)
+    self%bearing%point = point_between(self%start, self%target, trial)
+    call predict(self%bearing, self%here, self%before, self%at, self%at_before, trial)
+    call try_step(self%newton, may_be_cut, self%settings, solved)
+    converged = solved%converged
+    iterations = solved%iterations
+    self%why = solved%reason
+  end subroutine try_point
+
+  !> Saves an answer.
+  subroutine accept_point(self, trial)
+    class(point_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial !! share of the path [1]
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCopy(self%here, self%before, ierr))
+    PetscCallA(VecCopy(self%bearing%state, self%here, ierr))
+    self%at_before = self%at
+    self%reached = self%bearing%point
+  end subroutine accept_point
+
+  !> Goes back to the last answer.
+  subroutine restore_point(self)
+    class(point_path_type), intent(inout) :: self !! the path
+
+    call self%newton%log%detail('cut: '//self%why)
+    call self%bearing%return_to(self%here)
+  end subroutine restore_point
+
+  !> Whether another step is allowed: a film that thins steadily gets its steps to touch down by.
+  logical function has_steps(self)
+    class(point_path_type), intent(inout) :: self !! the path
+
+    has_steps = self%steps + self%cuts < self%most_steps
+    if (has_steps) return
+    has_steps = self%most_steps <= self%settings%maximum_steps
+    if (has_steps) has_steps = is_closing(self%bearing)
+    if (has_steps) then
+      self%most_steps = self%most_steps + closing_steps
+    else
+      self%why = 'more than '//text(self%most_steps)//' load steps'
+    end if
+  end function has_steps
+
+  !> Whether the search has to end, or steps have been cut too often.
+  logical function path_gives_up(self)
+    class(point_path_type), intent(inout) :: self !! the path
+
+    self%stopped = gives_up(self%newton%settings%bound)
+    path_gives_up = self%stopped .or. (self%steps > 0 .and. self%cuts >= self%settings%most_cuts)
+  end function path_gives_up
+
+  !> Where steps are too short: goes to the end of the branch, or past what hindered.
+  subroutine rescue_path(self, step, goes_on)
+    class(point_path_type), intent(inout) :: self !! the path
+    real(wp), intent(inout) :: step !! share of the path [1]
+    logical, intent(out) :: goes_on
+    logical :: closing
+
+    self%why = 'no step, however short, leads on ('//self%why//')'
+    goes_on = .false.
+    if (.not. (self%settings%look_for_folds .and. self%bearing%floats)) return
+    ! A film without contacts that closes has told its end; beyond it there is only rounding.
+    closing = is_closing(self%bearing)
+    if (closing .and. .not. self%bearing%pad(1)%foil%has_contacts()) return
+    self%rescues = self%rescues + 1
+    if (self%rescues > most_rescues) return
+    call find_end(self, goes_on)
+    if (goes_on) step = 4.0_wp*self%smallest
+  end subroutine rescue_path
+
+  !> Whether the shaft has come too near.
+  logical function too_thin(self)
+    class(point_path_type), intent(inout) :: self !! the path
+    too_thin = self%bearing%smallest_gap() < self%settings%touch_down_gap
   end function too_thin
 
   !> Where no step leads on: goes to the very end of the branch, or past what hindered.
-  subroutine find_end(bearing, newton, target, smallest, settings, here, before, at_before, report, goes_on)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    real(wp), intent(in) :: smallest      !! step that did not lead on [1]
-    type(path_settings_type), intent(in) :: settings
-    Vec, intent(in) :: here, before       !! last two answers
-    real(wp), intent(inout) :: at_before  !! where on the path; negative if there is none
-    type(path_report_type), intent(inout) :: report
+  subroutine find_end(path, goes_on)
+    class(point_path_type), intent(inout) :: path
     logical, intent(out) :: goes_on
     real(wp) :: left, ahead
     integer :: outcome
-    PetscErrorCode :: ierr
 
-    bearing%point = report%reached ! not the one that was tried last
-    left = 1.0_wp - report%fraction
-    call look_beyond(bearing, newton, target, before, at_before >= 0.0_wp, min(1.0_wp, 2.0_wp*smallest/left), &
-                     outcome, ahead)
+    path%bearing%point = path%reached ! not the one that was tried last
+    left = 1.0_wp - path%at
+    call look_beyond(path%bearing, path%newton, path%target, path%before, path%at_before >= 0.0_wp, &
+                     min(1.0_wp, 2.0_wp*path%smallest/left), outcome, ahead)
     goes_on = outcome == branch_goes_on
-    report%folded = outcome == branch_folds
+    path%folds = outcome == branch_folds
     if (ahead > 0.0_wp) then
-      PetscCallA(VecCopy(here, before, ierr))
-      PetscCallA(VecCopy(bearing%state, here, ierr))
-      at_before = report%fraction
-      report%fraction = report%fraction + min(ahead, 1.0_wp - smallest)*left ! the target itself is still to be met
-      report%reached = bearing%point
+      call path%accept(path%at)
+      path%at = path%at + min(ahead, 1.0_wp - path%smallest)*left ! the target itself is still to be met
     end if
-    if (outcome == branch_lost .and. bearing%pad(1)%foil%has_contacts()) then
-      call leap(bearing, newton, target, settings%longest_leap, here, at_before, report, goes_on)
-    end if
+    if (outcome == branch_lost .and. path%bearing%pad(1)%foil%has_contacts()) call leap(path, goes_on)
   end subroutine find_end
 
   !> Where the branch is lost: takes an answer a little farther on that is near enough, with Newton's steps bent at contacts
   !> that change.
-  subroutine leap(bearing, newton, target, longest, here, at_before, report, lands)
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(operating_point_type), intent(in) :: target
-    real(wp), intent(in) :: longest       !! change of any scaled unknown [1]
-    Vec, intent(in) :: here               !! last answer
-    real(wp), intent(inout) :: at_before  !! where on the path; negative if there is none
-    type(path_report_type), intent(inout) :: report
+  subroutine leap(path, lands)
+    class(point_path_type), intent(inout) :: path
     logical, intent(out) :: lands
     type(operating_point_type) :: start
     type(newton_report_type) :: solved
@@ -185,33 +225,35 @@ contains
     integer :: straight, trial
     PetscErrorCode :: ierr
 
-    call newton%log%detail('the branch is lost: other answers near by are looked for')
-    straight = newton%settings%straight_steps
-    newton%settings%straight_steps = straight_before_leap
-    start = bearing%point
-    lands = .false.
-    PetscCallA(VecDuplicate(here, change, ierr))
-    do trial = 1, size(leaps)
-      share = leaps(trial)
-      bearing%point = point_between(start, target, share)
-      call bearing%return_to(here)
-      call solve_newton(newton, solved)
-      PetscCallA(VecWAXPY(change, -1.0_wp, here, bearing%state, ierr))
-      PetscCallA(VecNorm(change, NORM_INFINITY, farthest, ierr))
-      lands = solved%converged .and. farthest <= longest
-      if (lands) exit
-    end do
-    PetscCallA(VecDestroy(change, ierr))
-    newton%settings%straight_steps = straight
-    if (lands) then
-      PetscCallA(VecCopy(bearing%state, here, ierr))
-      at_before = -1.0_wp
-      report%fraction = report%fraction + share*(1.0_wp - report%fraction)
-      report%reached = bearing%point
-    else
-      call bearing%return_to(here)
-      bearing%point = start
-    end if
+    associate (bearing => path%bearing, newton => path%newton, here => path%here)
+      call newton%log%detail('the branch is lost: other answers near by are looked for')
+      straight = newton%settings%straight_steps
+      newton%settings%straight_steps = straight_before_leap
+      start = bearing%point
+      lands = .false.
+      PetscCallA(VecDuplicate(here, change, ierr))
+      do trial = 1, size(leaps)
+        share = leaps(trial)
+        bearing%point = point_between(start, path%target, share)
+        call bearing%return_to(here)
+        call solve_newton(newton, solved)
+        PetscCallA(VecWAXPY(change, -1.0_wp, here, bearing%state, ierr))
+        PetscCallA(VecNorm(change, NORM_INFINITY, farthest, ierr))
+        lands = solved%converged .and. farthest <= path%settings%longest_leap
+        if (lands) exit
+      end do
+      PetscCallA(VecDestroy(change, ierr))
+      newton%settings%straight_steps = straight
+      if (lands) then
+        PetscCallA(VecCopy(bearing%state, here, ierr))
+        path%at_before = -1.0_wp
+        path%at = path%at + share*(1.0_wp - path%at)
+        path%reached = bearing%point
+      else
+        call bearing%return_to(here)
+        bearing%point = start
+      end if
+    end associate
   end subroutine leap
 
   !> Newton's method, which gives up early where a shorter step can be tried: a step that
@@ -233,25 +275,19 @@ contains
   end subroutine try_step
 
   !> Says so where a path ended because the gap closes, because its answers turn back, or because the film is emptied.
-  subroutine name_end(bearing, spent, report)
-    type(bearing_system_type), intent(in) :: bearing
+  subroutine name_end(path, spent, report)
+    type(point_path_type), intent(in) :: path
     logical, intent(in) :: spent !! all steps are
     type(path_report_type), intent(inout) :: report
     type(bearing_answer_type) :: answer
 
-    answer = bearing_answer(bearing)
-    report%touched = is_closing(bearing) .and. .not. spent
-    if (report%touched) then
-      report%reason = 'the shaft touches down: the gap has closed to '//text(answer%minimum_gap*micrometres, 3)// &
-        ' um, beyond that '//report%reason
-    else if (report%folded) then
-      report%reason = 'the branch of answers ends in a fold: beyond it the '//trim(merge('top foil', 'shaft   ', &
-        bearing%pad(1)%foil%has_contacts()))//' moves on by itself'
-    else if (answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure) then
-      report%emptied = .true.
-      report%reason = 'the film is emptied: its pressure falls to '//text(answer%minimum_pressure, 2)// &
-        ' Pa behind a gap of '//text(answer%minimum_gap*micrometres, 3)//' um, on cells of a Peclet number up to '// &
-        text(answer%maximum_peclet, 2)//'; a finer mesh may lead farther'
+    answer = bearing_answer(path%bearing)
+    if (is_closing(path%bearing) .and. .not. spent) then
+      report%ending = path_closes(answer%minimum_gap, report%ending)
+    else if (path%folds) then
+      report%ending = path_folds(trim(merge('top foil', 'shaft   ', path%bearing%pad(1)%foil%has_contacts())))
+    else if (answer%minimum_pressure < empty*path%bearing%pad(1)%film%ambient_pressure) then
+      report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)
     end if
   end subroutine name_end
 

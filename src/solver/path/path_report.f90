@@ -2,7 +2,7 @@
 module gfb_path_report
   use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
-  use gfb_work_bound, only: gave_up_words
+  use gfb_ending, only: ending_type, ending_reached
   implicit none (type, external)
   private
 
@@ -20,52 +20,37 @@ module gfb_path_report
 
   !> How far a path led.
   type, public :: path_report_type
-    logical :: converged = .false.
-    logical :: touched = .false.              !! the shaft came too near
-    character(len=:), allocatable :: reason   !! in words
+    type(ending_type) :: ending
     type(operating_point_type) :: reached     !! the last point with an answer
     real(wp) :: fraction = 0.0_wp             !! of the path that was gone [1]
     integer :: steps = 0
     integer :: cuts = 0                       !! steps that had to be shortened
-    logical :: folded = .false.               !! the branch of answers turns back
-    logical :: emptied = .false.              !! the film's pressure has fallen to nothing somewhere
-    logical :: drawn = .false.                !! the film draws the free edge to the shaft
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
-    logical :: of_smaller = .false.           !! the reason is a smaller mesh's, not shown here
-    logical :: names_cause = .false.          !! the reason has a cause that has no flag here
-    logical :: gave_up = .false.              !! the search had to end before anything was shown
+    logical :: of_smaller = .false.           !! the ending is a smaller mesh's, not shown here
   contains
+    procedure :: converged
     procedure :: has_cause => report_has_cause
-    procedure :: tells_why
-    procedure :: tell_nothing
+    procedure :: reason
   end type path_report_type
 
 contains
 
-  !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
-  elemental function report_has_cause(self) result(has)
-    class(path_report_type), intent(in) :: self !! of a path that did not reach its end
-    logical :: has
-    has = self%touched .or. self%folded .or. self%emptied
+  !> Whether the path led to the point that was asked for.
+  elemental logical function converged(self)
+    class(path_report_type), intent(in) :: self !! of a path
+    converged = self%ending%kind == ending_reached
+  end function converged
+
+  !> Whether it ended for a cause in the bearing, rather than in Newton's method.
+  elemental logical function report_has_cause(self)
+    class(path_report_type), intent(in) :: self !! of a path
+    report_has_cause = self%ending%has_cause()
   end function report_has_cause
 
-  !> Takes back what it says of the bearing: a search that gave up has shown nothing.
-  pure subroutine tell_nothing(self)
-    class(path_report_type), intent(inout) :: self !! of a path that did not reach its end
-
-    self%touched = .false.
-    self%folded = .false.
-    self%emptied = .false.
-    self%drawn = .false.
-    self%names_cause = .false.
-    self%gave_up = .true.
-    self%reason = gave_up_words
-  end subroutine tell_nothing
-
-  !> Whether its reason names a cause in the bearing, be it one that only a smaller mesh has shown.
-  elemental function tells_why(self) result(tells)
-    class(path_report_type), intent(in) :: self !! of a path that did not reach its end
-    logical :: tells
-    tells = self%has_cause() .or. self%drawn .or. self%names_cause
-  end function tells_why
+  !> What is said of its end.
+  pure function reason(self) result(words)
+    class(path_report_type), intent(in) :: self !! of a path
+    character(len=:), allocatable :: words
+    words = self%ending%words()
+  end function reason
 end module gfb_path_report

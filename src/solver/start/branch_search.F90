@@ -93,8 +93,8 @@ contains
     problem%bearing%point = fixed
     fixed%edge_height(:size(height)) = height
     call follow_path(problem%bearing, problem%newton, fixed, first_step, settings_with_fixed_edge(problem%settings), report)
-    if (report%converged) call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
-    there = report%converged
+    if (report%converged()) call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
+    there = report%converged()
   end subroutine raise_edges
 
   !> Looks for equilibria from the bearing's present one on, until the one asked for is found, or all
@@ -150,7 +150,7 @@ contains
         (maxval(bearing%pad(pad)%whole%row_axial) - minval(bearing%pad(pad)%whole%row_axial))/bearing%pad(pad)%film%clearance
       settings%look_for_folds = .false.
       call follow_path(bearing, newton, straight, 1.0_wp, settings, report)
-      if (report%converged) call pull_both_ways(bearing, newton, straight, free, pad, search)
+      if (report%converged()) call pull_both_ways(bearing, newton, straight, free, pad, search)
       call take_branch(bearing, free, search%branch(from))
     end if
     if (search%is_found()) return

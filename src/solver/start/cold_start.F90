@@ -5,6 +5,7 @@
 !> the answer of the one before, and from nothing only if that fails: `start_list.F90` has the starts, in order.
 module gfb_cold_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: ending_lost, ending_stopped
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
@@ -93,7 +94,7 @@ contains
         call log%stage('film '//text(here%plan%circumferential)//' x '//text(here%plan%axial))
         call search_mesh(here, target, path_settings, log, mesh(max(last, 1)), last > 0, between)
         if (between .and. meshes < most_meshes) then
-          call log%line('no answer from that of '//text(mesh(last)%plan%axial)//' rows ('//here%report%reason//'); half of '// &
+          call log%line('no answer from that of '//text(mesh(last)%plan%axial)//' rows ('//here%report%reason()//'); half of '// &
                         text(here%plan%axial)//' first:')
           here%divided = .true.
           meshes = meshes + 1
@@ -110,9 +111,7 @@ contains
     spent(3) = spent(2)
     call count_spent(newton, spent)
     report = mesh(1)%report
-    if (.not. (report%converged .or. report%tells_why() .or. report%gave_up) .and. bearing%floats) then
-      report%reason = lost_words(report, target)//report%reason
-    end if
+    if (report%ending%kind == ending_lost .and. bearing%floats) call report%ending%add_words(lost_words(report, target), '')
   end subroutine start_bearing
 
   !> Frees a smaller mesh's equations; what they have cost counts.
@@ -183,7 +182,7 @@ contains
     problem%newton => mesh%newton
     has_contacts = mesh%bearing%pad(1)%foil%has_contacts()
     helped = has_smaller
-    if (has_smaller) helped = before%report%converged
+    if (has_smaller) helped = before%report%converged()
     ! After a mesh in between has failed there is none to begin from.
     problem%refused = has_smaller .and. .not. (helped .or. mesh%divided) .and. has_contacts
     if (has_smaller) then
@@ -198,29 +197,27 @@ contains
     end if
     if (helped) problem%carried_only = lies_between(mesh%plan, before%plan) .and. .not. mesh%divided
     call start_pressed(problem, mesh%report)
-    between = problem%carried_only .and. .not. mesh%report%converged
+    between = problem%carried_only .and. .not. mesh%report%converged()
     if (between) between = .not. gives_up(mesh%newton%settings%bound)
     if (between) return
     associate (report => mesh%report)
-      again = .not. (report%converged .or. mesh%plan%upwind .or. has_contacts) .and. mesh%plan%may_upwind
+      again = .not. (report%converged() .or. mesh%plan%upwind .or. has_contacts) .and. mesh%plan%may_upwind
       if (again) again = .not. gives_up(mesh%newton%settings%bound)
       if (again) then
         call set_upwind(mesh%bearing, .true.)
         call log%line('film: Galerkin finds no answer, SUPG is tried')
         call start_pressed(problem, report)
       end if
-      if (problem%refused .and. .not. (report%converged .or. report%has_cause() .or. report%drawn)) then
-        report%reason = problem%refusal%reason ! of all starts, not of one
-        report%drawn = problem%refusal%drawn
+      if (problem%refused .and. .not. (report%converged() .or. report%has_cause())) then
+        report%ending = problem%refusal%ending ! of all starts, not of one
         report%of_smaller = .true.
-        report%names_cause = problem%refusal%tells_why()
-        if (.not. (problem%refusal%of_smaller .or. problem%refusal%gave_up)) then
-          report%reason = report%reason//', as the mesh of '//text(before%plan%circumferential)//' x '// &
-            text(before%plan%axial)//' has it'
+        if (.not. problem%refusal%of_smaller .and. report%ending%kind /= ending_stopped) then
+          call report%ending%add_words('', ', as the mesh of '//text(before%plan%circumferential)//' x '// &
+                                       text(before%plan%axial)//' has it')
         end if
       end if
       mesh%anchor = problem%anchor
-      if (report%converged .and. .not. problem%from_smaller .and. mesh%scene%operation%asks_for_lift()) then
+      if (report%converged() .and. .not. problem%from_smaller .and. mesh%scene%operation%asks_for_lift()) then
         call seek_branch(mesh%scene%operation%leading_edge_lift, mesh%scene%operation%leading_edge_lift_edge, problem)
       end if
     end associate
@@ -271,12 +268,12 @@ contains
     end do
     call bearing%set_unknowns(unknown)
     call create_partitioned(bearing, newton_settings, log, sides)
-    if (report%converged) then
+    if (report%converged()) then
       call log%line('partitioned: starts from the film of a rigid foil, found by '// &
                     text(newton%iterations)//' Newton iterations, and the foil at rest')
       call follow_partitioned(bearing, newton, target, path_settings, sides, report)
     else
-      report%reason = 'the film of a rigid foil, where the loops start: '//report%reason
+      call report%ending%add_words('the film of a rigid foil, where the loops start: ', '')
     end if
     call destroy_newton(rigid_newton)
     call rigid%destroy()

@@ -7,6 +7,7 @@
 !> asked for: by decades of their stiffness against opening, and by decades of all of it.
 module gfb_contact_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_lost, ending_touch_down
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: film_forces
@@ -14,6 +15,7 @@ module gfb_contact_start
   use gfb_pad_contacts, only: set_hardness, set_adhesion
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before, trial_settings
   use gfb_kept_state, only: kept_state_type
   use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
@@ -35,6 +37,20 @@ module gfb_contact_start
   real(wp), parameter :: thin = 0.01_wp              !! gap at which a path with soft contacts ends, over the clearance [1]
   real(wp), parameter :: least_adhesion = -8.0_wp    !! decades of the stiffness against opening at which it is none [1]
 
+  !> Contacts on their way from soft two-way ones to the scene's, at one point; the parameter is in decades.
+  type, extends(path_problem_type) :: contact_path_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null() !! its solver
+    integer :: change = releasing
+    real(wp) :: last = 0.0_wp          !! decades where they are the scene's
+    type(newton_report_type) :: solved !! of the last trial
+    type(kept_state_type) :: saved     !! the last answer
+  contains
+    procedure :: try => try_decades
+    procedure :: accept => accept_decades
+    procedure :: restore => restore_contacts
+  end type contact_path_type
+
 contains
 
   !> Soft two-way contacts first, then those of the scene.
@@ -49,7 +65,7 @@ contains
     if (problem%may_give_up) settings = trial_settings(settings)
     call guess_position(problem%bearing, problem%scene, problem%target, soft%eccentricity)
     call approach(problem%bearing, problem%newton, problem%target, settings, soft, report)
-    if (.not. (report%converged .or. report%shaft_fixed)) then
+    if (.not. (report%converged() .or. report%shaft_fixed)) then
       call follow_path(problem%bearing, problem%newton, problem%target, first_hard_step, settings, report)
     end if
     ends = report%has_cause()
@@ -58,7 +74,7 @@ contains
   !> The path towards the target with soft two-way contacts; at the point it reached they are released and stiffened to
   !> the scene's. Where they are, but short of the target, the shaft floats.
   subroutine approach(bearing, newton, target, settings, contacts, report)
-    type(bearing_system_type), intent(inout) :: bearing !! at a guess of its position
+    type(bearing_system_type), target, intent(inout) :: bearing !! at a guess of its position
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
     type(path_settings_type), intent(in) :: settings !! limits
@@ -86,24 +102,24 @@ contains
     if (contacts%release == by_load .or. contacts%release == against_load) then
       early = norm2(target%load) > norm2(force(1:2)) .eqv. contacts%release == by_load
     end if
-    if (report%converged .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
-    if (report%converged .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
-    if (.not. early .and. (report%converged .or. .not. report%shaft_fixed)) then
+    if (report%converged() .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
+    if (report%converged() .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
+    if (.not. early .and. (report%converged() .or. .not. report%shaft_fixed)) then
       call lead_contacts(bearing, newton, releasing, contacts, report)
     end if
     call set_adhesion(bearing, 0.0_wp)
     real_contacts = .false.
-    if (report%converged .or. .not. report%shaft_fixed) then
+    if (report%converged() .or. .not. report%shaft_fixed) then
       call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
     end if
     newton%settings = wanted
     call set_hardness(bearing, 1.0_wp)
-    report%touched = .false. ! with soft contacts
-    if (report%converged) then
+    if (report%ending%kind == ending_touch_down) report%ending = path_lost(report%reason()) ! with soft contacts
+    if (report%converged()) then
       newton%settings%straight_steps = rough%straight_steps
       call solve_at(bearing, newton, target, .false., settings, report)
       newton%settings = wanted
-      real_contacts = report%converged
+      real_contacts = report%converged()
     end if
     report%shaft_fixed = .not. real_contacts ! not a state of this scene
   end subroutine approach
@@ -111,45 +127,63 @@ contains
   !> Releases contacts, or raises their stiffness to the scene's, at the bearing's present point and by
   !> decades. A report of success becomes one of failure where that does not succeed.
   subroutine lead_contacts(bearing, newton, change, contacts, report, arrived)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     integer, intent(in) :: change !! `releasing` or `stiffening`
     type(soft_contacts_type), intent(in) :: contacts
     type(path_report_type), intent(inout) :: report
     logical, intent(out), optional :: arrived
-    type(newton_report_type) :: solved
-    type(kept_state_type) :: last
-    real(wp) :: gone, total, step, trial ! decades
+    type(contact_path_type) :: path
+    type(step_rules_type) :: rules
+    integer :: ending
 
-    total = least_adhesion
-    if (change == stiffening) total = log10(bearing%pad(1)%foil%softest())
-    total = -total
-    step = contacts%first_decades
-    gone = 0.0_wp
-    call last%keep(bearing)
-    do while (gone < total .and. step >= shortest_decades)
-      trial = gone + step
-      if (trial >= total .or. (change == releasing .and. trial >= enough .and. contacts%growth <= 1.0_wp)) trial = total
-      call newton%log%is_at(text(100.0_wp*gone/total, 2)//' % of the '//trim(merge('release   ', 'stiffening', change == releasing))// &
-                            ' of contacts', gone/total)
-      call set_contacts(bearing, newton, change, trial, total)
-      call solve_newton(newton, solved)
-      if (solved%converged) then
-        gone = trial
-        step = contacts%growth*step
-        call last%keep(bearing)
-      else
-        call last%put_back(bearing)
-        step = 0.5_wp*step
-      end if
-    end do
-    call last%destroy()
-    if (present(arrived)) arrived = gone >= total
-    if (gone >= total .or. .not. report%converged) return
-    report%converged = .false.
-    report%reason = solved%reason
+    path%bearing => bearing
+    path%newton => newton
+    path%change = change
+    rules%last = -least_adhesion
+    if (change == stiffening) rules%last = -log10(bearing%pad(1)%foil%softest())
+    path%last = rules%last
+    rules%first_step = contacts%first_decades
+    rules%smallest_step = shortest_decades
+    rules%growth = contacts%growth
+    if (change == releasing .and. contacts%growth <= 1.0_wp) rules%leap_from = enough
+    call path%saved%keep(bearing)
+    call follow_steps(path, rules, ending)
+    call path%saved%destroy()
+    if (present(arrived)) arrived = ending == steps_arrived
+    if (ending == steps_arrived .or. .not. report%converged()) return
+    report%ending = path_lost(path%solved%reason)
     report%shaft_fixed = .true. ! not a state of this scene
   end subroutine lead_contacts
+
+  !> Contacts so many decades from where they began: Newton's method from the last answer.
+  subroutine try_decades(self, trial, may_be_cut, converged, iterations)
+    class(contact_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial     !! decades
+    logical, intent(in) :: may_be_cut !! does not matter
+    logical, intent(out) :: converged !! there is an answer
+    integer, intent(out) :: iterations
+
+    call self%newton%log%is_at(text(100.0_wp*self%at/self%last, 2)//' % of the '// &
+                               trim(merge('release   ', 'stiffening', self%change == releasing))//' of contacts', self%at/self%last)
+    call set_contacts(self%bearing, self%newton, self%change, trial, self%last)
+    call solve_newton(self%newton, self%solved)
+    converged = self%solved%converged
+    iterations = self%solved%iterations
+  end subroutine try_decades
+
+  !> Saves an answer.
+  subroutine accept_decades(self, trial)
+    class(contact_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial !! decades
+    call self%saved%keep(self%bearing)
+  end subroutine accept_decades
+
+  !> Goes back to the last answer.
+  subroutine restore_contacts(self)
+    class(contact_path_type), intent(inout) :: self !! the path
+    call self%saved%put_back(self%bearing)
+  end subroutine restore_contacts
 
   !> Contacts between soft two-way ones and the scene's, so many decades from where they began.
   subroutine set_contacts(bearing, newton, change, gone, total)

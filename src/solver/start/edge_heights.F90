@@ -6,6 +6,7 @@
 !> released; where it never does below the shaft the edge is drawn up everywhere, and stays nowhere.
 module gfb_edge_heights
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down
   use gfb_petsc_session, only: any_rank
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
@@ -58,13 +59,13 @@ contains
       held = pack([(pad, pad=1, size(bearing%pad))], bearing%point%edge_hold(:size(bearing%pad)) > 0.0_wp)
       if (size(held) > 1) then
         call release(problem, problem%target, problem%newton%settings, [lowest, resting]*clearance_of(bearing), report)
-        if (report%converged) return
+        if (report%converged()) return
       end if
       force = [(edge_force(bearing, held(pad)), pad=1, size(held))]
       do while (size(held) > 0)
         pad = minloc(force, 1)
         call release_edge(problem, held(pad), report, ends)
-        if (.not. report%converged) exit
+        if (.not. report%converged()) exit
         held = [held(:pad - 1), held(pad + 1:)]
         force = [force(:pad - 1), force(pad + 1:)]
       end do
@@ -109,13 +110,12 @@ contains
     logical :: drawn_up
 
     ends = .false.
-    report%converged = .false.
     ! It moves the way the film presses it.
     drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     highest = merge(resting, 0.0_wp, drawn_up)
     call release(problem, released(problem, pad), problem%newton%settings, &
                  [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
-    if (.not. report%converged) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
+    if (.not. report%converged()) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
 
   !> From where the edge is fixed at its height at rest, seeks the height where it needs no force, and releases it there:
@@ -139,7 +139,7 @@ contains
     drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     call at_rest%keep(problem%bearing)
     call seek_below(problem, pad, settings, wanted, lower, report)
-    if (drawn_up .and. .not. (lower .or. report%converged)) then
+    if (drawn_up .and. .not. (lower .or. report%converged())) then
       call at_rest%put_back(problem%bearing)
       call seek_above(problem, pad, settings, wanted, report, ends)
     end if
@@ -175,17 +175,16 @@ contains
           call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
           return
         end if
-        if (.not. report%converged .or. force < -firm*largest .or. &
+        if (.not. report%converged() .or. force < -firm*largest .or. &
             bearing%point%edge_height(pad) < merge(lowest, low_edge, force > 0.0_wp)*clearance) exit
         largest = max(largest, force)
       end do
       lower = force > 0.0_wp
     end associate
-    report%converged = .false.
     if (report%has_cause()) then
-      report%reason = report%reason//', as the film presses '//edge_words(problem%bearing, pad)//' down'
+      call report%ending%add_words('', ', as the film presses '//edge_words(problem%bearing, pad)//' down')
     else
-      report%reason = 'the edge of the top foil stays at no height below that at rest'
+      report%ending = path_lost('the edge of the top foil stays at no height below that at rest')
     end if
   end subroutine seek_below
 
@@ -229,25 +228,21 @@ contains
           least = abs(force)
           call nearest%keep(bearing)
         end if
-        if (.not. report%converged) exit
+        if (.not. report%converged()) exit
         ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
         if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
       end do
-      ends = report%converged .and. room < near_shaft*clearance .or. report%touched .and. rising >= long_rise
+      ends = report%converged() .and. room < near_shaft*clearance .or. report%ending%kind == ending_touch_down .and. rising >= long_rise
       if (ends) then
-        report%reason = 'the film draws '//edge_words(bearing, pad)//' to the shaft: fixed at '//text(number + 1)//' heights up to '// &
-          text(bearing%point%edge_height(pad)*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
-          ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more'
+        report%ending = path_is_drawn(edge_words(bearing, pad), number + 1, bearing%point%edge_height(pad), room, least)
         call nearest%put_back(bearing)
         call problem%anchor%keep(bearing)
         report%shaft_fixed = .false.
-        report%touched = .false.
-        report%drawn = .true.
       else
-        report%reason = 'fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
-          text(least, 2)//' N or more; '//report%reason
+        if (report%converged()) report%ending = path_lost(report%reason())
+        call report%ending%add_words('fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
+                                     text(least, 2)//' N or more; ', '')
       end if
-      report%converged = .false.
       call nearest%destroy()
     end associate
   end subroutine seek_above
@@ -275,7 +270,7 @@ contains
       share = force(1)/(force(1) - force(2))
       next%edge_height(pad) = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
       call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
-      if (.not. report%converged) exit
+      if (.not. report%converged()) exit
       force_next = edge_force(problem%bearing, pad)
       call note_height(problem%newton, problem%bearing, pad, force_next)
       side = merge(1, 2, (force_next > 0.0_wp) .eqv. (force(1) > 0.0_wp))
@@ -283,11 +278,11 @@ contains
       side_before = side
       height(side) = next%edge_height(pad)
       force(side) = force_next
-      report%converged = .false.
+      report%ending = path_lost(report%reason())
       if (abs(force_next) > least_fall*tried) cycle
       tried = abs(force_next)
       call release(problem, released(problem, pad), wanted, height, report)
-      if (report%converged) exit
+      if (report%converged()) exit
     end do
   end subroutine release_between
 
@@ -309,18 +304,17 @@ contains
     problem%newton%settings%maximum_iterations = min(hasty_iterations, wanted%maximum_iterations)
     call fixed%keep(problem%bearing)
     call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
-    if (report%converged) then
+    if (report%converged()) then
       slack = same_height*clearance_of(problem%bearing)
       do pad = 1, size(problem%bearing%pad)
         if (.not. fixed%point%edge_hold(pad) > 0.0_wp .or. free%edge_hold(pad) > 0.0_wp) cycle
         lift = edge_lift(problem%bearing, pad)
-        report%converged = lift > minval(between) - slack .and. lift < maxval(between) + slack
-        if (report%converged) cycle
-        report%reason = 'the released edge moves to '//text(lift*micrometres, 4)//' um'
+        if (lift > minval(between) - slack .and. lift < maxval(between) + slack) cycle
+        report%ending = path_lost('the released edge moves to '//text(lift*micrometres, 4)//' um')
         exit
       end do
     end if
-    if (.not. report%converged) call fixed%put_back(problem%bearing)
+    if (.not. report%converged()) call fixed%put_back(problem%bearing)
     call fixed%destroy()
     problem%newton%settings = rough
   end subroutine release

@@ -7,6 +7,7 @@
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
 module gfb_edge_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_lost, ending_fold
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_operating_point, only: operating_point_type
@@ -55,14 +56,14 @@ contains
       if (.not. report%shaft_fixed) exit
     end do
     if (report%shaft_fixed) return
-    report%converged = report%converged .and. number == 1
-    if (.not. report%converged) then
+    if (report%converged() .and. number > 1) report%ending = path_lost('')
+    if (.not. report%converged()) then
       call fixed%keep(problem%bearing)
       call go_on_released(problem, report, ends)
-      if (.not. (report%converged .or. ends)) call go_on_fixed(problem, settings, fixed, report, ends)
+      if (.not. (report%converged() .or. ends)) call go_on_fixed(problem, settings, fixed, report, ends)
       call fixed%destroy()
     end if
-    if (report%converged .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
+    if (report%converged() .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
       call release_edges(problem, report, ends)
       bends = edge_bends(problem%bearing)
       if (ends .and. bends) call try_with_bent_edge(problem, report, ends)
@@ -80,7 +81,7 @@ contains
 
     call problem%newton%log%detail('the free edge may bend')
     call try_soft_contacts(problem, usual_contacts, bent, bent_ends)
-    if (bent%converged) then
+    if (bent%converged()) then
       report = bent
       ends = .false.
     else
@@ -108,7 +109,7 @@ contains
     free%edge_height = 0.0_wp
     call release(problem, free, problem%newton%settings, &
                  [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
-    if (.not. report%converged) return
+    if (.not. report%converged()) return
     call problem%anchor%keep(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
     ends = report%has_cause()
@@ -129,7 +130,7 @@ contains
     call last%keep(problem%bearing)
     call fixed%put_back(problem%bearing)
     call follow_path(problem%bearing, problem%newton, with_fixed_edges(problem), first_step, settings, report)
-    if (size(problem%bearing%pad) > 1 .and. .not. report%converged) then
+    if (size(problem%bearing%pad) > 1 .and. .not. report%converged()) then
       call fixed%put_back(problem%bearing)
       call release_pressed(problem)
       call follow_path(problem%bearing, problem%newton, with_same_edges(problem), first_step, &
@@ -138,13 +139,13 @@ contains
     ! Without a hold the edge lies lower, and the path may lead on; of several such edges were released before.
     sunk = edge_force(problem%bearing, 1) > 0.0_wp
     sunk = sunk .and. size(problem%bearing%pad) == 1
-    ends = .not. report%converged .and. (report%has_cause() .and. .not. sunk .or. released%folded)
-    if (ends .and. released%folded) then
+    ends = .not. report%converged() .and. (report%has_cause() .and. .not. sunk .or. released%ending%kind == ending_fold)
+    if (ends .and. released%ending%kind == ending_fold) then
       report = released
       call last%put_back(problem%bearing)
     else if (ends) then
-      report%reason = report%reason//held
-    else if (.not. report%converged) then
+      call report%ending%add_words('', held)
+    else if (.not. report%converged()) then
       call release_short_of_load(problem, report, ends)
     end if
     call last%destroy()
@@ -169,17 +170,17 @@ contains
     share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
     call release_edges(problem, short, ends)
     problem%target = target
-    if (short%converged) then
+    if (short%converged()) then
       call problem%anchor%keep(problem%bearing)
       call follow_path(problem%bearing, problem%newton, target, first_step, trial_settings(problem%settings), report)
       ends = report%has_cause()
     else if (ends) then
       report = short
-      report%reason = report%reason//', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
-        'no step leads on with the edge fixed'
+      call report%ending%add_words('', ', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
+                                   'no step leads on with the edge fixed')
     else
       call last%put_back(problem%bearing)
-      report%reason = report%reason//held//', where the film presses it down'
+      call report%ending%add_words('', held//', where the film presses it down')
     end if
     call last%destroy()
   end subroutine release_short_of_load

@@ -6,11 +6,13 @@
 !> steps to its size.
 module gfb_interference_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_touches_at, path_lost
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_report_type, solve_newton
   use gfb_continuation, only: path_report_type
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_given_up
   use gfb_start_problem, only: start_problem_type
   use gfb_kept_state, only: kept_state_type
   implicit none (type)
@@ -22,6 +24,20 @@ module gfb_interference_start
   integer, parameter :: hasty_iterations = 20     !! of a step
   real(wp), parameter :: growth = 1.5_wp          !! of a step that succeeded [1]
 
+  !> A bearing whose shaft grows to its size; the parameter is the share of the interference.
+  type, extends(path_problem_type) :: interference_path_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null() !! its solver
+    real(wp) :: whole = 0.0_wp         !! interference [m]
+    type(newton_report_type) :: solved !! of the last trial
+    type(kept_state_type) :: saved     !! the last answer
+  contains
+    procedure :: try => try_interference
+    procedure :: accept => accept_interference
+    procedure :: restore => restore_interference
+    procedure :: gives_up => search_gives_up
+  end type interference_path_type
+
 contains
 
   !> From an answer without interference to that with all of it, at the same operating point; a step that fails is halved.
@@ -29,51 +45,68 @@ contains
     type(start_problem_type), intent(inout) :: problem !! at an answer without interference
     real(wp), intent(in) :: interference !! asked for [m]
     type(path_report_type), intent(inout) :: report !! of success, which becomes one of failure where a step is too small
-    type(newton_report_type) :: solved
-    type(kept_state_type) :: last
-    real(wp) :: step, gone, trial !! over all of the interference [1]
-    integer :: allowed
-    logical :: stopped
+    type(interference_path_type) :: path
+    real(wp) :: least !! gap [m]
+    integer :: allowed, ending
+    logical :: touched
 
-    gone = 0.0_wp
-    step = first_step
-    stopped = .false.
-    call last%keep(problem%bearing)
+    path%bearing => problem%bearing
+    path%newton => problem%newton
+    path%whole = interference
+    call path%saved%keep(problem%bearing)
     allowed = problem%newton%settings%maximum_iterations
     problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
-    do while (gone < 1.0_wp)
-      trial = min(gone + step, 1.0_wp)
-      call set_interference(problem%bearing, trial*interference)
-      call problem%newton%log%detail('interference '//text(trial*interference, 4)//' m')
-      call solve_newton(problem%newton, solved)
-      if (solved%converged) then
-        gone = trial
-        step = growth*step
-        call last%keep(problem%bearing)
-      else
-        call last%put_back(problem%bearing)
-        call set_interference(problem%bearing, gone*interference)
-        step = 0.5_wp*min(step, trial - gone)
-        stopped = gives_up(problem%newton%settings%bound)
-        if (step < smallest_step .or. stopped) exit
-      end if
-    end do
+    call follow_steps(path, step_rules_type(first_step=first_step, smallest_step=smallest_step, growth=growth, &
+                                            cuts_the_trial=.true.), ending)
     problem%newton%settings%maximum_iterations = allowed
-    call last%destroy()
-    report%converged = gone >= 1.0_wp
-    report%touched = problem%bearing%smallest_gap() < max(problem%settings%touch_down_gap, smallest_step*interference)
-    if (report%converged .and. problem%bearing%floats) then
-      report%touched = problem%bearing%smallest_gap() < problem%settings%touch_down_gap
-      report%converged = .not. report%touched
-    end if
-    report%touched = report%touched .and. .not. (report%converged .or. stopped)
-    if (report%converged) return
-    if (report%touched) then
-      report%reason = 'the shaft touches down where the interference is '//text(gone*interference, 4)//' m'
+    call path%saved%destroy()
+    least = problem%settings%touch_down_gap
+    if (ending /= steps_arrived) least = max(least, smallest_step*interference)
+    touched = problem%bearing%smallest_gap() < least
+    if (ending == steps_arrived .and. .not. (touched .and. problem%bearing%floats)) then
+      report%ending = path_reached()
+    else if (touched .and. ending /= steps_given_up) then
+      report%ending = path_touches_at('where the interference is '//text(path%at*interference, 4)//' m')
     else
-      report%reason = 'no step leads beyond an interference of '//text(gone*interference, 4)//' m: '//solved%reason
+      report%ending = path_lost('no step leads beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
     end if
   end subroutine press
+
+  !> A share of the interference: Newton's method from the last answer.
+  subroutine try_interference(self, trial, may_be_cut, converged, iterations)
+    class(interference_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial     !! share [1]
+    logical, intent(in) :: may_be_cut !! does not matter
+    logical, intent(out) :: converged !! there is an answer
+    integer, intent(out) :: iterations
+
+    call set_interference(self%bearing, trial*self%whole)
+    call self%newton%log%detail('interference '//text(trial*self%whole, 4)//' m')
+    call solve_newton(self%newton, self%solved)
+    converged = self%solved%converged
+    iterations = self%solved%iterations
+  end subroutine try_interference
+
+  !> Saves an answer.
+  subroutine accept_interference(self, trial)
+    class(interference_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial !! share [1]
+    call self%saved%keep(self%bearing)
+  end subroutine accept_interference
+
+  !> Goes back to the last answer.
+  subroutine restore_interference(self)
+    class(interference_path_type), intent(inout) :: self !! the path
+
+    call self%saved%put_back(self%bearing)
+    call set_interference(self%bearing, self%at*self%whole)
+  end subroutine restore_interference
+
+  !> Whether all work that is allowed is done.
+  logical function search_gives_up(self)
+    class(interference_path_type), intent(inout) :: self !! the path
+    search_gives_up = gives_up(self%newton%settings%bound)
+  end function search_gives_up
 
   !> Takes an interference off the gap of all pads.
   subroutine set_interference(bearing, interference)

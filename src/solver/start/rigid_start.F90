@@ -3,6 +3,7 @@
 !> from rest to speed and then with the shaft released, or with the shaft laid on its foil first.
 module gfb_rigid_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_lost
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -39,10 +40,10 @@ contains
       call guess_position(bearing, problem%scene, problem%target, eccentricity)
       if (bearing%floats .and. problem%target%speed > 0.0_wp) then
         call try_directly(bearing, newton, problem%target, problem%settings, report)
-        if (report%converged) return
+        if (report%converged()) return
       end if
       call find_rigid_position(bearing, newton, problem%target, problem%settings, report)
-      if (report%converged .and. bearing%floats) then
+      if (report%converged() .and. bearing%floats) then
         call release_shaft(bearing, newton, problem%target, problem%settings, report)
       end if
     end associate
@@ -62,7 +63,7 @@ contains
     integer :: depth
 
     report%shaft_fixed = .true.
-    report%reason = 'the shaft lies where the load presses it'
+    report%ending = path_lost('the shaft lies where the load presses it')
     quick = trial_settings(problem%settings)
     downwards = quick
     downwards%touch_down_gap = 0.0_wp
@@ -72,17 +73,17 @@ contains
       direction = atan2(load(2), load(1)) + behind_load
       call place_shaft(bearing, -first_depth*clearance_of(bearing)*[cos(direction), sin(direction)])
       call find_position(bearing, newton, problem%target, downwards, report)
-      if (.not. report%converged) return
+      if (.not. report%converged()) return
       do depth = 1, most_depths
         force = bearing%reaction()
         if (dot_product(force(1:2), load) >= norm2(load)**2) exit
         next = bearing%point
         next%eccentricity = deeper*next%eccentricity
         call follow_path(bearing, newton, next, 0.5_wp, downwards, report)
-        if (.not. report%converged) exit ! a load may press it where a position does not lead
+        if (.not. report%converged()) exit ! a load may press it where a position does not lead
       end do
       call release_shaft(bearing, newton, problem%target, quick, report)
-      report%shaft_fixed = .not. (report%converged .or. report%has_cause())
+      report%shaft_fixed = .not. (report%converged() .or. report%has_cause())
     end associate
   end subroutine try_laid_down
 
@@ -109,7 +110,7 @@ contains
     newton%settings%maximum_iterations = min(hasty_iterations, allowed)
     call solve_at(bearing, newton, target, .false., settings, report)
     newton%settings%maximum_iterations = allowed
-    if (.not. report%converged) call start%put_back(bearing)
+    if (.not. report%converged()) call start%put_back(bearing)
     call start%destroy()
   end subroutine try_directly
 
@@ -131,15 +132,15 @@ contains
     quick = settings
     if (.not. bearing%pad(1)%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
     call find_position(bearing, newton, target, quick, report)
-    if (.not. (report%converged .or. bearing%pad(1)%film%flow%upwind)) then
+    if (.not. (report%converged() .or. bearing%pad(1)%film%flow%upwind)) then
       call failed%keep(bearing)
       call start%put_back(bearing)
       call find_by_upwinding(bearing, newton, target, position, settings, peclet, other)
-      if (other%converged) then
+      if (other%converged()) then
         report = other
       else if (peclet > coarse_peclet) then
-        report%reason = "Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
-          text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh"
+        report%ending = path_lost("Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
+                                  text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh")
         call failed%put_back(bearing)
       else
         call start%put_back(bearing)
@@ -166,7 +167,7 @@ contains
     call find_position(bearing, newton, target, settings, report)
     call set_upwind(bearing, .false.)
     peclet = 0.0_wp
-    if (.not. report%converged) return
+    if (.not. report%converged()) return
     answer = bearing_answer(bearing)
     peclet = answer%maximum_peclet
     wanted = target

@@ -2,6 +2,7 @@
 !> Starts from the answer of a smaller system: on a coarser mesh, or on half the width.
 module gfb_smaller_start
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_lost
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, trial_settings
   use gfb_start_position, only: solve_at
@@ -27,7 +28,7 @@ contains
     if (problem%carried_only) problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
     call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
     problem%newton%settings%maximum_iterations = allowed
-    problem%from_smaller = report%converged
+    problem%from_smaller = report%converged()
   end subroutine try_smaller_answer
 
   !> The smaller system's refusal is shown on this one from the state that it was shown from there: with the free edge
@@ -40,14 +41,13 @@ contains
 
     call transfer_answer(problem%smaller, problem%bearing)
     call solve_at(problem%bearing, problem%newton, problem%smaller%point, .false., problem%settings, report)
-    ends = report%converged
-    report%converged = .false.
+    ends = report%converged()
     if (.not. ends) return
     call problem%anchor%keep(problem%bearing)
     if (any(problem%bearing%point%edge_hold > 0.0_wp)) then
       ends = any([(edge_force(problem%bearing, pad), pad=1, size(problem%bearing%pad))] < 0.0_wp)
-      report%reason = problem%refusal%reason
-      report%drawn = ends .and. problem%refusal%drawn
+      report%ending = path_lost(problem%refusal%reason())
+      if (ends) report%ending = problem%refusal%ending
     else
       call follow_path(problem%bearing, problem%newton, problem%target, first_step, &
                        trial_settings(problem%settings), report)

@@ -2,6 +2,7 @@
 !> The cold starts: which are tried on a bearing, and in what order.
 module gfb_start_list
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_stopped
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_system, only: bearing_system_type
@@ -160,13 +161,13 @@ contains
     interference = problem%scene%bearing%interference
     if (.not. interference > 0.0_wp .or. associated(problem%smaller)) then
       call try_starts(problem, report)
-      if (.not. interference > 0.0_wp .or. report%converged .or. problem%refused .or. problem%carried_only) return
+      if (.not. interference > 0.0_wp .or. report%converged() .or. problem%refused .or. problem%carried_only) return
     end if
     problem%smaller => null()
     call problem%newton%log%detail('without interference of assembly:')
     call set_interference(problem%bearing, 0.0_wp)
     call try_starts(problem, report)
-    if (report%converged) call press(problem, interference, report)
+    if (report%converged()) call press(problem, interference, report)
     call set_interference(problem%bearing, interference)
   end subroutine start_pressed
 
@@ -189,22 +190,22 @@ contains
       problem%may_give_up = problem%bearing%floats .or. starts(i) /= start_released_late
       call try_start(starts(i), problem, report, ends)
       stopped = gives_up(problem%newton%settings%bound)
-      if (stopped .and. .not. report%converged) then
+      if (stopped .and. .not. report%converged()) then
         ends = .false.
-        call report%tell_nothing()
+        report%ending = path_stopped()
       end if
-      if (report%converged .or. ends) exit
+      if (report%converged() .or. ends) exit
       if (leaves_a_state(starts(i))) call keep_nearest(problem, report, nearest)
       if (stopped .or. i == size(starts)) exit
       if (problem%newton%iterations - spent_before > most_iterations) then
-        call problem%newton%log%line('no answer from the start "'//start_name(starts(i))//'" ('//report%reason// &
+        call problem%newton%log%line('no answer from the start "'//start_name(starts(i))//'" ('//report%reason()// &
                                      '); no other one after '//text(most_iterations)//' iterations')
         exit
       end if
-      call problem%newton%log%line('no answer from the start "'//start_name(starts(i))//'" ('//report%reason// &
+      call problem%newton%log%line('no answer from the start "'//start_name(starts(i))//'" ('//report%reason()// &
                                    '); the next: "'//start_name(starts(i + 1))//'"')
     end do
-    if (.not. (report%converged .or. ends) .and. nearest%known) then
+    if (.not. (report%converged() .or. ends) .and. nearest%known) then
       report = nearest%report
       call nearest%kept%put_back(problem%bearing)
     end if
@@ -260,14 +261,14 @@ contains
     rest = edges_rest(problem, report, resting)
     if (.not. rest) rest = edges_rest(problem, report, hardly_lifted)
     if (rest) rest = may_be_stable(problem)
-    if (rest .or. .not. (report%converged .or. ends)) return
+    if (rest .or. .not. (report%converged() .or. ends)) return
     call first%keep(problem%bearing)
     do trial = 1, 2
       call problem%newton%log%detail('an equilibrium whose edges rest:')
       if (trial == 1) call try_free_edge(problem, other, other_ends)
       if (trial == 2) call try_soft_contacts(problem, near_the_foil, other, other_ends)
       rest = edges_rest(problem, other, resting)
-      if (.not. (rest .or. other%converged .and. .not. report%converged)) cycle
+      if (.not. (rest .or. other%converged() .and. .not. report%converged())) cycle
       report = other
       ends = other_ends
       if (rest) exit
@@ -295,7 +296,7 @@ contains
     logical :: rest
     integer :: pad
 
-    rest = report%converged
+    rest = report%converged()
     do pad = 1, size(problem%bearing%pad)
       if (rest) rest = edge_lift(problem%bearing, pad) < highest*clearance_of(problem%bearing)
     end do

@@ -2,6 +2,7 @@
 !> Where a search for an answer begins: a fixed shaft, brought from rest to speed, and released.
 module gfb_start_position
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_lost
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
@@ -33,11 +34,14 @@ contains
     bearing%point = target
     bearing%shaft_fixed = fixed
     call solve_newton(newton, solved)
-    report%converged = solved%converged
-    if (solved%converged .and. bearing%floats .and. .not. fixed) then
-      report%converged = bearing%smallest_gap() >= settings%touch_down_gap
+    report%ending = path_lost(solved%reason)
+    if (solved%converged) then
+      if (fixed .or. .not. bearing%floats) then
+        report%ending = path_reached()
+      else if (bearing%smallest_gap() >= settings%touch_down_gap) then
+        report%ending = path_reached()
+      end if
     end if
-    report%reason = solved%reason
     report%reached = target
     report%fraction = 1.0_wp
     report%steps = 1
@@ -63,7 +67,7 @@ contains
     call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
     report%shaft_fixed = .true.
-    if (report%converged .and. norm2(free%eccentricity - wanted%eccentricity) + &
+    if (report%converged() .and. norm2(free%eccentricity - wanted%eccentricity) + &
         norm2(free%tilt - wanted%tilt) > 0.0_wp) then
       call newton%log%detail('to the position asked for')
       call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)

@@ -3,6 +3,7 @@
 module gfb_bearing_solution
   use petscsys
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
@@ -111,9 +112,9 @@ contains
     call end_search(sweep, report)
     call begin_lighter(sweep, operating_point(operation), report)
     call sweep%approach_limit(report)
-    if (.not. report%converged) call sweep%explain(report, .false., reason)
-    call sweep%begin(report%converged)
-    if (report%converged) call sweep%save_point(next - 1)
+    if (.not. report%converged()) call sweep%explain(report, .false., reason)
+    call sweep%begin(report%converged())
+    if (report%converged()) call sweep%save_point(next - 1)
   end subroutine start
 
   !> Where the load from which the largest one is looked for has no answer, the last equilibrium on the way to it is the begin.
@@ -122,13 +123,13 @@ contains
     type(operating_point_type), intent(in) :: target !! with that load
     type(path_report_type), intent(inout) :: report !! of the start
 
-    if (report%converged .or. report%shaft_fixed .or. .not. sweep%scene%capacity%seeks_load()) return
+    if (report%converged() .or. report%shaft_fixed .or. .not. sweep%scene%capacity%seeks_load()) return
     associate (reached => sweep%bearing%point)
       if (any(reached%edge_hold > 0.0_wp) .or. .not. norm2(reached%load) > 0.0_wp) return
-      call sweep%context%log%line('no equilibrium to begin with ('//report%reason//'): from '// &
+      call sweep%context%log%line('no equilibrium to begin with ('//report%reason()//'): from '// &
                                   text(100.0_wp*norm2(reached%load)/norm2(target%load), 3)//' % of that load')
     end associate
-    report%converged = .true.
+    report%ending = path_reached()
   end subroutine begin_lighter
 
   !> The scene with the value of a point in it, where the sweep changes keys; else as it is.
@@ -221,7 +222,7 @@ contains
       call start_anew(plan, sweep, point, report, error)
       if (allocated(error)) exit
       reason = reason_type()
-      if (.not. report%converged) then
+      if (.not. report%converged()) then
         call sweep%stop_short(report, reason)
         if (reason%code == reason_stopped) call sweep%save_stopped(point - 1)
         exit
@@ -249,13 +250,13 @@ contains
       call sweep%leave(operating_point(sweep%here%operation))
       call follow_keys(sweep%scene, scene_at_value, plan, sweep%value, sweep%scene%sweep%values(point), sweep%path, sweep%bearing, &
                        sweep%newton, report)
-      sweep%anew = .not. (report%converged .or. report%touched)
+      sweep%anew = .not. (report%converged() .or. report%has_cause())
       if (sweep%anew) call start_anew(plan, sweep, point, report, error)
       if (allocated(error)) return
-      if (report%converged) call scene_of(sweep, point, scene, error)
+      if (report%converged()) call scene_of(sweep, point, scene, error)
       if (allocated(error)) return
       call sweep%approach_limit(report)
-      if (.not. report%converged) then
+      if (.not. report%converged()) then
         call sweep%stop_short(report, reason)
         return
       end if
@@ -292,10 +293,10 @@ contains
     type(path_report_type), intent(inout) :: report !! of the search
     logical :: gave_up
 
-    gave_up = sweep%bound%is_reached() .and. .not. report%converged
+    gave_up = sweep%bound%is_reached() .and. .not. report%converged()
     call sweep%bound%lift()
     if (.not. gave_up) return
     call sweep%context%log%line('the search from nothing gave up '//sweep%bound%words())
-    if (.not. report%tells_why()) report%reason = report%reason//', '//sweep%bound%words()
+    if (.not. report%has_cause()) call report%ending%add_words('', ', '//sweep%bound%words())
   end subroutine end_search
 end module gfb_bearing_solution

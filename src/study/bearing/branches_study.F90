@@ -89,10 +89,10 @@ contains
     end associate
     if (allocated(error)) return
     self%search%lifts = [lowest_lift, highest_lift]*self%bearing%pad(1)%film%clearance
-    if (report%converged) then
+    if (report%converged()) then
       call find_branches(self%bearing, self%newton, self%search)
     else
-      call context%log%line('no equilibrium from the usual starts: '//report%reason)
+      call context%log%line('no equilibrium from the usual starts: '//report%reason())
     end if
     call search_from_starts(self, searched(scene), settings, context%log)
     self%converged = allocated(self%search%branch)
@@ -124,7 +124,7 @@ contains
     do i = 1, size(starts)
       call log%stage('start "'//start_name(starts(i))//'":')
       call try_start(starts(i), problem, report, ends)
-      if (report%converged) then
+      if (report%converged()) then
         call find_branches(self%bearing, self%newton, self%search)
       else
         call log%line('no equilibrium from this start')

@@ -4,6 +4,7 @@
 module gfb_folds
   use petscsys
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_touches_at, path_lost
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_signals, only: stop_words
@@ -57,16 +58,16 @@ contains
                             sweep%record, branch)
         end if
         if (stops) then
-          report%reason = stop_words()
+          if (.not. report%converged()) report%ending = path_lost(stop_words())
           ended = .true.
-          call context%restart%tell(context%log, report%reason//' after answer '//text(points)//' of the branch')
+          call context%restart%tell(context%log, stop_words()//' after answer '//text(points)//' of the branch')
         end if
       end associate
     end do
     report%reached = sweep%bearing%point
     report%fraction = branch%arc%lambda
     call end_arc(branch%arc, sweep%newton)
-    if (.not. report%converged) call sweep%stop_short(report, reason)
+    if (.not. report%converged()) call sweep%stop_short(report, reason)
   end subroutine sweep_round_folds
 
   !> Begins at the bearing's present answer, or where a restart file has the branch.
@@ -112,16 +113,15 @@ contains
         if (.not. again) call record_fold(sweep, branch)
       end if
     else
-      report%reason = 'no step, however short, leads on along the branch'
+      report%ending = path_lost('no step, however short, leads on along the branch')
     end if
     gap = sweep%bearing%smallest_gap()
     if (moved .and. gap < sweep%path%touch_down_gap) then
-      report%touched = .true.
-      report%reason = 'the shaft touches down at '//value_text(sweep%scene, branch%arc%lambda)
+      report%ending = path_touches_at('at '//value_text(sweep%scene, branch%arc%lambda))
     else if (branch%arc%steps >= most_steps) then
-      report%reason = 'more than '//text(most_steps)//' steps along the branch'
+      report%ending = path_lost('more than '//text(most_steps)//' steps along the branch')
     end if
-    ended = ended .or. allocated(report%reason)
+    ended = ended .or. report%reason() /= ''
   end subroutine take_step
 
   !> Records the answers at those values that the last step has passed; the branch ends where it leaves
@@ -146,7 +146,7 @@ contains
         if (.not. found) return
         ended = k == values .and. to >= branch%lambda(k) .or. k == 1 .and. to <= branch%lambda(k)
         if (ended) then
-          report%converged = .true.
+          report%ending = path_reached()
           if (k == 1) call sweep%context%log%line('the branch has come back to the first value')
           return
         end if
@@ -169,8 +169,8 @@ contains
       call solve_newton(newton, solved)
       found = solved%converged
       if (.not. found) then
-        report%reason = 'no answer at '//value_text(scene, branch%lambda(number))//', which the branch passes ('// &
-          solved%reason//')'
+        report%ending = path_lost('no answer at '//value_text(scene, branch%lambda(number))//', which the branch passes ('// &
+                                  solved%reason//')')
         return
       end if
       branch%kept = number

@@ -4,6 +4,7 @@
 module gfb_key_path
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_touches, path_lost
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
@@ -17,7 +18,8 @@ module gfb_key_path
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
   use gfb_start_problem, only: drop_bearing
   use gfb_answer_transfer, only: transfer_answer
-  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_path_report, only: path_settings_type, path_report_type
+  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent
   use gfb_run_log, only: run_log_type
   implicit none (type)
   private
@@ -52,6 +54,28 @@ module gfb_key_path
     real(wp) :: at = 0.0_wp             !! path parameter [1]
   end type carried_type
 
+  !> A bearing on its way from a value of keys to another; the parameter is the share of the way.
+  type, extends(path_problem_type) :: key_path_type
+    type(scene_type), pointer :: scene => null()
+    procedure(scene_at_interface), pointer, nopass :: scene_at => null()
+    type(bearing_plan_type), pointer :: plan => null()
+    real(wp) :: from = 0.0_wp, to = 0.0_wp !! values [the keys' unit]
+    integer :: maximum_steps = 0
+    real(wp) :: touch_down_gap = 0.0_wp    !! [m]
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null() !! its solver
+    type(carried_type) :: here, before     !! the last two answers
+    logical :: leaps = .false.             !! Newton's steps may be bent
+    character(len=:), allocatable :: problem !! why the last trial has no answer
+  contains
+    procedure :: try => try_key
+    procedure :: accept => accept_key
+    procedure :: restore => restore_key
+    procedure :: has_steps
+    procedure :: rescue => leap
+    procedure :: is_too_far => touches
+  end type key_path_type
+
 contains
 
   !> Leads the bearing from a value of keys of its scene, where its state is the answer, to another.
@@ -61,70 +85,106 @@ contains
   !> goes to and fro between contacts however short the step, longer steps are tried, bent at contacts that change; what
   !> they find has to be near, too. On return the bearing is at the last answer.
   subroutine follow_keys(scene, scene_at, plan, from, to, settings, bearing, newton, report)
-    type(scene_type), intent(in) :: scene !! what is asked for
+    type(scene_type), target, intent(in) :: scene !! what is asked for
     procedure(scene_at_interface) :: scene_at !! puts a value into it
-    type(bearing_plan_type), intent(in) :: plan !! of its meshes
+    type(bearing_plan_type), target, intent(in) :: plan !! of its meshes
     real(wp), intent(in) :: from, to !! values [the keys' unit]
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft; is built anew
     type(newton_type), target, intent(inout) :: newton !! of the bearing; is created anew
     type(path_report_type), intent(out) :: report !! how far it led
-    type(carried_type) :: here, before
+    type(key_path_type) :: path
     character(len=:), allocatable :: problem
-    real(wp) :: step, smallest, trial
-    integer :: iterations
-    logical :: leaps
+    integer :: ending
 
-    call carry(bearing, from, 0.0_wp, here)
-    before = here
-    before%at = -1.0_wp
-    leaps = .false.
-    step = 1.0_wp
-    smallest = max(shortest_step, settings%smallest_step)
-    do while (report%fraction < 1.0_wp)
-      if (report%steps + report%cuts >= settings%maximum_steps) then
-        report%reason = 'more than '//text(settings%maximum_steps)//' steps'
-        exit
-      end if
-      trial = min(1.0_wp, report%fraction + step)
-      call try_value(scene, scene_at, plan, value_at(from, to, trial), trial, here, before, leaps, bearing, newton, iterations, &
-                     problem)
-      if (problem == '') then
-        if (has_moved(here, bearing)) problem = 'the shaft or the free edge jumps'
-      end if
-      if (problem /= '') then
-        report%cuts = report%cuts + 1
-        call newton%log%detail('cut: '//problem)
-        step = 0.5_wp*step
-        if (step >= smallest) cycle
-        if (.not. leaps) then
-          leaps = .true.
-          step = 1.0_wp - report%fraction
-          cycle
-        end if
-        report%reason = 'no step leads on ('//problem//')'
-        exit
-      end if
-      leaps = .false.
-      before = here
-      call carry(bearing, value_at(from, to, trial), trial, here)
-      report%fraction = trial
-      report%steps = report%steps + 1
-      if (iterations <= easy_iterations) step = 2.0_wp*step
-      if (bearing%smallest_gap() < settings%touch_down_gap) then
-        report%touched = .true.
-        report%reason = 'the shaft touches down: the film is thinner than '//text(settings%touch_down_gap*1.0e6_wp, 3)//' um'
-        exit
-      end if
-    end do
-    report%converged = report%fraction >= 1.0_wp .and. .not. report%touched
-    if (report%converged) report%reason = 'converged'
-    if (report%fraction < 1.0_wp .and. .not. report%touched) then
-      call rebuild(scene, scene_at, plan, value_at(from, to, report%fraction), here, bearing, newton, problem)
+    path%scene => scene
+    path%scene_at => scene_at
+    path%plan => plan
+    path%from = from
+    path%to = to
+    path%maximum_steps = settings%maximum_steps
+    path%touch_down_gap = settings%touch_down_gap
+    path%bearing => bearing
+    path%newton => newton
+    call carry(bearing, from, 0.0_wp, path%here)
+    path%before = path%here
+    path%before%at = -1.0_wp
+    call follow_steps(path, step_rules_type(smallest_step=max(shortest_step, settings%smallest_step), &
+                                            easy_iterations=easy_iterations), ending)
+    select case (ending)
+    case (steps_arrived)
+      report%ending = path_reached()
+    case (steps_too_far)
+      report%ending = path_touches(settings%touch_down_gap)
+    case (steps_spent)
+      report%ending = path_lost('more than '//text(settings%maximum_steps)//' steps')
+    case default
+      report%ending = path_lost('no step leads on ('//path%problem//')')
+    end select
+    report%fraction = path%at
+    report%steps = path%steps
+    report%cuts = path%cuts
+    if (report%fraction < 1.0_wp .and. .not. report%has_cause()) then
+      call rebuild(scene, scene_at, plan, value_at(from, to, report%fraction), path%here, bearing, newton, problem)
       if (problem /= '') error stop 'a bearing that had been built cannot be built again'
     end if
     report%reached = bearing%point
   end subroutine follow_keys
+
+  !> The bearing at a value on the way; a trial that moves the shaft or the free edge far is none.
+  subroutine try_key(self, trial, may_be_cut, converged, iterations)
+    class(key_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial     !! share of the way [1]
+    logical, intent(in) :: may_be_cut !! does not matter
+    logical, intent(out) :: converged !! there is an answer near the last one
+    integer, intent(out) :: iterations
+
+    call try_value(self%scene, self%scene_at, self%plan, value_at(self%from, self%to, trial), trial, self%here, self%before, &
+                   self%leaps, self%bearing, self%newton, iterations, self%problem)
+    if (self%problem == '') then
+      if (has_moved(self%here, self%bearing)) self%problem = 'the shaft or the free edge jumps'
+    end if
+    converged = self%problem == ''
+  end subroutine try_key
+
+  !> Takes an answer along.
+  subroutine accept_key(self, trial)
+    class(key_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial !! share of the way [1]
+
+    self%leaps = .false.
+    self%before = self%here
+    call carry(self%bearing, value_at(self%from, self%to, trial), trial, self%here)
+  end subroutine accept_key
+
+  !> The next trial is built from the last answer: nothing is to be done.
+  subroutine restore_key(self)
+    class(key_path_type), intent(inout) :: self !! the path
+    call self%newton%log%detail('cut: '//self%problem)
+  end subroutine restore_key
+
+  !> Whether another step is allowed.
+  logical function has_steps(self)
+    class(key_path_type), intent(inout) :: self !! the path
+    has_steps = self%steps + self%cuts < self%maximum_steps
+  end function has_steps
+
+  !> Where steps are too short: longer ones, bent at contacts that change.
+  subroutine leap(self, step, goes_on)
+    class(key_path_type), intent(inout) :: self !! the path
+    real(wp), intent(inout) :: step !! share of the way [1]
+    logical, intent(out) :: goes_on !! they have not been tried yet
+
+    goes_on = .not. self%leaps
+    self%leaps = .true.
+    if (goes_on) step = 1.0_wp - self%at
+  end subroutine leap
+
+  !> Whether the shaft touches down.
+  logical function touches(self)
+    class(key_path_type), intent(inout) :: self !! the path
+    touches = self%bearing%smallest_gap() < self%touch_down_gap
+  end function touches
 
   !> The value at a path parameter; the last one to the last digit.
   pure function value_at(from, to, at) result(value)

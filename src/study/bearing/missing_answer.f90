@@ -33,7 +33,7 @@ contains
     if (scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
     if (scene%capacity%question > 0) reason%code = reason_no_limit
     if (fixed) reason%code = reason_fixed_shaft
-    reason%detail = report%reason
+    reason%detail = report%reason()
     if (stop_agreed()) then
       reason%code = reason_stopped
       reason%detail = stop_words()

@@ -147,10 +147,10 @@ contains
       target = bearing%point
       target%speed = angular_speed(trial)
       call follow_path(bearing, newton, target, 1.0_wp, path, report)
-      if (report%converged) then
+      if (report%converged()) then
         call find_instability(scene, bearing, newton, build, here, problem)
       else
-        problem = report%reason
+        problem = report%reason()
       end if
       if (allocated(problem)) then
         problem = 'at '//text(trial)//' rpm '//problem

@@ -98,7 +98,7 @@ contains
     end if
     call self%approach_limit(report)
     self%anew = .false.
-    if (report%converged) return
+    if (report%converged()) return
     if (self%may_start_anew(report)) then
       self%lost_at = point
       self%lost = report
@@ -116,7 +116,7 @@ contains
     logical :: may
 
     associate (sweep => self%scene%sweep)
-      may = .not. (report%has_cause() .or. report%drawn .or. self%partitioned .or. sweep%friction_memory .or. &
+      may = .not. (report%has_cause() .or. self%partitioned .or. sweep%friction_memory .or. &
                    sweep%turn_folds .or. sweep%hold_position .or. self%scene%capacity%question > 0)
     end associate
     if (may) may = self%bearing%pad(1)%foil%has_contacts()
@@ -129,12 +129,11 @@ contains
     type(path_report_type), intent(inout) :: report !! of the path to the answer, then to the limit
 
     if (self%scene%capacity%question == 0) return
-    if (.not. report%converged) then
-      report%reason = 'no equilibrium to begin with: '//report%reason
+    if (.not. report%converged()) then
+      call report%ending%add_words('no equilibrium to begin with: ', '')
       return
     end if
-    call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, report)
-    self%record%at_fold = report%folded
+    call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, self%record%at_fold, report)
   end subroutine approach_limit
 
   !> From a limit back to the answer from which it was found, where the scene asks for limits.
@@ -182,7 +181,7 @@ contains
       if (sweep%parameter /= sweep_keys) before = sweep%values(point - 1)
       call log%line('the path from the point before ends at '//sweep_name(sweep)//' = '// &
                     text(before + report%fraction*(sweep%values(point) - before))//' '//sweep_unit(sweep)// &
-                    ': '//report%reason)
+                    ': '//report%reason())
       call log%line('point '//text(point)//' starts from nothing')
     end associate
   end subroutine tell_end

@@ -3,6 +3,7 @@
 !> the limit is passed, then by false position, every trial an equilibrium on that branch.
 module gfb_limit_search
   use gfb_kinds, only: wp
+  use gfb_ending, only: path_reached, path_stopped, path_lost, ending_fold
   use gfb_quantity, only: quantity_type
   use gfb_results, only: add_result
   use gfb_text, only: text
@@ -253,15 +254,15 @@ contains
   !> Leads the bearing from an equilibrium to the limit that the scene asks for, or to the end of the branch before it.
   !>
   !> Without an answer the bearing is at the last state that was reached.
-  subroutine find_limit(scene, log, path, bearing, newton, found, report)
+  subroutine find_limit(scene, log, path, bearing, newton, found, at_fold, report)
     type(scene_type), intent(in) :: scene !! that asks for a limit
     type(run_log_type), intent(in) :: log !! where lines go
     type(path_settings_type), intent(in) :: path !! limits of paths
     type(bearing_system_type), target, intent(inout) :: bearing !! at an equilibrium
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: found(:) !! what summary and history say of the limit
-    !> whether there is an answer; it is `folded` where that is a branch's end in a fold
-    type(path_report_type), intent(out) :: report
+    logical, intent(out) :: at_fold !! the answer is a branch's end in a fold
+    type(path_report_type), intent(out) :: report !! whether there is an answer
     type(limit_type) :: limit
     type(sides_type) :: sides
     logical :: passed
@@ -269,10 +270,11 @@ contains
     limit = limit_of(scene, bearing%point)
     call pass_limit(limit, path, bearing, newton, sides, passed, report)
     if (passed) call close_in(limit, path, bearing, newton, sides, report)
+    at_fold = report%ending%kind == ending_fold
     if (stop_agreed()) then
-      report%converged = .false. ! the caller knows why
+      report%ending = path_stopped() ! the caller knows why
     else if (passed .or. sides%within%created) then
-      call conclude(limit, log, bearing, sides, found, report)
+      call conclude(limit, log, bearing, sides, found, at_fold, report)
     end if
     call sides%within%destroy()
   end subroutine find_limit
@@ -321,14 +323,13 @@ contains
       call look()
       stops = stop_agreed()
       if (passed .or. stops) return
-      if (.not. report%converged) then
-        if (.not. starts_within) report%reason = 'beyond the limit at first, and on the way back '//report%reason
+      if (.not. report%converged()) then
+        if (.not. starts_within) call report%ending%add_words('beyond the limit at first, and on the way back ', '')
         return
       end if
     end do
-    report%converged = .false.
-    report%reason = 'not met after '//text(most_steps)//' steps, each of which doubled or halved what is looked for'
-    if (.not. starts_within) report%reason = limit%never_within(bearing)
+    report%ending = path_lost('not met after '//text(most_steps)//' steps, each of which doubled or halved what is looked for')
+    if (.not. starts_within) report%ending = path_lost(limit%never_within(bearing))
 
   contains
 
@@ -354,7 +355,7 @@ contains
     real(wp) :: trial, last, left
     integer :: i
 
-    report%converged = .true.
+    report%ending = path_reached()
     do i = 1, most_trials
       if (abs(sides%bracket%at_high) <= settled) return
       if (stop_agreed()) return
@@ -363,7 +364,7 @@ contains
       call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
       left = limit%reserve(bearing)
       if (.not. left < 0.0_wp) call sides%within%keep(bearing)
-      if (.not. report%converged) return
+      if (.not. report%converged()) return
       call newton%log%detail('limit: '//limit%words(bearing))
       if (abs(trial - last) <= tolerance*abs(trial)) return
       call sides%bracket%narrow(trial, left)
@@ -371,12 +372,13 @@ contains
   end subroutine close_in
 
   !> Says what was found: the limit, or the last answer on its near side and why the limit is not met.
-  subroutine conclude(limit, log, bearing, sides, found, report)
+  subroutine conclude(limit, log, bearing, sides, found, at_fold, report)
     type(limit_type), intent(in) :: limit
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(inout) :: bearing !! at the answer on return
     type(sides_type), intent(in) :: sides
     type(quantity_type), allocatable, intent(out) :: found(:)
+    logical, intent(out) :: at_fold !! it is a branch's end in a fold
     type(path_report_type), intent(inout) :: report !! in: of the last path; out: there is an answer
     character(len=:), allocatable :: ends
     real(wp) :: left
@@ -388,18 +390,17 @@ contains
     found = limit%results(bearing%point, reached)
     if (reached) then
       call log%line(limit%words(bearing))
-    else if (report%converged) then
+    else if (report%converged()) then
       call log%warning(limit%words(bearing)//', not at the limit: answers jump across it')
     else
-      ends = limit%words(bearing)//', not at the limit: '//report%reason
-      if (report%has_cause() .or. report%drawn) then
+      ends = limit%words(bearing)//', not at the limit: '//report%reason()
+      if (report%has_cause()) then
         call log%line(ends)
       else
         call log%warning(ends//'; the branch may go on')
       end if
     end if
-    report%folded = report%folded .and. .not. reached
-    report%converged = .true.
-    report%reason = 'converged'
+    at_fold = report%ending%kind == ending_fold .and. .not. reached
+    report%ending = path_reached()
   end subroutine conclude
 end module gfb_limit_search

@@ -1,0 +1,137 @@
+!> How a path of states ends: one of seven ways. What is said of each is written here, and nowhere else.
+module gfb_ending
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_work_bound, only: gave_up_words
+  implicit none (type, external)
+  private
+  public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds, path_empties, path_is_drawn, path_stopped, path_lost
+
+  integer, parameter, public :: ending_lost = 0       !! Newton's method leads no farther, and nothing shows why
+  integer, parameter, public :: ending_reached = 1    !! the state asked for
+  integer, parameter, public :: ending_touch_down = 2 !! the shaft comes too near
+  integer, parameter, public :: ending_fold = 3       !! the branch of answers turns back
+  integer, parameter, public :: ending_emptied = 4    !! the film's pressure falls to nothing somewhere
+  integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
+  integer, parameter, public :: ending_stopped = 6    !! the search had to end before anything was shown
+
+  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+
+  !> An ending.
+  type, public :: ending_type
+    integer :: kind = ending_lost !! one of those above
+    character(len=:), allocatable, private :: sentence
+  contains
+    procedure :: words
+    procedure :: add_words
+    procedure :: has_cause
+  end type ending_type
+
+contains
+
+  !> What is said of it; empty where nothing is.
+  pure function words(self)
+    class(ending_type), intent(in) :: self !! the ending
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (allocated(self%sentence)) words = self%sentence
+  end function words
+
+  !> Says more: before what it says, and behind it.
+  pure subroutine add_words(self, before, behind)
+    class(ending_type), intent(inout) :: self !! the ending
+    character(len=*), intent(in) :: before, behind !! may be empty
+    self%sentence = before//self%words()//behind
+  end subroutine add_words
+
+  !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
+  elemental function has_cause(self) result(has)
+    class(ending_type), intent(in) :: self !! of a path
+    logical :: has
+    has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction])
+  end function has_cause
+
+  !> The state asked for.
+  pure function path_reached() result(ending)
+    type(ending_type) :: ending
+    ending = ending_type(ending_reached, 'converged')
+  end function path_reached
+
+  !> The film is thinner than is allowed.
+  pure function path_touches(limit) result(ending)
+    real(wp), intent(in) :: limit !! of the gap [m]
+    type(ending_type) :: ending
+
+    ending = ending_type(ending_touch_down, 'the shaft touches down: the film is thinner than '// &
+                         text(limit*micrometres, 3)//' um')
+  end function path_touches
+
+  !> The same, where what is followed is no operating point.
+  pure function path_touches_at(place) result(ending)
+    character(len=*), intent(in) :: place !! in words: 'at ...', 'where ...'
+    type(ending_type) :: ending
+    ending = ending_type(ending_touch_down, 'the shaft touches down '//place)
+  end function path_touches_at
+
+  !> The same, where loops are tried.
+  pure function path_thins() result(ending)
+    type(ending_type) :: ending
+    ending = ending_type(ending_touch_down, 'the film is thinner than touch_down_gap')
+  end function path_thins
+
+  !> The gap has closed, and no step leads on.
+  pure function path_closes(gap, lost) result(ending)
+    real(wp), intent(in) :: gap !! smallest of the last state [m]
+    type(ending_type), intent(in) :: lost !! how the last step ended
+    type(ending_type) :: ending
+
+    ending = ending_type(ending_touch_down, 'the shaft touches down: the gap has closed to '// &
+                         text(gap*micrometres, 3)//' um, beyond that '//lost%words())
+  end function path_closes
+
+  !> The branch of answers turns back.
+  pure function path_folds(mover) result(ending)
+    character(len=*), intent(in) :: mover !! what moves on by itself
+    type(ending_type) :: ending
+
+    ending = ending_type(ending_fold, 'the branch of answers ends in a fold: beyond it the '//mover//' moves on by itself')
+  end function path_folds
+
+  !> The film's pressure has fallen to nothing.
+  pure function path_empties(pressure, gap, peclet) result(ending)
+    real(wp), intent(in) :: pressure, gap !! smallest ones of the last state [Pa], [m]
+    real(wp), intent(in) :: peclet !! largest number of its cells [1]
+    type(ending_type) :: ending
+
+    ending = ending_type(ending_emptied, 'the film is emptied: its pressure falls to '//text(pressure, 2)// &
+                         ' Pa behind a gap of '//text(gap*micrometres, 3)//' um, on cells of a Peclet number up to '// &
+                         text(peclet, 2)//'; a finer mesh may lead farther')
+  end function path_empties
+
+  !> The film draws a free edge to the shaft at every height at which it was fixed.
+  pure function path_is_drawn(edge, heights, highest, room, least) result(ending)
+    character(len=*), intent(in) :: edge !! in words
+    integer, intent(in) :: heights !! at which it was fixed
+    real(wp), intent(in) :: highest, room !! of them, and from there to the shaft [m]
+    real(wp), intent(in) :: least !! force that fixes it [N]
+    type(ending_type) :: ending
+
+    ending = ending_type(ending_suction, 'the film draws '//edge//' to the shaft: fixed at '//text(heights)//' heights up to '// &
+                         text(highest*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
+                         ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more')
+  end function path_is_drawn
+
+  !> A signal asks for the end, or all work that is allowed is done: nothing has been shown.
+  pure function path_stopped() result(ending)
+    type(ending_type) :: ending
+    ending = ending_type(ending_stopped, gave_up_words)
+  end function path_stopped
+
+  !> Nothing shows why no step leads on.
+  pure function path_lost(last) result(ending)
+    character(len=*), intent(in) :: last !! what the last step has ended in
+    type(ending_type) :: ending
+    ending = ending_type(ending_lost, last)
+  end function path_lost
+end module gfb_ending
