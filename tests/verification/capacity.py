@@ -99,10 +99,11 @@ def check_beams(checks, folder):
     def content(load):
         return case("load_capacity", {"smallest_gap": GAP_4}, load=load, **BEAMS)
 
-    light, above, heavy = (solve(folder, "beams", content(load)) for load in (50.0, 160.0, 1500.0))
+    light, above = (solve(folder, "beams", content(load)) for load in (50.0, 160.0))
+    heavy = solve(folder, "beams", content(1500.0), status=2)
     found = light["load_capacity"]
-    checks.below("capacity, beams: from a load at which the shaft touches down", heavy["load_capacity"]/found - 1.0, SAME)
-    checks.that("capacity, beams: it begins at the last equilibrium on the way there", "% of that load" in heavy.log)
+    checks.that("capacity, beams: a load at which the shaft touches down is refused",
+                "no equilibrium to begin with: the shaft touches down" in heavy.log)
     checks.below("capacity, beams: from above", above["load_capacity"]/found - 1.0, SAME)
     checks.that("capacity, beams: plain equilibria on both sides",
                 on_both_sides(lambda load: gap_of(folder, load=load, **BEAMS) > GAP_4, found))
@@ -154,7 +155,7 @@ def check_ends(checks, folder):
             ("without any tilt about x", case("misalignment_allowance", {"smallest_gap": GAP}, load=500.0)),
             ("at every speed tried, up to", case("lift_off", {"contact_part": 1.0e-6}, {"foil": "rigid"},
                                                     shaft_contact={"roughness": 4.0e-6, "pressure": 5.0e7})),
-            ("no equilibrium to begin with: the shaft touches down", case("misalignment_allowance", {"smallest_gap": GAP}, {"foil": "rigid"},
+            ("no equilibrium to begin with: the shaft touches down", case("load_capacity", {"smallest_gap": GAP}, {"foil": "rigid"},
                                                                          load=5.0e6))):
         log = solve(folder, "none", content, status=2).log
         checks.that(f"no limit: {words}", "no limit found: " in log and words in log)

@@ -2,17 +2,14 @@
 !> The answers of a bearing: the first one, from nothing or from a restart file, and those of its sweep.
 module gfb_bearing_solution
   use petscsys
-  use gfb_kinds, only: wp
-  use gfb_ending, only: path_reached
   use gfb_errors, only: error_type
-  use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_model_case, only: coupling_partitioned, foil_rigid
   use gfb_operation_case, only: operation_case_type
   use gfb_scene_reading, only: scene_at_value
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_scene_point, only: operating_point, operating_point_type
+  use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, build_opposite
   use gfb_changed_bearing, only: evaluate_changed
@@ -110,27 +107,11 @@ contains
     end associate
     if (allocated(error)) return
     call end_search(sweep, report)
-    call begin_lighter(sweep, operating_point(operation), report)
     call sweep%approach_limit(report)
     if (.not. report%converged()) call sweep%explain(report, .false., reason)
     call sweep%begin(report%converged())
     if (report%converged()) call sweep%save_point(next - 1)
   end subroutine start
-
-  !> Where the load from which the largest one is looked for has no answer, the last equilibrium on the way to it is the begin.
-  subroutine begin_lighter(sweep, target, report)
-    type(sweep_type), target, intent(inout) :: sweep
-    type(operating_point_type), intent(in) :: target !! with that load
-    type(path_report_type), intent(inout) :: report !! of the start
-
-    if (report%converged() .or. report%shaft_fixed .or. .not. sweep%scene%capacity%seeks_load()) return
-    associate (reached => sweep%bearing%point)
-      if (any(reached%edge_hold > 0.0_wp) .or. .not. norm2(reached%load) > 0.0_wp) return
-      call sweep%context%log%line('no equilibrium to begin with ('//report%reason()//'): from '// &
-                                  text(100.0_wp*norm2(reached%load)/norm2(target%load), 3)//' % of that load')
-    end associate
-    report%ending = path_reached()
-  end subroutine begin_lighter
 
   !> The scene with the value of a point in it, where the sweep changes keys; else as it is.
   !>
