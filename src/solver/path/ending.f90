@@ -1,19 +1,20 @@
-!> How a path of states ends: one of seven ways. What is said of each is written here, and nowhere else.
+!> How a path of states ends: one of seven ways. What is said of each is written here alone.
 module gfb_ending
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_work_bound, only: gave_up_words
   implicit none (type, external)
   private
-  public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds, path_empties, path_is_drawn, path_stopped, path_lost
+  public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds
+  public :: path_empties, path_is_drawn, path_stopped, path_lost
 
-  integer, parameter, public :: ending_lost = 0       !! Newton's method leads no farther, and nothing shows why
+  integer, parameter, public :: ending_lost = 0       !! nothing shows why no step leads on
   integer, parameter, public :: ending_reached = 1    !! the state asked for
   integer, parameter, public :: ending_touch_down = 2 !! the shaft comes too near
   integer, parameter, public :: ending_fold = 3       !! the branch of answers turns back
-  integer, parameter, public :: ending_emptied = 4    !! the film's pressure falls to nothing somewhere
+  integer, parameter, public :: ending_emptied = 4    !! the film's pressure falls to nothing
   integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
-  integer, parameter, public :: ending_stopped = 6    !! the search had to end before anything was shown
+  integer, parameter, public :: ending_stopped = 6    !! before anything was shown
 
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
@@ -95,7 +96,8 @@ contains
     character(len=*), intent(in) :: mover !! what moves on by itself
     type(ending_type) :: ending
 
-    ending = ending_type(ending_fold, 'the branch of answers ends in a fold: beyond it the '//mover//' moves on by itself')
+    ending = ending_type(ending_fold, 'the branch of answers ends in a fold: beyond it the '// &
+                         mover//' moves on by itself')
   end function path_folds
 
   !> The film's pressure has fallen to nothing.
@@ -104,9 +106,10 @@ contains
     real(wp), intent(in) :: peclet !! largest number of its cells [1]
     type(ending_type) :: ending
 
-    ending = ending_type(ending_emptied, 'the film is emptied: its pressure falls to '//text(pressure, 2)// &
-                         ' Pa behind a gap of '//text(gap*micrometres, 3)//' um, on cells of a Peclet number up to '// &
-                         text(peclet, 2)//'; a finer mesh may lead farther')
+    ending = ending_type(ending_emptied, 'the film is emptied: its pressure falls to '// &
+                         text(pressure, 2)//' Pa behind a gap of '//text(gap*micrometres, 3)// &
+                         ' um, on cells of a Peclet number up to '//text(peclet, 2)// &
+                         '; a finer mesh may lead farther')
   end function path_empties
 
   !> The film draws a free edge to the shaft at every height at which it was fixed.
@@ -117,9 +120,11 @@ contains
     real(wp), intent(in) :: least !! force that fixes it [N]
     type(ending_type) :: ending
 
-    ending = ending_type(ending_suction, 'the film draws '//edge//' to the shaft: fixed at '//text(heights)//' heights up to '// &
-                         text(highest*micrometres, 3)//' um, '//text(room*micrometres, 2)// &
-                         ' um below the shaft, it has to be pressed down at each, by '//text(least, 2)//' N or more')
+    ending = ending_type(ending_suction, 'the film draws '//edge//' to the shaft: fixed at '// &
+                         text(heights)//' heights up to '//text(highest*micrometres, 3)// &
+                         ' um, '//text(room*micrometres, 2)// &
+                         ' um below the shaft, it has to be pressed down at each, by '// &
+                         text(least, 2)//' N or more')
   end function path_is_drawn
 
   !> A signal asks for the end, or all work that is allowed is done: nothing has been shown.

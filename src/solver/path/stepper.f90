@@ -1,7 +1,7 @@
-!> From one state to another in steps: how long they are, when they are cut, and when the path is given up.
+!> From one state to another in steps: how long they are, when they are cut, and how it ends.
 !>
-!> What is followed, an operating point, a key of the case file, an interference or the stiffness of contacts, extends
-!> `path_problem_type`; how its steps grow and shrink is data, `step_rules_type`.
+!> What is followed, an operating point, a key of the case file, an interference or the stiffness of
+!> contacts, extends `path_problem_type`; how its steps grow and shrink is data, `step_rules_type`.
 module gfb_stepper
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -14,7 +14,7 @@ module gfb_stepper
   integer, parameter, public :: steps_spent = 3    !! all are
   integer, parameter, public :: steps_given_up = 4 !! the problem gives up
 
-  !> How steps grow and shrink. Lengths are in the unit of the path's parameter, which grows from 0 to `last`.
+  !> How steps grow and shrink, in the unit of the path's parameter, which grows from 0 to `last`.
   type, public :: step_rules_type
     real(wp) :: last = 1.0_wp            !! where the path ends
     real(wp) :: first_step = 1.0_wp
@@ -22,11 +22,11 @@ module gfb_stepper
     real(wp) :: growth = 2.0_wp          !! of a step that was easy [1]
     integer :: easy_iterations = huge(1) !! a step that took no more of them was easy
     logical :: grows_at_once = .true.    !! also the first step after one that was cut
-    logical :: cuts_the_trial = .false.  !! a step that was shortened to end at the end of the path is cut from there
+    logical :: cuts_the_trial = .false.  !! a step that the end has shortened is cut from there
     real(wp) :: leap_from = huge(1.0_wp) !! a step that comes so far goes to the end
   end type step_rules_type
 
-  !> What is followed. It is left at its last answer, or where a trial has ended: `restore` is called after one that failed.
+  !> What is followed, at its last answer; `restore` is called after a trial that has failed.
   type, abstract, public :: path_problem_type
     real(wp) :: at = 0.0_wp !! parameter of the last answer
     integer :: steps = 0    !! that led on
@@ -78,7 +78,7 @@ contains
     integer, intent(out) :: ending !! one of those above
     real(wp) :: step, trial
     integer :: iterations
-    logical :: converged, just_cut, goes_on
+    logical :: converged, easy, just_cut, goes_on
 
     step = rules%first_step
     just_cut = .false.
@@ -93,7 +93,8 @@ contains
         call problem%accept(trial)
         problem%at = trial
         problem%steps = problem%steps + 1
-        if (iterations <= rules%easy_iterations .and. (rules%grows_at_once .or. .not. just_cut)) step = rules%growth*step
+        easy = iterations <= rules%easy_iterations .and. (rules%grows_at_once .or. .not. just_cut)
+        if (easy) step = rules%growth*step
         just_cut = .false.
         ending = steps_too_far
         if (problem%is_too_far()) exit
