@@ -183,17 +183,15 @@ contains
     has_contacts = mesh%bearing%pad(1)%foil%has_contacts()
     helped = has_smaller
     if (has_smaller) helped = before%report%converged()
-    ! After a mesh in between has failed there is none to begin from.
+    ! After a mesh in between has failed there is none to begin from; a film alone is cheap, and has answers that its coarse mesh lacks.
     problem%refused = has_smaller .and. .not. (helped .or. mesh%divided) .and. has_contacts
     if (has_smaller) then
       if (helped) problem%smaller => before%bearing
     end if
     if (problem%refused) then
       problem%refusal = before%report
-      if (before%anchor%created) then
-        call before%anchor%put_back(before%bearing)
-        problem%smaller => before%bearing
-      end if
+      if (before%anchor%created) call before%anchor%put_back(before%bearing)
+      if (before%anchor%created .or. .not. before%report%shaft_fixed) problem%smaller => before%bearing
     end if
     if (helped) problem%carried_only = lies_between(mesh%plan, before%plan) .and. .not. mesh%divided
     call start_pressed(problem, mesh%report)

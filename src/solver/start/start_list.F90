@@ -2,13 +2,13 @@
 !> The cold starts: which are tried on a bearing, and in what order.
 module gfb_start_list
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_stopped
+  use gfb_ending, only: path_stopped, ending_suction
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_continuation, only: path_report_type
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of
+  use gfb_continuation, only: path_report_type, follow_path
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings
   use gfb_kept_state, only: kept_state_type
   use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
@@ -30,12 +30,15 @@ module gfb_start_list
   integer, parameter, public :: start_edge_fixed = 6
   integer, parameter, public :: start_released_early = 7
   integer, parameter, public :: start_released_late = 8
-  integer, parameter, public :: start_near_foil = 9
+  integer, parameter, public :: start_light = 9
+  integer, parameter, public :: start_near_foil = 10
 
   !> Newton's, after which no other start begins: more find a few more answers, and every refusal pays for them
   integer, parameter :: most_iterations = 800
   !> Edge of a pad that is no other branch, over the clearance: higher accepts lifted edges, lower asks twice [1]
   real(wp), parameter :: hardly_lifted = 0.1_wp
+  !> Load of the last start, over the one asked for: less finds more branches, and the way from there costs more steps [1]
+  real(wp), parameter :: light_share = 0.1_wp
 
   type(soft_contacts_type), parameter :: late = soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp)
   type(soft_contacts_type), parameter :: near_the_foil = soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp)
@@ -49,8 +52,8 @@ module gfb_start_list
 
 contains
 
-  !> The starts that suit a problem, the cheapest and most successful first: of 638 answers of docs/measured/population.md
-  !> each row has won some. Where a smaller system has no answer, its end and one more start show that on this one.
+  !> The starts that suit a problem, the cheapest and most successful first: each has won answers of docs/measured/population.md.
+  !> Where a smaller system has no answer its end shows that on this one, too, and one more start where no cause is known.
   function starts_of(problem) result(starts)
     type(start_problem_type), intent(in) :: problem !! bearing and target
     integer, allocatable :: starts(:)
@@ -77,6 +80,9 @@ contains
       end if
     end associate
     if (problem%refused) starts = starts(:1)
+    if (problem%refused .and. size(first) > 0) then
+      if (problem%refusal%has_cause()) starts = starts(:0)
+    end if
     if (problem%carried_only) starts = starts(:0)
     starts = [first, starts]
   end function starts_of
@@ -113,6 +119,8 @@ contains
       name = 'soft contacts, released early under a load'
     case (start_released_late)
       name = 'soft contacts, released after the shaft in growing steps'
+    case (start_light)
+      name = 'the free edge fixed where it rests, under a tenth of the load'
     case (start_near_foil)
       name = 'soft contacts, released before the shaft near the foil'
     case default
@@ -210,7 +218,51 @@ contains
       call nearest%kept%put_back(problem%bearing)
     end if
     call nearest%kept%destroy()
+    if (report%converged() .or. stopped) return
+    ends = suits_light(problem, report)
+    if (ends) call try_light(problem, report)
   end subroutine try_starts
+
+  !> Whether a start under a lighter load may find another branch: not where the film draws the edge to the shaft, and not where a
+  !> smaller system has been searched so.
+  function suits_light(problem, report) result(suits)
+    type(start_problem_type), intent(in) :: problem
+    type(path_report_type), intent(in) :: report !! of the starts before
+    logical :: suits
+
+    suits = problem%bearing%floats .and. problem%bearing%pad(1)%foil%has_contacts() .and. .not. &
+      (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
+    if (suits) suits = has_free_edge(problem%bearing)
+  end function suits_light
+
+  !> With the free edge fixed under a lighter load, and from there to the load: the branch on which the shaft came under the load
+  !> may end where another goes on. What was known stands where that does not lead to an answer.
+  subroutine try_light(problem, report)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report !! in: of the starts before; replaced by that of an answer
+    type(start_problem_type) :: easier
+    type(path_report_type) :: light
+    type(kept_state_type) :: refused
+    logical :: ends
+
+    call problem%newton%log%line('no answer from there ('//report%reason()//'); the last start:')
+    call problem%newton%log%stage('start: '//start_name(start_light))
+    call refused%keep(problem%bearing)
+    easier = problem
+    easier%anchor = kept_state_type()
+    easier%target%load = light_share*problem%target%load
+    call try_free_edge(easier, light, ends)
+    call easier%anchor%destroy()
+    if (light%converged()) then
+      call follow_path(problem%bearing, problem%newton, problem%target, light_share, trial_settings(problem%settings), light)
+    end if
+    if (light%converged()) then
+      report = light
+    else
+      call refused%put_back(problem%bearing)
+    end if
+    call refused%destroy()
+  end subroutine try_light
 
   !> Whether a start that fails leaves a state without a fixed edge on this system.
   pure function leaves_a_state(start) result(leaves)
