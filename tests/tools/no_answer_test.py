@@ -34,7 +34,7 @@ class NoAnswer(unittest.TestCase):
         for path, text in self.sources.items():
             if "solver" not in path.parts:
                 continue
-            found = re.findall(r"report%reason = ['\"](.+?)['\"](?:\s|//|$|,)", text)
+            found = re.findall(r"(?:path_lost\(|ending_type\(ending_\w+, |%why = )['\"](.+?)['\"](?:\s|//|$|,|\))", text)
             if path.name == "newton.F90":
                 found += re.findall(r"words = '(.+?)'", text)
             missing += [piece for piece in (one.strip() for one in found) if len(piece) >= SHORTEST and piece not in self.page
