@@ -36,7 +36,7 @@ class NoAnswer(unittest.TestCase):
                 continue
             found = re.findall(r"(?:path_lost\(|ending_type\(ending_\w+, |%why = )['\"](.+?)['\"](?:\s|//|$|,|\))", text)
             if path.name == "newton.F90":
-                found += re.findall(r"words = '(.+?)'", text)
+                found += [words for words in re.findall(r"words = '(.+?)'", text) if not words.startswith("converged")]
             missing += [piece for piece in (one.strip() for one in found) if len(piece) >= SHORTEST and piece not in self.page
                         and not any(known in piece for known in re.findall(r"`([^`]+)`", self.page) if len(known) >= SHORTEST)]
         self.assertEqual(missing, [])
