@@ -12,7 +12,7 @@ module gfb_bearing_restart
   use gfb_pad_contacts, only: pad_contacts
   use gfb_newton, only: newton_type, forget_factors, visit_counts
   use gfb_arc, only: create_arc, visit_arc
-  use gfb_fold_way, only: fold_way_type, visit_way
+  use gfb_continuation, only: fold_way_type, visit_way
   use gfb_grid_series, only: forget_numbers
   use gfb_petsc_session, only: this_rank, wall_time
   use gfb_contact_record, only: visit_contact_record

@@ -1,7 +1,7 @@
 !> MITC4 shell element, linear: stiffness and internal force.
 !>
 !> Source: [DvorkinBathe1984]. Five strains in the lamina, plane stress; membrane and bending from
-!> the displacements, transverse shear tied at the sides (`gfb_shell_element`). Rule: 2 x 2 Gauss
+!> the displacements, transverse shear tied at the sides. Rule: 2 x 2 Gauss
 !> points in the plane, 2 over the thickness.
 !>
 !> Transverse shear of MITC4: covariant strains tied at the middles of the four sides.
@@ -26,12 +26,11 @@ module gfb_shell_element
   use gfb_errors, only: error_type
   implicit none (type, external)
   private
-  public :: lamina_strain, lamina_stress, shear_strains, shear_weights, pressure_weights, &
-            shell_stiffness, shell_internal_force
+  public :: pressure_weights, shell_stiffness, shell_internal_force, shell_stress, von_mises
 
   real(wp), parameter :: shear_factor = 5.0_wp/6.0_wp !! of the transverse shear [1]
 
-  integer, parameter, public :: shear_points = 4 !! A, C, D, B
+  integer, parameter :: shear_points = 4 !! A, C, D, B
 
   integer, parameter :: from(shear_points) = [4, 1, 2, 1] !! node i
   integer, parameter :: to(shear_points) = [3, 2, 3, 4]   !! node j
@@ -39,6 +38,23 @@ module gfb_shell_element
   integer, parameter :: strains = 5                !! in the lamina
   integer, parameter :: columns = 8*strains        !! strains of all Gauss points
   real(wp), parameter :: round_off = 1.0e-14_wp    !! of an entry, against the diagonal
+
+  integer, parameter, public :: lower_face = -1, upper_face = 1 !! the directors point to the upper
+
+  !> Stresses at one point of the mid-surface.
+  !>
+  !> Components 11, 22, 12 in the lamina frame: 1 along the element's xi, 3 along the director, 2
+  !> across.
+  type, public :: shell_stress_type
+    real(wp) :: frame(3, 3)                              !! the lamina's unit vectors in columns [1]
+    real(wp) :: membrane(3)                              !! mean of both faces [Pa]
+    real(wp) :: bending(3)                               !! half of upper less lower face [Pa]
+    real(wp) :: shear(2)                                 !! mean transverse 13, 23 [Pa]
+    real(wp) :: von_mises(lower_face:upper_face)         !! lower face, mid-surface, upper face [Pa]
+    real(wp) :: force(3)                                 !! membrane forces N [N/m]
+    real(wp) :: moment(3)                                !! bending moments M [N]
+    real(wp) :: shear_force(2)                           !! transverse forces Q [N/m]
+  end type shell_stress_type
 
 contains
 
@@ -456,4 +472,78 @@ contains
     work(1:2) = work(1:2) + stress(1, 3)*weight(1:2)
     work(3:4) = work(3:4) + stress(2, 3)*weight(3:4)
   end subroutine add_point_forces
+
+  !> Stresses at a point; the most accurate ones are at the centre (0, 0).
+  !>
+  !> $$ N = \int \sigma \, dz, \quad M = \int \sigma z \, dz, \quad Q = \int \tau \, dz $$
+  !>
+  !> with \( \sigma \) linear between the faces (exact up to thickness over radius):
+  !> \( N = h \sigma_m, M = h^2 \sigma_b / 6 \). The transverse shear is the mean one, with the
+  !> factor 5/6. It vanishes at the faces and is left out of their von Mises stress; at the
+  !> mid-surface it is 3/2 of the mean, the top of the parabola, and counts.
+  !>
+  !> Fails as `check_shell` does.
+  pure subroutine shell_stress(geometry, section, displacement, xi, eta, stress, error)
+    type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
+    real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
+    real(wp), intent(in) :: xi, eta                      !! in [-1, 1]
+    type(shell_stress_type), intent(out) :: stress !! at the Gauss points
+    type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
+
+    real(wp), dimension(3, shell_nodes) :: translation, change, motion
+    real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
+    real(wp) :: tied(shear_points), weight(shear_points), base(3, 3), tensor(3, 3, -1:1)
+    type(shell_lamina_type) :: lamina
+    integer :: face
+
+    call check_shell(geometry, section, error)
+    if (allocated(error)) return
+    call shell_motion(shell_turn(geometry, section%thickness), displacement, translation, change)
+    tied = shear_strains(geometry, section%thickness, translation, change)
+    weight = shear_weights(xi, eta)
+    call bilinear(xi, eta, shape, by_xi, by_eta)
+    do face = lower_face, upper_face
+      base = shell_base(geometry, section%thickness, shape, by_xi, by_eta, real(face, wp))
+      lamina = shell_lamina(base)
+      motion = translation + face*change
+      tensor(:, :, face) = lamina_stress(section, &
+        lamina_strain(base, lamina, matmul(motion, by_xi), matmul(motion, by_eta), tied, weight))
+      if (face == 0) stress%frame = lamina%frame
+    end do
+    call resultants(section%thickness, tensor, stress)
+  end subroutine shell_stress
+
+  !> All but the frame from the stress tensors of lower face, mid-surface and upper face.
+  pure subroutine resultants(thickness, tensor, stress)
+    real(wp), intent(in) :: thickness           !! h [m]
+    real(wp), intent(in) :: tensor(3, 3, -1:1)  !! in the lamina frames [Pa]
+    type(shell_stress_type), intent(inout) :: stress
+    real(wp) :: plane(3, -1:1)
+    integer :: face
+
+    do face = lower_face, upper_face
+      plane(:, face) = [tensor(1, 1, face), tensor(2, 2, face), tensor(1, 2, face)]
+      stress%von_mises(face) = von_mises(plane(:, face))
+    end do
+    stress%membrane = 0.5_wp*(plane(:, upper_face) + plane(:, lower_face))
+    stress%bending = 0.5_wp*(plane(:, upper_face) - plane(:, lower_face))
+    stress%shear = tensor(1:2, 3, 0)
+    stress%von_mises(0) = sqrt(stress%von_mises(0)**2 &
+                               + 3.0_wp*sum((1.5_wp*stress%shear)**2))
+    stress%force = thickness*stress%membrane
+    stress%moment = thickness**2/6.0_wp*stress%bending
+    stress%shear_force = thickness*stress%shear
+  end subroutine resultants
+
+  !> Equivalent stress of a plane state.
+  !>
+  !> $$ \sigma_v = \sqrt{\sigma_{11}^2 - \sigma_{11} \sigma_{22} + \sigma_{22}^2 + 3 \sigma_{12}^2}
+  !> $$
+  pure function von_mises(plane) result(equivalent)
+    real(wp), intent(in) :: plane(3) !! components 11, 22, 12 [Pa]
+    real(wp) :: equivalent           !! [Pa]
+
+    equivalent = sqrt(plane(1)**2 - plane(1)*plane(2) + plane(2)**2 + 3.0_wp*plane(3)**2)
+  end function von_mises
 end module gfb_shell_element

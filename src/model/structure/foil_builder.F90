@@ -11,8 +11,8 @@ module gfb_foil_builder
   use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
-  use gfb_foil_mesh, only: top_mesh, strip_shape_type, bump_strip_mesh, strip_substructures, crest_positions
-  use gfb_strip_rows, only: strip_rows, cut_rows, strips_of_rows, put_strip, join_kinds
+  use gfb_foil_mesh, only: top_mesh, strip_shape_type, bump_strip_mesh, strip_substructures, crest_positions, strip_rows, &
+                           cut_rows, strips_of_rows, put_strip, join_kinds
   use gfb_aligned_mesh, only: aligned_stations, elements_at_ends
   use gfb_substructures, only: substructure_type
   use gfb_partition, only: division_type

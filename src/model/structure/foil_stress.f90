@@ -7,7 +7,7 @@ module gfb_foil_stress
   use gfb_errors, only: error_type
   use gfb_planar_beam, only: beam_section_type, plane_strain_section, beam_resultants, beam_unknowns
   use gfb_shell_geometry, only: shell_section_type, shell_unknowns
-  use gfb_shell_stress, only: shell_stress_type, shell_stress, von_mises, lower_face, upper_face
+  use gfb_shell_element, only: shell_stress_type, shell_stress, von_mises, lower_face, upper_face
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_structure, only: element_geometry, element_section
   implicit none (type, external)

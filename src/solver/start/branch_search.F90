@@ -14,8 +14,7 @@ module gfb_branch_search
   use gfb_bearing_directions, only: edge_lift, edge_words
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_arc, only: arc_type, end_arc
-  use gfb_arc_length, only: begin_arc, advance_arc
+  use gfb_arc, only: arc_type, end_arc, begin_arc, advance_arc
   use gfb_kept_state, only: kept_state_type
   use gfb_start_problem, only: start_problem_type, with_fixed_edges, settings_with_fixed_edge
   use gfb_start_position, only: solve_at

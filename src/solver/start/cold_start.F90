@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> The first answer of a scene, from nothing.
 !>
-!> A scene is solved on smaller systems first, from the coarsest that `smaller_scene.F90` finds to its own. Each starts from
+!> A scene is solved on smaller systems first, from the coarsest that `smaller_start.F90` finds to its own. Each starts from
 !> the answer of the one before, and from nothing only if that fails: `start_list.F90` has the starts, in order.
 module gfb_cold_start
   use gfb_kinds, only: wp
@@ -22,7 +22,7 @@ module gfb_cold_start
   use gfb_kept_state, only: kept_state_type
   use gfb_start_list, only: start_pressed
   use gfb_branch_search, only: seek_branch
-  use gfb_smaller_scene, only: find_smaller, find_between, lies_between
+  use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
   use gfb_model_case, only: foil_rigid

@@ -5,30 +5,352 @@
 !> hides what equilibria there are from Newton's method. With the edge fixed at a height the rest has
 !> an answer, and the force that holds it there tells more: where it changes its sense from one height
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
+!>
+!> The height at which the top foil's free edge stays by itself, from where it is fixed; of several pads each has one, and
+!> they are released one after the other.
+!>
+!> The force that fixes the edge is followed from height to height. Where it changes its sense the edge needs none, and is
+!> released; where it never does below the shaft the edge is drawn up everywhere, and stays nowhere.
 module gfb_edge_start
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_lost, ending_fold
-  use gfb_text, only: text
+  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold
   use gfb_petsc_session, only: any_rank
+  use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_directions, only: edge_lift, edge_room, edge_force, edge_words
+  use gfb_newton, only: newton_type, newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_bearing_directions, only: edge_force
-  use gfb_start_position, only: guess_position
-  use gfb_start_problem, only: start_problem_type, trial_settings, with_fixed_edges, with_same_edges, &
-                               settings_with_fixed_edge, clearance_of
+  use gfb_start_position, only: solve_at, guess_position
+  use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, trial_settings, &
+                               with_fixed_edges
   use gfb_kept_state, only: kept_state_type
-  use gfb_edge_heights, only: release_edges, release, release_pressed, lowest
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
   public :: try_free_edge
+
+  real(wp), parameter, public :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
+  real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
+  real(wp), parameter :: lowest = -0.5_wp !! where the film still presses it down, the same [1]
+  real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
+  real(wp), parameter :: firm = 10.0_wp          !! times the largest force so far: the bumps push the edge back [1]
+  real(wp), parameter :: next_height = 0.1_wp    !! from the one before, the same [1]
+  integer, parameter :: near_heights = 6         !! from which on they lie twice as far apart
+  real(wp), parameter :: near_shaft = 0.5_wp     !! room above the edge that ends the search, the same [1]
+  real(wp), parameter :: least_room = 0.02_wp    !! room above it that ends it in any case, the same [1]
+  integer, parameter :: long_rise = 4            !! of forces in succession, that shows enough where the shaft then touches down
+  integer, parameter :: most_heights = 20
+  integer, parameter :: few_straight = 3         !! Newton steps with the edge fixed, before they are bent
+  real(wp), parameter :: rough_residual = 1.0e-4_wp, rough_step = 1.0e-3_wp !! tolerances of forces that fix the edge [1]
+  integer, parameter :: more_straight = 8        !! of them when it is released
+  real(wp), parameter :: same_height = 0.01_wp   !! difference that does not matter, over the clearance [1]
+  integer, parameter :: hasty_iterations = 25    !! to release it
+  integer, parameter :: most_trials = 16         !! to find where the edge needs no force
+  real(wp), parameter :: least_fall = 0.5_wp     !! of the force from release to release [1]
+  real(wp), parameter :: least_share = 0.02_wp   !! of the way between two heights, from either [1]
+  real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
 
   real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
   character(len=*), parameter :: held = ', with the free edge of the top foil fixed at its height at rest'
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
 
 contains
+
+  !> At the target: releases all edges that are fixed; those of several pads at once, or one after the other, first those
+  !> that the film presses down.
+  subroutine release_edges(problem, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! one stays nowhere
+    real(wp), allocatable :: force(:) ! that fixes each edge [N]
+    integer, allocatable :: held(:)
+    integer :: pad
+
+    ends = .false.
+    associate (bearing => problem%bearing)
+      held = pack([(pad, pad=1, size(bearing%pad))], bearing%point%edge_hold(:size(bearing%pad)) > 0.0_wp)
+      if (size(held) > 1) then
+        call release(problem, problem%target, problem%newton%settings, [lowest, resting]*clearance_of(bearing), report)
+        if (report%converged()) return
+      end if
+      force = [(edge_force(bearing, held(pad)), pad=1, size(held))]
+      do while (size(held) > 0)
+        pad = minloc(force, 1)
+        call release_edge(problem, held(pad), report, ends)
+        if (.not. report%converged()) exit
+        held = [held(:pad - 1), held(pad + 1:)]
+        force = [force(:pad - 1), force(pad + 1:)]
+      end do
+    end associate
+  end subroutine release_edges
+
+  !> Of several edges that are fixed, releases those that the film presses down, at the present point: without a hold they
+  !> lie lower.
+  subroutine release_pressed(problem)
+    type(start_problem_type), intent(in) :: problem
+    type(operating_point_type) :: free
+    type(path_report_type) :: report
+    integer :: pad
+
+    do pad = 1, size(problem%bearing%pad)
+      if (.not. edge_force(problem%bearing, pad) > 0.0_wp) cycle
+      free = problem%bearing%point
+      free%edge_hold(pad) = 0.0_wp
+      free%edge_height(pad) = 0.0_wp
+      call release(problem, free, problem%newton%settings, [lowest, resting]*clearance_of(problem%bearing), report)
+    end do
+  end subroutine release_pressed
+
+  !> The target with a pad's edge released, and the others as they are.
+  pure function released(problem, pad) result(target)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! its number
+    type(operating_point_type) :: target
+
+    target = with_same_edges(problem)
+    target%edge_hold(pad) = 0.0_wp
+    target%edge_height(pad) = 0.0_wp
+  end function released
+
+  !> At the target: releases the edge of a pad where it stays by itself.
+  subroutine release_edge(problem, pad, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    integer, intent(in) :: pad !! its number
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+    real(wp) :: highest !! edge that is accepted, over the clearance [1]
+    logical :: drawn_up
+
+    ends = .false.
+    ! It moves the way the film presses it.
+    drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
+    highest = merge(resting, 0.0_wp, drawn_up)
+    call release(problem, released(problem, pad), problem%newton%settings, &
+                 [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
+    if (.not. report%converged()) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
+  end subroutine release_edge
+
+  !> From where the edge is fixed at its height at rest, seeks the height where it needs no force, and releases it there:
+  !> below, where it lies on its bumps, before above.
+  subroutine seek_height(problem, pad, path, report, ends)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved, with an answer at a fixed edge
+    integer, intent(in) :: pad !! whose edge it is
+    type(path_settings_type), intent(in) :: path !! limits of paths with the edge fixed
+    type(path_report_type), intent(inout) :: report !! how it ended
+    logical, intent(out) :: ends !! it stays nowhere
+    type(path_settings_type) :: settings
+    type(newton_settings_type) :: wanted
+    type(kept_state_type) :: at_rest
+    logical :: drawn_up, lower
+
+    settings = path
+    settings%touch_down_gap = 0.0_wp
+    wanted = problem%newton%settings
+    call be_rough(problem%newton%settings)
+    ends = .false.
+    drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
+    call at_rest%keep(problem%bearing)
+    call seek_below(problem, pad, settings, wanted, lower, report)
+    if (drawn_up .and. .not. (lower .or. report%converged())) then
+      call at_rest%put_back(problem%bearing)
+      call seek_above(problem, pad, settings, wanted, report, ends)
+    end if
+    call at_rest%destroy()
+    problem%newton%settings = wanted
+  end subroutine seek_height
+
+  !> Lowers the edge to where the bumps push it back: there it needs no force, if it needed one that lifts it before.
+  subroutine seek_below(problem, pad, settings, wanted, lower, report)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! whose edge it is
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    logical, intent(out) :: lower !! at the lowest height it is still to be lifted
+    type(path_report_type), intent(inout) :: report
+    type(operating_point_type) :: next
+    real(wp) :: force, force_before, height_before, largest
+
+    lower = .false.
+    associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
+      force = edge_force(bearing, pad)
+      largest = abs(force)
+      call note_height(problem%newton, bearing, pad, force)
+      do
+        height_before = bearing%point%edge_height(pad)
+        force_before = force
+        next = bearing%point
+        next%edge_height(pad) = height_before - merge(2.0_wp, 1.0_wp, height_before < low_edge*clearance)*lower_step*clearance
+        call follow_path(bearing, problem%newton, next, 1.0_wp, settings, report)
+        force = edge_force(bearing, pad)
+        call note_height(problem%newton, bearing, pad, force)
+        if (force_before > 0.0_wp .and. .not. force > 0.0_wp) then
+          call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
+          return
+        end if
+        if (.not. report%converged() .or. force < -firm*largest .or. &
+            bearing%point%edge_height(pad) < merge(lowest, low_edge, force > 0.0_wp)*clearance) exit
+        largest = max(largest, force)
+      end do
+      lower = force > 0.0_wp
+    end associate
+    if (report%has_cause()) then
+      call report%ending%add_words('', ', as the film presses '//edge_words(problem%bearing, pad)//' down')
+    else
+      report%ending = path_lost('the edge of the top foil stays at no height below that at rest')
+    end if
+  end subroutine seek_below
+
+  !> Raises the edge to where it needs no force; where there is none below the shaft, that is the end.
+  subroutine seek_above(problem, pad, settings, wanted, report, ends)
+    type(start_problem_type), intent(inout) :: problem
+    integer, intent(in) :: pad !! whose edge it is
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    type(path_report_type), intent(inout) :: report
+    logical, intent(out) :: ends !! it stays nowhere
+    type(kept_state_type) :: nearest !! where the edge needs the least force
+    type(operating_point_type) :: next
+    real(wp) :: force, force_before, height_before, least, room, step
+    integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
+
+    ends = .false.
+    associate (bearing => problem%bearing, newton => problem%newton, clearance => clearance_of(problem%bearing))
+      force = edge_force(bearing, pad)
+      least = abs(force)
+      call nearest%keep(bearing)
+      room = edge_room(bearing, pad)
+      rising = 0
+      do number = 1, most_heights
+        step = merge(1.0_wp, 2.0_wp, number <= near_heights)*next_height*clearance
+        height_before = bearing%point%edge_height(pad)
+        force_before = force
+        next = bearing%point
+        next%edge_height(pad) = height_before + min(step, 0.5_wp*room)
+        call follow_path(bearing, newton, next, 1.0_wp, settings, report)
+        force = edge_force(bearing, pad)
+        room = edge_room(bearing, pad)
+        call note_height(newton, bearing, pad, force)
+        if (force > 0.0_wp) then
+          call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
+          call nearest%destroy()
+          return
+        end if
+        rising = merge(rising + 1, 0, force < force_before)
+        if (abs(force) < least) then
+          least = abs(force)
+          call nearest%keep(bearing)
+        end if
+        if (.not. report%converged()) exit
+        ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
+        if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
+      end do
+      ends = report%converged() .and. room < near_shaft*clearance .or. report%ending%kind == ending_touch_down .and. rising >= long_rise
+      if (ends) then
+        report%ending = path_is_drawn(edge_words(bearing, pad), number + 1, bearing%point%edge_height(pad), room, least)
+        call nearest%put_back(bearing)
+        call problem%anchor%keep(bearing)
+        report%shaft_fixed = .false.
+      else
+        if (report%converged()) report%ending = path_lost(report%reason())
+        call report%ending%add_words('fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
+                                     text(least, 2)//' N or more; ', '')
+      end if
+      call nearest%destroy()
+    end associate
+  end subroutine seek_above
+
+  !> Between two heights with forces of opposite senses: goes where there is none by false position, with the weights of
+  !> the Illinois rule where contacts make the force bend, and releases the edge there.
+  subroutine release_between(problem, pad, settings, wanted, height_before, force_before, force_here, report)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! whose edge it is
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    type(newton_settings_type), intent(in) :: wanted !! at the target
+    real(wp), intent(in) :: height_before !! of the edge, on the other side [m]
+    real(wp), intent(in) :: force_before, force_here !! that fix it there and here [N]
+    type(path_report_type), intent(inout) :: report
+    type(operating_point_type) :: next
+    real(wp) :: height(2), force(2), force_next, tried, share
+    integer :: trial, side, side_before
+
+    height = [height_before, problem%bearing%point%edge_height(pad)]
+    force = [force_before, force_here]
+    tried = minval(abs(force))
+    side_before = 0
+    do trial = 1, most_trials
+      next = problem%bearing%point
+      share = force(1)/(force(1) - force(2))
+      next%edge_height(pad) = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
+      call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
+      if (.not. report%converged()) exit
+      force_next = edge_force(problem%bearing, pad)
+      call note_height(problem%newton, problem%bearing, pad, force_next)
+      side = merge(1, 2, (force_next > 0.0_wp) .eqv. (force(1) > 0.0_wp))
+      if (side == side_before) force(3 - side) = 0.5_wp*force(3 - side)
+      side_before = side
+      height(side) = next%edge_height(pad)
+      force(side) = force_next
+      report%ending = path_lost(report%reason())
+      if (abs(force_next) > least_fall*tried) cycle
+      tried = abs(force_next)
+      call release(problem, released(problem, pad), wanted, height, report)
+      if (report%converged()) exit
+    end do
+  end subroutine release_between
+
+  !> Releases edges; where that does not succeed, or leads to an edge elsewhere, the state stays as it was.
+  subroutine release(problem, free, wanted, between, report)
+    type(start_problem_type), intent(in) :: problem !! what is to be solved, with an answer at a fixed edge
+    type(operating_point_type), intent(in) :: free !! the point without a force on them
+    type(newton_settings_type), intent(in) :: wanted !! when Newton's method stops there
+    real(wp), intent(in) :: between(2) !! heights where they should stay [m]
+    type(path_report_type), intent(inout) :: report !! how it ended
+    type(newton_settings_type) :: rough
+    type(kept_state_type) :: fixed
+    real(wp) :: lift, slack
+    integer :: pad
+
+    rough = problem%newton%settings
+    problem%newton%settings = wanted
+    problem%newton%settings%straight_steps = more_straight
+    problem%newton%settings%maximum_iterations = min(hasty_iterations, wanted%maximum_iterations)
+    call fixed%keep(problem%bearing)
+    call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
+    if (report%converged()) then
+      slack = same_height*clearance_of(problem%bearing)
+      do pad = 1, size(problem%bearing%pad)
+        if (.not. fixed%point%edge_hold(pad) > 0.0_wp .or. free%edge_hold(pad) > 0.0_wp) cycle
+        lift = edge_lift(problem%bearing, pad)
+        if (lift > minval(between) - slack .and. lift < maxval(between) + slack) cycle
+        report%ending = path_lost('the released edge moves to '//text(lift*micrometres, 4)//' um')
+        exit
+      end do
+    end if
+    if (.not. report%converged()) call fixed%put_back(problem%bearing)
+    call fixed%destroy()
+    problem%newton%settings = rough
+  end subroutine release
+
+  !> What is enough where a force is looked at: contacts settle by bent steps.
+  subroutine be_rough(settings)
+    type(newton_settings_type), intent(inout) :: settings
+
+    settings%straight_steps = few_straight
+    settings%residual_tolerance = max(settings%residual_tolerance, rough_residual)
+    settings%step_tolerance = max(settings%step_tolerance, rough_step)
+  end subroutine be_rough
+
+  !> Tells a height and its force.
+  subroutine note_height(newton, bearing, pad, force)
+    type(newton_type), intent(in) :: newton
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: pad
+    real(wp), intent(in) :: force
+
+    call newton%log%detail(edge_words(bearing, pad)//': fixed at '//text(bearing%point%edge_height(pad)*micrometres, 4)// &
+                           ' um by '//text(force, 4)//' N')
+  end subroutine note_height
 
   !> Fixes the edge where it rests while contacts are released, and seeks from there the height where it stays by
   !> itself: the equilibrium with a resting edge, where there is one, rather than those whose edge is lifted.

@@ -15,8 +15,7 @@ module gfb_start_list
   use gfb_rigid_start, only: try_from_rest, try_laid_down
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
-  use gfb_edge_heights, only: resting
-  use gfb_edge_start, only: try_free_edge
+  use gfb_edge_start, only: resting, try_free_edge
   use gfb_interference_start, only: press, set_interference
   implicit none (type)
   private

@@ -12,10 +12,8 @@ module gfb_folds
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: point_between
   use gfb_newton, only: newton_report_type, solve_newton
-  use gfb_continuation, only: path_report_type
-  use gfb_arc, only: end_arc
-  use gfb_arc_length, only: begin_arc, advance_arc
-  use gfb_fold_way, only: fold_way_type
+  use gfb_continuation, only: path_report_type, fold_way_type
+  use gfb_arc, only: end_arc, begin_arc, advance_arc
   use gfb_bearing_restart, only: save_bearing, restore_branch
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type

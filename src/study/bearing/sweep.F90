@@ -4,20 +4,22 @@
 module gfb_sweep
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_signals, only: stop_words, stop_agreed
+  use gfb_run_log, only: run_log_type
+  use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: operation_at, sweep_keys
-  use gfb_petsc_session, only: wall_time
+  use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_petsc_session, only: largest_over_ranks, wall_time
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_continuation, only: path_report_type, path_settings_type, follow_path
+  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_no_limit, reason_stopped
+  use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type
-  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_partitioned, only: partitioned_type, follow_partitioned, forget_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: save_bearing
   use gfb_branch_watch, only: watch_branch, note_start
-  use gfb_reasons, only: reason_type, reason_no_equilibrium
-  use gfb_missing_answer, only: explain_missing
   use gfb_run_context, only: run_context_type
   use gfb_walk, only: walk_type
   use gfb_answer_record, only: record_single, record_swept, fix_shaft, builders_type
@@ -26,6 +28,8 @@ module gfb_sweep
   use gfb_limit_search, only: find_limit, leave_limit
   implicit none (type)
   private
+
+  real(wp), parameter :: degree = acos(-1.0_wp)/180.0_wp !! [rad]
 
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, extends(walk_type), public :: sweep_type
@@ -64,6 +68,83 @@ module gfb_sweep
   end type sweep_type
 
 contains
+
+  !> Says why there is no answer, and how far the path led.
+  subroutine explain_missing(scene, bearing, report, fixed, log, reason)
+    type(scene_type), intent(in) :: scene !! what was asked for
+    type(bearing_system_type), intent(in) :: bearing !! at the last state that was reached
+    type(path_report_type), intent(in) :: report !! of the path
+    logical, intent(in) :: fixed             !! the shaft was, at an equilibrium
+    type(run_log_type), intent(in) :: log    !! gets the lines
+    type(reason_type), intent(out) :: reason !! why there is none
+
+    reason%code = reason_no_answer
+    if (scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
+    if (scene%capacity%question > 0) reason%code = reason_no_limit
+    if (fixed) reason%code = reason_fixed_shaft
+    reason%detail = report%reason()
+    if (stop_agreed()) then
+      reason%code = reason_stopped
+      reason%detail = stop_words()
+      return
+    end if
+    associate (point => report%reached, force => bearing%reaction())
+      call log%tell(reason%words())
+      if (has_stiff_edges(scene)) then
+        call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
+                      'not deflect and may touch first; ''axial_mean'' in &model lets them')
+      end if
+      select case (reason%code)
+      case (reason_fixed_shaft)
+        call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '// &
+                      text(point%tilt(2), 4)//') rad, film force ('//text(force(1), 5)//', '// &
+                      text(force(2), 5)//') N, '//thinnest_film(bearing))
+      case (reason_no_equilibrium, reason_no_limit)
+        call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
+                      ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
+                      text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad, '// &
+                      thinnest_film(bearing))
+      case default
+        call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)// &
+                      ' % of the path, speed '// &
+                      text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, '//thinnest_film(bearing))
+      end select
+    end associate
+  end subroutine explain_missing
+
+  !> Where the film is thinnest, in words; of half a width, the half that is solved.
+  function thinnest_film(bearing) result(words)
+    type(bearing_system_type), intent(in) :: bearing
+    character(len=:), allocatable :: words
+    real(wp) :: unknown(bearing%local_size()), smallest, place(2)
+    real(wp), allocatable :: gap(:)
+    integer :: node, pad
+
+    call bearing%get_unknowns(unknown)
+    gap = bearing%gap(unknown)
+    smallest = bearing%smallest_gap()
+    place = -huge(place)
+    node = minloc(gap, 1)
+    if (node > 0) then
+      pad = count(bearing%pad%first_node < node)
+      associate (film => bearing%pad(pad)%film, here => node - bearing%pad(pad)%first_node)
+        if (gap(node) <= smallest) place = [film%angle(here), film%axial(here)]
+      end associate
+    end if
+    place = largest_over_ranks(place)
+    words = 'film thinnest at theta = '//text(place(1)/degree, 4)//' deg, z = '// &
+            text(place(2)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
+  end function thinnest_film
+
+  !> Whether the edges of the film do not deflect: they are at ambient pressure.
+  pure function has_stiff_edges(scene) result(has)
+    type(scene_type), intent(in) :: scene
+    logical :: has
+
+    has = .false.
+    if (scene%model%foil /= foil_elastic_foundation) return
+    has = scene%model%foundation_pressure == foundation_pressure_local
+  end function has_stiff_edges
 
   !> What follows the first answer: a scene without a sweep is done, the shaft is fixed, or the first point
   !> of a sweep is there.
