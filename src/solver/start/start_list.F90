@@ -52,7 +52,7 @@ module gfb_start_list
 contains
 
   !> The starts that suit a problem, the cheapest and most successful first: each has won answers of docs/measured/population.md.
-  !> Where a smaller system has no answer its end shows that on this one, too, and one more start where no cause is known.
+  !> Where a smaller system has no answer its end shows that on this one, too, and else one more start.
   function starts_of(problem) result(starts)
     type(start_problem_type), intent(in) :: problem !! bearing and target
     integer, allocatable :: starts(:)
@@ -79,9 +79,6 @@ contains
       end if
     end associate
     if (problem%refused) starts = starts(:1)
-    if (problem%refused .and. size(first) > 0) then
-      if (problem%refusal%has_cause()) starts = starts(:0)
-    end if
     if (problem%carried_only) starts = starts(:0)
     starts = [first, starts]
   end function starts_of
