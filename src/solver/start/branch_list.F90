@@ -143,6 +143,7 @@ contains
     type(branch_type), intent(in) :: branch         !! one that was found on this bearing
 
     bearing%point = point
+    bearing%shaft_fixed = .false. ! as a search that has failed may have left it
     call bearing%return_to(branch%state)
   end subroutine take_branch
 
