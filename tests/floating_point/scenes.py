@@ -146,7 +146,7 @@ SCENES = [
         "turns": 0.1, "unbalance": 2.0e-8, "steps_per_turn": 24, "foil_mass": "on"}), FOILS, memory=True),
     Scene("springs, rotor that tilts over time", merged(ROTOR, scene={"analysis": "transient"}, rotor={
         "transverse_inertia": 5.0e-3, "polar_inertia": 1.0e-3, "bearing_distance": 0.2}, transient={
-            "turns": 0.5, "couple_unbalance": 1.0e-7, "steps_per_turn": 30, "foundation_damping": 3.0e5,
+            "turns": 0.5, "couple_unbalance": 1.0e-9, "steps_per_turn": 30, "foundation_damping": 3.0e5,
             "maxwell_stiffness": 3.0e9, "maxwell_time": 1.0e-4}), SLOPES, memory=True),
     Scene("springs, forced orbits", merged(ROTOR, scene={"analysis": "periodic"}, model={"foundation_pressure": "axial_mean"},
                                            rotor={"mass": 0.3}, periodic={

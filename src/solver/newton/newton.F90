@@ -502,6 +502,7 @@ contains
     PetscCallA(SNESDestroy(newton%snes, ierr))
     PetscCallA(VecDestroy(newton%residual, ierr))
     call destroy_secants(newton%secants)
+    if (allocated(newton%linear%unsolved)) deallocate (newton%linear%unsolved)
     newton%created = .false.
   end subroutine destroy_newton
 

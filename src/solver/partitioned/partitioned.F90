@@ -335,6 +335,7 @@ contains
     PetscCallA(VecDestroy(self%pressure, ierr))
     PetscCallA(MatDestroy(self%yielding, ierr))
     PetscCallA(MatDestroy(self%felt, ierr))
+    if (allocated(self%number)) deallocate (self%number)
     if (self%multiplied) then
       PetscCallA(MatDestroy(self%stiffening, ierr))
     end if
@@ -588,6 +589,7 @@ contains
     PetscCallA(VecDestroy(sides%change, ierr))
     PetscCallA(VecDestroy(sides%kept_before, ierr))
     call destroy_anderson(sides%anderson)
+    if (allocated(sides%asked)) deallocate (sides%asked)
     sides%created = .false.
   end subroutine destroy_partitioned
 end module gfb_partitioned

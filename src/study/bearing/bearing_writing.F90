@@ -216,8 +216,11 @@ contains
     real(wp), intent(in) :: beside !! size of what they are rounded beside
     logical :: changes
     real(wp), parameter :: rounding = 1.0e-9_wp
+    real(wp), allocatable :: known(:)
 
-    changes = maxval(numbers) - minval(numbers) > rounding*max(maxval(abs(numbers)), beside)
+    known = pack(numbers, .not. ieee_is_nan(numbers))
+    changes = .false.
+    if (size(known) > 0) changes = maxval(known) - minval(known) > rounding*max(maxval(abs(known)), beside)
   end function changes
 
   !> A number at the right end of a field; blank where there is none.
