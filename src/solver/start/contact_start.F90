@@ -31,8 +31,6 @@ module gfb_contact_start
 
   type(newton_settings_type), parameter :: rough = newton_settings_type(1.0e-3_wp, 1.0e-2_wp, 25, 8) !! with soft contacts
   integer, parameter :: releasing = 1, stiffening = 2 !! what is done to contacts
-  integer, parameter :: hasty_iterations = 15          !! of a step of contacts: those that lead on take 2 to 10, failed ones all [1]
-  integer, parameter :: most_failed = 2                !! of them in a row: more find an answer less often than the next start
   real(wp), parameter :: shortest_decades = 0.05_wp    !! of a step, before it is given up [1]
   real(wp), parameter :: enough = 4.0_wp             !! decades of the release that are all where steps do not grow
   integer, parameter :: most_soft_cuts = 2           !! of a path with soft contacts that has begun
@@ -47,12 +45,10 @@ module gfb_contact_start
     real(wp) :: last = 0.0_wp          !! decades where they are the scene's
     type(newton_report_type) :: solved !! of the last trial
     type(kept_state_type) :: saved     !! the last answer
-    integer :: failed = 0              !! trials since then
   contains
     procedure :: try => try_decades
     procedure :: accept => accept_decades
     procedure :: restore => restore_contacts
-    procedure :: gives_up => contacts_fail
   end type contact_path_type
 
 contains
@@ -139,7 +135,7 @@ contains
     logical, intent(out), optional :: arrived
     type(contact_path_type) :: path
     type(step_rules_type) :: rules
-    integer :: ending, allowed
+    integer :: ending
 
     path%bearing => bearing
     path%newton => newton
@@ -152,10 +148,7 @@ contains
     rules%growth = contacts%growth
     if (change == releasing .and. contacts%growth <= 1.0_wp) rules%leap_from = enough
     call path%saved%keep(bearing)
-    allowed = newton%settings%maximum_iterations
-    newton%settings%maximum_iterations = min(hasty_iterations, allowed)
     call follow_steps(path, rules, ending)
-    newton%settings%maximum_iterations = allowed
     call path%saved%destroy()
     if (present(arrived)) arrived = ending == steps_arrived
     if (ending == steps_arrived .or. .not. report%converged()) return
@@ -184,21 +177,13 @@ contains
     class(contact_path_type), intent(inout) :: self !! the path
     real(wp), intent(in) :: trial !! decades
     call self%saved%keep(self%bearing)
-    self%failed = 0
   end subroutine accept_decades
 
   !> Goes back to the last answer.
   subroutine restore_contacts(self)
     class(contact_path_type), intent(inout) :: self !! the path
     call self%saved%put_back(self%bearing)
-    self%failed = self%failed + 1
   end subroutine restore_contacts
-
-  !> Whether shorter steps are no use: they fail by the state, not by their length.
-  logical function contacts_fail(self)
-    class(contact_path_type), intent(inout) :: self !! the path
-    contacts_fail = self%failed >= most_failed
-  end function contacts_fail
 
   !> Contacts between soft two-way ones and the scene's, so many decades from where they began.
   subroutine set_contacts(bearing, newton, change, gone, total)
