@@ -1,7 +1,7 @@
 """The page of the documentation: what is checked, how far answers may differ, and what was found."""
 
 from builds import BASE
-from scenes import FILM, FOILS, FOLDS, MODES, PATH, SLOPES, TOLERANCE
+from scenes import FILM, FOILS, FOLDS, MODES, PATH, REBUILT, SLOPES, TOLERANCE
 
 WHY = {
     FILM: "film alone, or film on springs: the last of Newton's iterations leaves round-off; the order of sums, and products "
@@ -9,6 +9,8 @@ WHY = {
     FOILS: "foils in contact, friction, films and foils in turns, iterative solver: Newton ends at scaled residuals of 1e-10 and "
            "steps of 1e-9, and its last step differs; stiff contacts enlarge round-off by their stiffness over the foil's",
     SLOPES: "what is small beside the numbers that it is the difference of: the extent of an orbit, a derivative",
+    REBUILT: "a derivative by the bumps' shape, the difference of bearings built anew: each foil's stiffness has round-off of "
+             "its own, and it is divided by the step of the difference",
     MODES: "frequencies: round-off of the stiffest motion of the mesh, 1e-16 of its eigenvalue, seen beside the lowest one",
     PATH: "what is reached by cut steps or along an arc: all equilibria, the last state before there is no answer",
     FOLDS: "the row of a fold, which lies where a step along the arc ends, to 1e-4 of the load at most: another step, another row",

@@ -41,8 +41,8 @@ HEAVY = merged(SHELL, model={"foil": "beam"}, top_foil={"density": 8440.0}, bump
 FREQUENCIES = {"frequency_ratios": (0.5, 1.0)}
 
 # Why answers differ, and how far they may.
-FILM, FOILS, SLOPES, MODES, PATH, FOLDS = "film", "foils", "slopes", "modes", "path", "folds"
-TOLERANCE = {FILM: 1.0e-10, FOILS: 1.0e-9, SLOPES: 1.0e-8, MODES: 1.0e-8, PATH: 1.0e-8, FOLDS: 1.0e-5}
+FILM, FOILS, SLOPES, REBUILT, MODES, PATH, FOLDS = "film", "foils", "slopes", "rebuilt", "modes", "path", "folds"
+TOLERANCE = {FILM: 1.0e-10, FOILS: 1.0e-9, SLOPES: 1.0e-8, REBUILT: 1.0e-7, MODES: 1.0e-8, PATH: 1.0e-8, FOLDS: 1.0e-5}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -161,5 +161,5 @@ SCENES = [
     Scene("springs, sensitivities", merged(SPRINGS, operation=LOAD, mesh=COARSE, sensitivity={
         "quantity": ("eccentricity_x", "friction_torque"), "parameters": ("gas%viscosity", "bearing%clearance")}), SLOPES, memory=True),
     Scene("shells, sensitivities", merged(SHELL, sensitivity={
-        "quantity": ("eccentricity_x", "minimum_gap"), "parameters": ("top_foil%thickness", "bump_foil%height")}), SLOPES, memory=True),
+        "quantity": ("eccentricity_x", "minimum_gap"), "parameters": ("top_foil%thickness", "bump_foil%height")}), REBUILT, memory=True),
 ]
