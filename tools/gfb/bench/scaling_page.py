@@ -1,4 +1,4 @@
-"""Tables, pictures and the page of tools/bench scaling. What the page says of the figures follows from them."""
+"""Tables, pictures and the page of tools/bench scaling."""
 
 import math
 import os
@@ -105,38 +105,6 @@ def two(value):
     return "" if math.isnan(value) else f"{value:.2f}"
 
 
-def growth_text(growth):
-    """What the growth says."""
-    found = {name: exponents(rows) for name, rows in growth.items() if len(done(rows)) > 1}
-    lines = []
-    for name, one in found.items():
-        first, last = settled(growth[name])[0], settled(growth[name])[-1]
-        shares = [part(row, "factorization")/row["cpu"] for row in (first, last)]
-        trend = "grows" if shares[1] > shares[0] + 0.05 else "falls" if shares[1] < shares[0] - 0.05 else "stays"
-        lines.append(f"- **{NAMES[name]}**: CPU time grows with unknowns^{one['cpu']:.2f}, memory with "
-                     f"unknowns^{one['memory']:.2f}. The share of factorization {trend} "
-                     f"({100*shares[0]:.0f} to {100*shares[1]:.0f} %); one takes {growth_of(one['factorization'])}.")
-    for full, reduced in (("strip full", "strip reduced"), ("bearing full", "bearing reduced")):
-        pairs = [(one, other) for one in done(growth.get(full, [])) for other in done(growth.get(reduced, []))
-                 if one["mesh"] == other["mesh"]]
-        if pairs:
-            one, other = pairs[-1]
-            lines.append(f"- Condensation on the largest mesh that both solve, {NAMES[full].split(',')[0]}, "
-                         f"{one['mesh']}: {one['cpu']/other['cpu']:.1f} times less CPU time, "
-                         f"{one['memory']/other['memory']:.1f} times less memory.")
-    stopped = [f"{NAMES[name]}: {rows[-1]['stopped']}" for name, rows in growth.items() if rows[-1]["stopped"]]
-    if stopped:
-        lines.append("- What stopped the growth: " + "; ".join(stopped) + ".")
-    return "\n".join(lines) + "\n"
-
-
-def growth_of(exponent):
-    """An exponent against those of nested dissection in the plane and of no growth beyond the size."""
-    if exponent < 1.15:
-        return f"time nearly in proportion to the unknowns (exponent {exponent:.2f})"
-    if exponent <= 1.55:
-        return f"unknowns^{exponent:.2f}, within the 1.5 to which sparse factors of a surface tend"
-    return f"unknowns^{exponent:.2f}, more than the 1.5 of sparse factors of a surface"
 
 
 # --- ranks ---
@@ -172,25 +140,6 @@ def rank_table(measured):
     heads = ["case", "part", "1 rank [s]", "2 ranks [s]", "ratio"]
     return ("CPU time, largest of the ranks, smallest of the repetitions; no ratio below 20 ms", heads, lines)
 
-
-def rank_text(measured):
-    """What one and two ranks say."""
-    lines = []
-    for words, parts in rank_ratios(measured).items():
-        clear = {name: one/other for name, (one, other) in parts.items()
-                 if name not in ("whole", "rest") and max(one, other) > 0.02 and other > 0.0}
-        if not clear:
-            continue
-        good = [f"{name} {ratio:.2f}" for name, ratio in clear.items() if ratio >= AIM_RATIO]
-        poor = [f"{name} {ratio:.2f}" for name, ratio in clear.items() if ratio < 1.3]
-        one, other = parts["whole"]
-        line = f"- **{words}**: {one/other:.2f} in all"
-        if good:
-            line += "; halved, or nearly: " + ", ".join(good)
-        if poor:
-            line += "; hardly gaining: " + ", ".join(poor)
-        lines.append(line + ".")
-    return "\n".join(lines) + "\n"
 
 
 # --- messages ---
@@ -242,22 +191,6 @@ def message_exponents(rows):
             for name in ("messages", "bytes", "collectives", "all bytes")} | {"from": ranks[0], "ranks": ranks[1]}
 
 
-def message_text(measured):
-    """What the counts say."""
-    lines = []
-    for words, rows in measured.items():
-        one = message_exponents(rows)
-        if one is None:
-            continue
-        last = counts(done(rows)[-1])
-        lines.append(f"- **{words}**: from {one['from']} to {one['ranks']} ranks the messages of a rank go with "
-                     f"ranks^{one['messages'][0]:.2f}, its bytes with ranks^{one['bytes'][0]:.2f}, all bytes with "
-                     f"ranks^{one['all bytes'][0]:.2f}; MUMPS sends {100*last['by MUMPS']:.0f} % of the bytes on "
-                     f"{one['ranks']} ranks. " + ("The rank that sends most does not send less with more ranks: it "
-                                                 "becomes the bottleneck." if one["bytes"][0] > -0.2 else
-                                                 "More ranks share what is sent."))
-    return "\n".join(lines) + "\n"
-
 
 def model_rows(measured, growth):
     """The model on paper: rows of (words, ranks, computing, latency, bytes, collectives) [s] of a Newton iteration."""
@@ -301,20 +234,6 @@ def model_table(lines):
              "efficiency"]
     return ("model of a Newton iteration; nothing here is timed on more than one rank", heads, cells)
 
-
-def model_text(lines):
-    """What the model says of the most ranks."""
-    words = []
-    for name, ranks, computing, latency, sent, collectives, iteration in lines:
-        if ranks != MODEL_RANKS[-1]:
-            continue
-        costs = {"computing": computing, "the number of messages": latency, "the bytes sent": sent,
-                 "collective calls": collectives}
-        most = max(costs, key=costs.get)
-        words.append(f"- **{name}**: on {ranks:,} ranks {most} would take most of an iteration "
-                     f"({share(costs[most], sum(costs.values()))}), efficiency "
-                     f"{share(iteration/ranks, sum(costs.values()))}.")
-    return "\n".join(words) + "\n"
 
 
 # --- aims ---
@@ -373,17 +292,15 @@ def write(measured, options, folder):
     if "growth" in measured:
         draw_growth(measured["growth"], folder/"scaling_growth.png")
         pieces.append(GROWTH + show(growth_table(measured["growth"])) + "\n" + EXPONENTS
-                      + show(exponent_table(measured["growth"])) + "\n" + growth_text(measured["growth"]))
+                      + show(exponent_table(measured["growth"])))
     if "ranks" in measured:
         draw_ranks(measured["ranks"], folder/"scaling_ranks.png")
-        pieces.append(TWO_RANKS.format(repetitions=options.repetitions) + show(rank_table(measured["ranks"])) + "\n"
-                      + rank_text(measured["ranks"]))
+        pieces.append(TWO_RANKS.format(repetitions=options.repetitions) + show(rank_table(measured["ranks"])))
     if "messages" in measured:
         draw_messages(measured["messages"], folder/"scaling_messages.png")
         model = model_rows(measured["messages"], measured.get("growth", {}))
-        pieces.append(MESSAGES + show(message_table(measured["messages"])) + "\n" + message_text(measured["messages"])
-                      + "\n" + MODEL.format(latency=1e6*LATENCY, bandwidth=NODE_BANDWIDTH/1e9, ranks=NODE_RANKS)
-                      + show(model_table(model)) + "\n" + model_text(model))
+        pieces.append(MESSAGES + show(message_table(measured["messages"])) + "\n" + MODEL.format(latency=1e6*LATENCY, bandwidth=NODE_BANDWIDTH/1e9, ranks=NODE_RANKS)
+                      + show(model_table(model)))
     missing = [name for name in ("growth", "ranks", "messages") if name not in measured]
     if missing:
         pieces.append("Not measured here: " + ", ".join(missing) + ".\n")
@@ -401,7 +318,7 @@ tools/bench scaling --docs           # hours, most of the machine's memory; --re
 tools/bench scaling --quick          # minutes
 ```
 {quick}
-Tables and what is said of them are written by the tool from the figures of one machine: {os.cpu_count()} cores,
+The tables are written by the tool from the figures of one machine: {os.cpu_count()} cores,
 {os.sysconf("SC_PHYS_PAGES")*os.sysconf("SC_PAGE_SIZE")/2**30:.0f} GiB, shared with other jobs; a process was allowed \
 {options.seconds:,.0f} s of CPU time, a run {options.memory/2**30:.0f} GiB.
 

@@ -93,8 +93,7 @@ def bearing_scene(quick):
          Quantity("friction torque", ("friction_torque",))),
         bearing_entries(families, 0.0), [(bearing_words("shell", mesh), bearing_groups("shell", mesh, 0.0))
                                          for mesh in levels],
-        pairs=bearing_pairs(paired, base), branch=True, whole="shells", base="shells", usual="shells, 8, 12 + 3, 32",
-        models=tuple(SIMPLE))
+        pairs=bearing_pairs(paired, base), branch=True, whole="shells")
 
 
 def tilted_scene(quick):
@@ -119,8 +118,7 @@ def tilted_scene(quick):
          Quantity("largest pressure", ("maximum_pressure",), AMBIENT)),
         bearing_entries(families, TILT), [(bearing_words("shell", mesh), bearing_groups("shell", mesh, TILT))
                                           for mesh in levels],
-        pairs=bearing_pairs(paired, base), branch=True, whole="shells", base="shells", usual="shells, 8, 12 + 3, 32",
-        models=tuple(SIMPLE))
+        pairs=bearing_pairs(paired, base), branch=True, whole="shells")
 
 
 def bearing_pairs(mesh, other):

@@ -6,7 +6,6 @@ import math
 import numpy
 
 TRUSTED, DOUBTFUL, LOWEST_ORDER, NEAR = 1.25, 3.0, 0.5, 0.1  # of docs/manual/accuracy.md
-TARGETS = (0.1, 0.03, 0.01, 0.003, 0.001, 1.0e-4)
 OPEN, LIFTED, FAR = 0.1, 15.0e-6, 0.15  # differences of another branch: open crests, lift [m], position over C
 ELSEWHERE = 0.2  # an entry that is off by more in any quantity is right in others by accident
 LUCK = 1.5  # times its error: a finer mesh that is off by more
@@ -32,7 +31,6 @@ class Judged:
     entry: object
     row: dict
     errors: list  # of the quantities, over their scales; empty where there is no answer
-    over: list    # by how much they are larger than the reference's, over their scales
     state: str    # why it is not compared; empty where it is
     luck: tuple = ()  # quantities whose errors are small because those of model and mesh cancel
 
@@ -78,7 +76,7 @@ def judge(scene, store, facts):
         if not state and scene.branch:
             state = other_branch(row["summary"], base, facts)
         errors = [] if state else [off(one, row) for one in facts]
-        judged.append(Judged(entry, row, errors, [] if state else [larger(one, row) for one in facts], state))
+        judged.append(Judged(entry, row, errors, state))
     for one in compared(judged):
         one.luck = tuple(i for i, fact in enumerate(facts) if any(
             sure(other, fact, i) > LUCK*sure(one, fact, i) for other in compared(judged)
@@ -95,11 +93,6 @@ def off(one, row):
     """A run's error in a quantity."""
     return float(numpy.linalg.norm(vector(one.quantity, row) - one.value))/one.scale
 
-
-def larger(one, row):
-    """By how much a quantity is larger; zero for a place, whose size says nothing."""
-    size = float(numpy.linalg.norm(vector(one.quantity, row)))
-    return 0.0 if one.quantity.scale else (size - float(numpy.linalg.norm(one.value)))/one.scale
 
 
 def other_branch(summary, base, facts):

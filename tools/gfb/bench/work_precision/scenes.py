@@ -52,9 +52,6 @@ class Scene:
     pairs: tuple = ()  # (what is simplified, dear entry, cheap entry)
     branch: bool = False  # several equilibria are possible
     whole: str = ""    # what the reference is, in words
-    base: str = ""     # family of entries that leave out nothing
-    usual: str = ""    # entry that is taken without much thought
-    models: tuple = ()  # families that differ from the reference by their model, not by their numerics alone
 
 
 def merged(groups, **changes):
@@ -101,14 +98,13 @@ def film_scene(quick):
                ("SUPG instead of Galerkin", f"bilinear, half width, {one}", f"bilinear, half width, SUPG, {one}"),
                ("bilinear elements on as many nodes as biquadratic ones", f"biquadratic, half width, {two}",
                 f"bilinear, half width, {one}")),
-        whole="biquadratic, half width", base="biquadratic, half width")
+        whole="biquadratic, half width")
 
 
 # --- strips ---
 
 CONDENSED = "condensed, half width"
-STRIP_MODELS = (CONDENSED, "coulomb", "tanh_reset", "without friction", *(
-    f"{law}{steps} step" + "s"*(steps > 1) for law in ("", "coulomb, ", "tanh_reset, ") for steps in (1, 3, 10, 100)))
+
 
 @dataclasses.dataclass
 class StripKind:
@@ -183,7 +179,7 @@ def strip_scene(quick):
                                ("`coulomb` instead of `tanh_drag`", CONDENSED, "coulomb"),
                                ("`tanh_reset` instead of `tanh_drag`", CONDENSED, "tanh_reset"),
                                ("no friction", CONDENSED, "without friction"))),
-        whole="`coulomb`, short stick length", base=CONDENSED, usual=f"{CONDENSED}, 12 + 3 x 50", models=STRIP_MODELS)
+        whole="`coulomb`, short stick length")
 
 
 def strip_entries(base, series, kinds, usual, at):
@@ -235,4 +231,4 @@ def loop_scene(quick):
                                ("`tanh_reset` instead of `tanh_drag`", CONDENSED, "tanh_reset"),
                                ("`tanh_reset` in 10 + 10 steps", CONDENSED, "tanh_reset, 10 steps"),
                                ("no friction", CONDENSED, "without friction"))),
-        whole="`coulomb`, short stick length", base=CONDENSED, usual=f"{CONDENSED}, 12 + 3 x 50", models=STRIP_MODELS)
+        whole="`coulomb`, short stick length")
