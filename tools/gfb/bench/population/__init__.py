@@ -14,7 +14,7 @@ import pathlib
 import threading
 
 from gfb.bench.population import page
-from gfb.bench.population.members import FOUNDATION, MODELS, SETS
+from gfb.bench.population.members import FOUNDATION, MODELS, SEED, SETS
 from gfb.bench.population.trial import BOUND, REFUSALS, second_way, shows_itself, try_case
 from gfb.bench.runs import keep_rows, kept_rows
 from gfb.build import version_of
@@ -29,6 +29,7 @@ def add_options(parser):
     """The command's own options."""
     parser.add_argument("--set", choices=SETS, default="random", help="which population; default: %(default)s")
     parser.add_argument("--count", metavar="N", type=int, default=1000, help="its first N members; default: %(default)s")
+    parser.add_argument("--seed", metavar="N", type=int, default=SEED, help="another one draws other members; default: %(default)s")
     parser.add_argument("--models", metavar="LIST", default="foundation,beam,shell",
                         help="of %(default)s; members have them in turn")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at a time; default: %(default)s")
@@ -50,7 +51,9 @@ def run(options):
         stop(f"--models {options.models}: {', '.join(WORDS)}")
     if options.count < 1 or options.jobs < 1 or options.seconds <= 0.0:
         stop("--count, --jobs and --seconds: more than 0")
-    members = SETS[options.set](options.count, models)
+    members = SETS[options.set](options.count, models, options.seed)
+    if options.docs and options.seed != SEED:
+        stop(f"--seed {options.seed}: the page of docs/measured is of seed {SEED}")
     if options.only_write:
         options.only_write.mkdir(parents=True, exist_ok=True)
         for member in members:

@@ -46,9 +46,9 @@ def steel(thickness, **more):
     return {"thickness": thickness, **SHEET, **more}
 
 
-def random_member(number, model):
+def random_member(number, model, seed=SEED):
     """A bearing by its number: the same one whatever else is asked for."""
-    chance = random.Random(f"{SEED}, {number}")
+    chance = random.Random(f"{seed}, {number}")
     radius = chance.uniform(8.0e-3, 50.0e-3)
     length = 2.0*radius*chance.uniform(0.5, 1.5)
     clearance = radius*logarithmic(chance, 0.0005, 0.003)
@@ -103,16 +103,16 @@ def engineer_member(degrees, load, speed, model):
     return Member(f"{degrees} deg, {load:g} N, {speed:g} rpm", model, meshed(groups, model))
 
 
-def random_set(count, models):
+def random_set(count, models, seed=SEED):
     """The first members of the population; models in turn."""
     turn = [one for one in TURN if one in models]
-    return [random_member(number, turn[number % len(turn)]) for number in range(count)]
+    return [random_member(number, turn[number % len(turn)], seed) for number in range(count)]
 
 
-def engineer_set(count, models):
+def engineer_set(count, models, seed=SEED):
     """The grid of the engineer's bearing, of which the first are far apart: beams everywhere, shells at the first points."""
     grid = list(itertools.product(ENGINEER_ANGLES, ENGINEER_LOADS, ENGINEER_SPEEDS))
-    random.Random(SEED).shuffle(grid)
+    random.Random(seed).shuffle(grid)
     members = [engineer_member(*point, model) for number, point in enumerate(grid) for model in models
                if model == BEAM or model == SHELL and number < ENGINEER_SHELLS]
     return members[:count]
