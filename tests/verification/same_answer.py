@@ -41,7 +41,9 @@ def sizes_of(text, one):
     if None not in measures.values():
         bearing = Bearing(**measures)
         ends = [f"{edge}_edge_lift{place}" for edge in ("leading", "trailing") for place in ("", "_edge")]
-        return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | {
+        orbits = [name for name in one.summary if re.fullmatch(r"orbit_[xy](_\d+)?", name)]  # of the midplane, of both bearings
+        largest_orbit = max((one[name] for name in orbits), default=0.0)  # by a couple alone the midplane moves by nothing
+        return natural_sizes(bearing) | {name: bearing.clearance for name in ends} | dict.fromkeys(orbits, largest_orbit) | {
             f"held_force_{axis}": bearing.force_unit for axis in "xy"} | {
             "largest_multiplier": 10.0}  # from differences of orbits that are 2e-6 apart
     works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
