@@ -347,14 +347,15 @@ contains
     class(point_path_type), intent(inout) :: self !! the path
     real(wp), intent(inout) :: step !! share of the path [1]
     logical, intent(out) :: goes_on
-    logical :: closing
+    logical :: has_told
 
     self%why = 'no step, however short, leads on ('//self%why//')'
     goes_on = .false.
     if (.not. (self%settings%look_for_folds .and. self%bearing%floats)) return
-    ! A film without contacts that closes has told its end; beyond it there is only rounding.
-    closing = is_closing(self%bearing)
-    if (closing .and. .not. self%bearing%pad(1)%foil%has_contacts()) return
+    ! A film without contacts that closes or is emptied has told its end; beyond it there is only rounding.
+    has_told = is_closing(self%bearing)
+    if (.not. has_told) has_told = is_emptied(self%bearing, bearing_answer(self%bearing))
+    if (has_told .and. .not. self%bearing%pad(1)%foil%has_contacts()) return
     self%rescues = self%rescues + 1
     if (self%rescues > most_rescues) return
     call find_end(self, goes_on)
@@ -460,7 +461,7 @@ contains
       report%ending = path_closes(answer%minimum_gap, report%ending)
     else if (path%folds) then
       report%ending = path_folds(trim(merge('top foil', 'shaft   ', path%bearing%pad(1)%foil%has_contacts())))
-    else if (answer%minimum_pressure < empty*path%bearing%pad(1)%film%ambient_pressure) then
+    else if (is_emptied(path%bearing, answer)) then
       report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)
     end if
   end subroutine name_end
@@ -472,6 +473,14 @@ contains
     closing = bearing%smallest_gap() < closing_gap*bearing%pad(1)%film%clearance
     if (closing) closing = .not. bearing%pad(1)%contact%present
   end function is_closing
+
+  !> Whether the film's pressure has fallen to nothing somewhere.
+  pure function is_emptied(bearing, answer) result(emptied)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_answer_type), intent(in) :: answer !! at its present state
+    logical :: emptied
+    emptied = answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure
+  end function is_emptied
 
   !> Start value of a step: the line through the last two answers, as far along it as can be
   !> evaluated.

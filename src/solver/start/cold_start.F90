@@ -5,7 +5,7 @@
 !> the answer of the one before, and from nothing only if that fails: `start_list.F90` has the starts, in order.
 module gfb_cold_start
   use gfb_kinds, only: wp
-  use gfb_ending, only: ending_lost, ending_stopped
+  use gfb_ending, only: ending_lost, ending_stopped, ending_fold, ending_emptied
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
@@ -200,6 +200,8 @@ contains
     if (between) return
     associate (report => mesh%report)
       again = .not. (report%converged() .or. mesh%plan%upwind .or. has_contacts) .and. mesh%plan%may_upwind
+      ! Where the film is emptied or its branch folds SUPG ends there, too; where the shaft touches down it may not.
+      if (again) again = all(report%ending%kind /= [ending_fold, ending_emptied])
       if (again) again = .not. gives_up(mesh%newton%settings%bound)
       if (again) then
         call set_upwind(mesh%bearing, .true.)
