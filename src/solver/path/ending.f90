@@ -53,10 +53,21 @@ contains
     has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction])
   end function has_cause
 
+  !> An ending with its words. GNU Fortran 12 loses the memory of words that are put together
+  !> in a structure constructor.
+  pure function ending_of(kind, sentence) result(ending)
+    integer, intent(in) :: kind !! one of those above
+    character(len=*), intent(in) :: sentence !! what is said of it
+    type(ending_type) :: ending
+
+    ending%kind = kind
+    ending%sentence = sentence
+  end function ending_of
+
   !> The state asked for.
   pure function path_reached() result(ending)
     type(ending_type) :: ending
-    ending = ending_type(ending_reached, 'converged')
+    ending = ending_of(ending_reached, 'converged')
   end function path_reached
 
   !> The film is thinner than is allowed.
@@ -64,7 +75,7 @@ contains
     real(wp), intent(in) :: limit !! of the gap [m]
     type(ending_type) :: ending
 
-    ending = ending_type(ending_touch_down, 'the shaft touches down: the film is thinner than '// &
+    ending = ending_of(ending_touch_down, 'the shaft touches down: the film is thinner than '// &
                          text(limit*micrometres, 3)//' um')
   end function path_touches
 
@@ -72,13 +83,13 @@ contains
   pure function path_touches_at(place) result(ending)
     character(len=*), intent(in) :: place !! in words: 'at ...', 'where ...'
     type(ending_type) :: ending
-    ending = ending_type(ending_touch_down, 'the shaft touches down '//place)
+    ending = ending_of(ending_touch_down, 'the shaft touches down '//place)
   end function path_touches_at
 
   !> The same, where loops are tried.
   pure function path_thins() result(ending)
     type(ending_type) :: ending
-    ending = ending_type(ending_touch_down, 'the film is thinner than touch_down_gap')
+    ending = ending_of(ending_touch_down, 'the film is thinner than touch_down_gap')
   end function path_thins
 
   !> The gap has closed, and no step leads on.
@@ -87,7 +98,7 @@ contains
     type(ending_type), intent(in) :: lost !! how the last step ended
     type(ending_type) :: ending
 
-    ending = ending_type(ending_touch_down, 'the shaft touches down: the gap has closed to '// &
+    ending = ending_of(ending_touch_down, 'the shaft touches down: the gap has closed to '// &
                          text(gap*micrometres, 3)//' um, beyond that '//lost%words())
   end function path_closes
 
@@ -96,7 +107,7 @@ contains
     character(len=*), intent(in) :: mover !! what moves on by itself
     type(ending_type) :: ending
 
-    ending = ending_type(ending_fold, 'the branch of answers ends in a fold: beyond it the '// &
+    ending = ending_of(ending_fold, 'the branch of answers ends in a fold: beyond it the '// &
                          mover//' moves on by itself')
   end function path_folds
 
@@ -106,7 +117,7 @@ contains
     real(wp), intent(in) :: peclet !! largest number of its cells [1]
     type(ending_type) :: ending
 
-    ending = ending_type(ending_emptied, 'the film is emptied: its pressure falls to '// &
+    ending = ending_of(ending_emptied, 'the film is emptied: its pressure falls to '// &
                          text(pressure, 2)//' Pa behind a gap of '//text(gap*micrometres, 3)// &
                          ' um, on cells of a Peclet number up to '//text(peclet, 2)// &
                          '; a finer mesh may lead farther')
@@ -120,7 +131,7 @@ contains
     real(wp), intent(in) :: least !! force that fixes it [N]
     type(ending_type) :: ending
 
-    ending = ending_type(ending_suction, 'the film draws '//edge//' to the shaft: fixed at '// &
+    ending = ending_of(ending_suction, 'the film draws '//edge//' to the shaft: fixed at '// &
                          text(heights)//' heights up to '//text(highest*micrometres, 3)// &
                          ' um, '//text(room*micrometres, 2)// &
                          ' um below the shaft, it has to be pressed down at each, by '// &
@@ -130,13 +141,13 @@ contains
   !> A signal asks for the end, or all work that is allowed is done: nothing has been shown.
   pure function path_stopped() result(ending)
     type(ending_type) :: ending
-    ending = ending_type(ending_stopped, gave_up_words)
+    ending = ending_of(ending_stopped, gave_up_words)
   end function path_stopped
 
   !> Nothing shows why no step leads on.
   pure function path_lost(last) result(ending)
     character(len=*), intent(in) :: last !! what the last step has ended in
     type(ending_type) :: ending
-    ending = ending_type(ending_lost, last)
+    ending = ending_of(ending_lost, last)
   end function path_lost
 end module gfb_ending
