@@ -45,9 +45,9 @@ module gfb_beam_foil
   use gfb_foil_places, only: top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   implicit none (type)
   private
-  public :: stiffness_behind, width_of, create_beam_foil
+  public :: create_beam_foil
 
-  integer, parameter, public :: of_beam(beam_unknowns) = [1, 2, 4] !! of a node's: along x, along v, about the axis
+  integer, parameter :: of_beam(beam_unknowns) = [1, 2, 4] !! of a node's: along x, along v, about the axis
 
   !> Both foils, all of them on the first rank; the surfaces are those that shells would have, the
   !> numbers of unknowns those that a station's nodes share.
@@ -62,6 +62,7 @@ module gfb_beam_foil
     procedure :: own_unknown => beam_own_unknown
     procedure :: split_displacements => beam_displacements
     procedure :: stresses => stresses_of_beams
+    procedure :: find_work => work_of_beams
     procedure :: nodal_contacts => beam_contacts
     procedure :: sizes => beam_sizes
     procedure :: destroy => beam_destroy
@@ -212,6 +213,29 @@ contains
     real(wp), allocatable :: value(:, :)
     value = beam_stresses(surface, moved)
   end function stresses_of_beams
+
+  !> Work of beams, on the solved width.
+  subroutine work_of_beams(self, surface, moved, work, error)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's two, whose numbers may differ
+    real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
+    real(wp), intent(out) :: work(:) !! on each of the others [J]
+    type(error_type), allocatable, intent(out) :: error !! never
+    real(wp) :: force(2*beam_unknowns)
+    integer :: station, k
+
+    work = 0.0_wp
+    if (size(surface%my_elements) == 0) return ! another rank's
+    do station = 1, surface%mesh%stations - 1
+      associate (node => surface%local_node((station - 1)*surface%mesh%rows + 1 + [0, surface%mesh%rows]))
+        force = width_of(surface%mesh)*matmul(stiffness_behind(surface%mesh, surface%section, station, surface%has_contacts), &
+                                              [moved(of_beam, node, 0)])
+        do k = 1, size(work)
+          work(k) = work(k) + dot_product(force, [moved(of_beam, node, k)])
+        end do
+      end associate
+    end do
+  end subroutine work_of_beams
 
   !> This rank's contacts, those of a line spread over its nodes.
   function beam_contacts(self) result(contacts)

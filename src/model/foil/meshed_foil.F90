@@ -7,12 +7,13 @@
 module gfb_meshed_foil
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   implicit none (type)
   private
-  public :: both_surfaces
+  public :: both_surfaces, split_motion
 
   integer, parameter, public :: top_surface = 1, bump_surface = 2 !! of a foil's surfaces
 
@@ -32,7 +33,6 @@ module gfb_meshed_foil
     Vec :: state, force                       !! of the owned unknowns, in SI
   contains
     procedure :: add_residual => meshed_residual
-    procedure :: add_contact_forces
     procedure :: add_jacobian => meshed_jacobian
     procedure :: add_constant => meshed_constant
     procedure :: add_load_rates => meshed_load_rates
@@ -42,6 +42,7 @@ module gfb_meshed_foil
     procedure :: free_matrix
     procedure(split_displacements), deferred :: split_displacements
     procedure(stresses), deferred :: stresses
+    procedure(find_work), deferred :: find_work
   end type meshed_foil_type
 
   abstract interface
@@ -62,6 +63,16 @@ module gfb_meshed_foil
       real(wp), intent(in) :: moved(:, :)            !! (5, local nodes) [m], [rad]
       real(wp), allocatable :: value(:, :)           !! (8, elements of this rank) [Pa]
     end function stresses
+
+    !> Work of the elastic forces of a motion in a surface's elements on this rank.
+    subroutine find_work(self, surface, moved, work, error)
+      import :: meshed_foil_type, foil_surface_type, error_type, wp
+      class(meshed_foil_type), intent(in) :: self !! the foil
+      type(foil_surface_type), intent(in) :: surface !! one of the foil's two, whose numbers may differ
+      real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
+      real(wp), intent(out) :: work(:) !! on each of the others [J]
+      type(error_type), allocatable, intent(out) :: error !! an element is degenerate
+    end subroutine find_work
   end interface
 
 contains
@@ -79,6 +90,18 @@ contains
     list(bump_surface)%name = 'bump_foil'
     list(bump_surface)%has_contacts = .true.
   end function both_surfaces
+
+  !> Displacements of all this rank's nodes of both foils, condensed ones recovered. All ranks ask.
+  subroutine split_motion(foil, unknown, top, bumps)
+    class(foil_model_type), intent(in) :: foil !! with meshes of its own
+    real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
+    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
+
+    select type (foil)
+    class is (meshed_foil_type)
+      call foil%split_displacements(unknown, top, bumps)
+    end select
+  end subroutine split_motion
 
   !> Elastic forces, pressure and contacts.
   subroutine meshed_residual(self, unknown, residual)
@@ -109,7 +132,7 @@ contains
       end do
     end do
 
-    call self%add_contact_forces(unknown, residual)
+    call add_contact_forces(self, unknown, residual)
   end subroutine meshed_residual
 
   !> Forces of the contacts, and of the top foil's initial moment.

@@ -8,7 +8,8 @@ module gfb_shell_foil
   use gfb_results, only: add_result
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_number
-  use gfb_shell_geometry, only: node_unknowns, shell_unknowns
+  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns
+  use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_substructures, only: kind_count
   use gfb_contact_set, only: contact_set_type
@@ -50,12 +51,14 @@ module gfb_shell_foil
     procedure :: own_unknown => shell_own_unknown
     procedure :: split_displacements => shell_displacements
     procedure :: stresses => stresses_of_shells
+    procedure :: find_work => work_of_shells
     procedure :: nodal_contacts => shell_contacts
     procedure :: sizes => shell_sizes
     procedure :: destroy => shell_destroy
   end type shell_foil_type
 
   integer, parameter :: tangential = 1, axial = 3 !! components of a displacement
+  real(wp), parameter :: round_off = 1.0e-12_wp !! of an element's shape, over its size
   integer, parameter :: corners = 4
 
   integer, parameter :: radial = 2 !! components of a displacement
@@ -213,6 +216,54 @@ contains
     real(wp), allocatable :: value(:, :)
     value = shell_stresses(surface, moved)
   end function stresses_of_shells
+
+  !> Work of shells. Neighbours of the same shape share a stiffness.
+  subroutine work_of_shells(self, surface, moved, work, error)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's two, whose numbers may differ
+    real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
+    real(wp), intent(out) :: work(:) !! on each of the others [J]
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    real(wp) :: force(shell_unknowns), stiffness(shell_unknowns, shell_unknowns)
+    type(shell_geometry_type) :: here, before
+    type(shell_section_type) :: section
+    real(wp) :: thickness !! of the neighbour [m]
+    integer :: i, k
+    logical :: known
+
+    work = 0.0_wp
+    known = .false.
+    do i = 1, size(surface%my_elements)
+      here = element_geometry(surface%mesh, surface%my_elements(i))
+      section = element_section(surface%mesh, surface%section, surface%my_elements(i))
+      if (known) known = is_same(here, before) .and. abs(section%thickness - thickness) <= 0.0_wp
+      if (.not. known) then
+        call shell_stiffness(here, section, stiffness, error)
+        if (allocated(error)) return
+        before = here
+        thickness = section%thickness
+        known = .true.
+      end if
+      associate (node => surface%local_node(surface%mesh%element_nodes(:, surface%my_elements(i))))
+        force = matmul(stiffness, [moved(:, node, 0)])
+        do k = 1, size(work)
+          work(k) = work(k) + dot_product(force, [moved(:, node, k)])
+        end do
+      end associate
+    end do
+  end subroutine work_of_shells
+
+  !> Whether an element is another one, moved.
+  pure function is_same(here, other) result(same)
+    type(shell_geometry_type), intent(in) :: here, other
+    logical :: same
+
+    associate (p => here%position - spread(here%position(:, 1), 2, size(here%position, 2)), &
+               q => other%position - spread(other%position(:, 1), 2, size(other%position, 2)))
+      same = all(abs(p - q) <= round_off*maxval(abs(q)))
+    end associate
+    same = same .and. all(abs(here%director - other%director) <= round_off) .and. all(abs(here%axis - other%axis) <= round_off)
+  end function is_same
 
   !> The contacts as they are: each is of one node of the bumps.
   function shell_contacts(self) result(contacts)

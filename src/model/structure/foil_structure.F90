@@ -20,7 +20,7 @@ module gfb_foil_structure
   use gfb_foil_surface, only: foil_surface_type
   implicit none (type)
   private
-  public :: number_slots, condense_piece, assemble_piece, retained_in_piece, piece_numbers, element_geometry, element_section, &
+  public :: number_slots, condense_piece, assemble_piece, retained_in_piece, element_geometry, element_section, &
             add_symmetric_block, create_foil_matrix, destroy_foil_structure
 
   integer, parameter :: element_row = 9*node_unknowns !! entries of a row: a node, its neighbours

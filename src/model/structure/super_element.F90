@@ -21,7 +21,6 @@ module gfb_super_element
     integer, allocatable :: retained(:)       !! unknowns kept, numbers in the substructure
     integer, allocatable :: interior(:)       !! unknowns condensed
     real(wp), allocatable :: stiffness(:, :)  !! (retained, retained)
-    real(wp), allocatable :: modes(:, :)      !! (interior, retained) constraint modes, where they are kept
     logical, private :: created = .false.
     Mat, private :: block_ii, block_ib, block_bi, block_bb
     Mat :: schur                              !! the complement as PETSc keeps it

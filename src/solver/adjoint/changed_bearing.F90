@@ -4,7 +4,7 @@ module gfb_changed_bearing
   use petscvec
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_petsc_session, only: any_rank
+  use gfb_petsc_session, only: any_rank, sum_over_ranks, share_failure
   use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
@@ -14,9 +14,9 @@ module gfb_changed_bearing
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_foil_builder, only: keep_elements
+  use gfb_changed_foil, only: elastic_work
   use gfb_bearing_builder, only: build_like, take_numbers
-  use gfb_changed_foil, only: takes_numbers, add_contact_forces, add_changed_force, changed_pieces_type
-  use gfb_sensitivity, only: extreme_nodes_type, measure
+  use gfb_answer_numbers, only: known_answer_type, measure
   implicit none (type)
   private
   public :: evaluate_changed
@@ -24,15 +24,15 @@ module gfb_changed_bearing
 contains
 
   !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
-  subroutine evaluate_changed(scene, parameter, value, bearing, unknown, nodes, residual, number, problem, at)
+  subroutine evaluate_changed(scene, parameter, value, bearing, answer, residual, number, work, problem, at)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(parameter_type), intent(in) :: parameter !! the key
     real(wp), intent(in) :: value !! of it [its unit]
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
-    real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
-    type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
+    type(known_answer_type), intent(in) :: answer !! what is known of it
     type(tVec), intent(in) :: residual !! scaled
     real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
+    real(wp), intent(out) :: work(:) !! of elastic forces that are not in the residual, on each adjoint
     character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
     real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
     type(scene_type) :: there
@@ -40,10 +40,11 @@ contains
     logical :: valid
 
     number = 0.0_wp
+    work = 0.0_wp
     problem = ''
     valid = .true.
     if (parameter%key%group == 'operation') then
-      call evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
+      call evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
     else
       call scene_with_key(scene, parameter%key, value, there, error, at)
       if (allocated(error)) then
@@ -51,10 +52,10 @@ contains
         return
       end if
       call keep_elements(scene, there)
-      if (keeps_meshes(scene, parameter%key) .and. takes_numbers(bearing%pad(1)%foil)) then
-        call evaluate_in_place(scene, there, parameter%key, bearing, unknown, nodes, residual, number, valid, error)
+      if (bearing%is_meshed() .and. keeps_meshes(scene, parameter%key)) then
+        call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
       else
-        call evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
+        call evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)
       end if
       if (allocated(error)) problem = error%message
     end if
@@ -62,12 +63,11 @@ contains
   end subroutine evaluate_changed
 
   !> The same bearing at another load, the direction kept, or at another speed.
-  subroutine evaluate_operation(parameter, value, bearing, unknown, nodes, residual, number, valid)
+  subroutine evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
     type(parameter_type), intent(in) :: parameter
     real(wp), intent(in) :: value !! [its unit]
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp), intent(in) :: unknown(:) !! in SI
-    type(extreme_nodes_type), intent(in) :: nodes
+    type(known_answer_type), intent(in) :: answer
     type(tVec), intent(in) :: residual !! scaled
     real(wp), intent(out) :: number(:)
     logical, intent(out) :: valid !! gap and pressure are positive
@@ -80,7 +80,7 @@ contains
       point%speed = angular_speed(value)
     end if
     call bearing%evaluate_at(point, bearing%state, residual, valid)
-    number = measure(bearing, unknown, point, nodes)
+    number = measure(bearing, answer%unknown, point, answer%nodes)
   end subroutine evaluate_operation
 
   !> Whether a key moves neither the film's mesh nor the crests.
@@ -108,66 +108,52 @@ contains
     end associate
   end function keeps_meshes
 
-  !> The same bearing with other numbers.
-  subroutine evaluate_in_place(scene, there, key, bearing, unknown, nodes, residual, number, valid, error)
+  !> The same bearing with other numbers. Its matrix of the foils stays; what changes in it is in the work.
+  subroutine evaluate_in_place(scene, there, key, bearing, answer, residual, number, work, valid, error)
     type(scene_type), intent(in) :: scene, there !! as it is; with the key changed
     type(swept_key_type), intent(in) :: key !! that is changed
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp), intent(in) :: unknown(:) !! in SI
-    type(extreme_nodes_type), intent(in) :: nodes
+    type(known_answer_type), intent(in) :: answer
     type(tVec), intent(in) :: residual !! scaled
     real(wp), intent(out) :: number(:)
+    real(wp), intent(inout) :: work(:) !! 0 where no foil is another
     logical, intent(out) :: valid !! gap and pressure are positive
     type(error_type), allocatable, intent(out) :: error
-
-    call take_numbers(there, bearing)
-    select case (key%group)
-    case ('contact', 'top_foil', 'bump_foil')
-      valid = .true.
-      number = 0.0_wp
-      call evaluate_foils(there, key, bearing, unknown, residual, error)
-    case default
-      call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
-      number = measure(bearing, unknown, bearing%point, nodes)
-    end select
-    call take_numbers(scene, bearing)
-  end subroutine evaluate_in_place
-
-  !> What a key of the foils changes at a fixed state: forces of contacts, and elastic ones. The film's equations, forces
-  !> of the foils that stay and all numbers are left out: differences do not see them.
-  subroutine evaluate_foils(there, key, bearing, unknown, residual, error)
-    type(scene_type), intent(in) :: there !! with the key changed
-    type(swept_key_type), intent(in) :: key !! that is changed
-    type(bearing_system_type), intent(inout) :: bearing !! with the numbers of that scene
-    real(wp), intent(in) :: unknown(:) !! in SI
-    type(tVec), intent(in) :: residual !! scaled
-    type(error_type), allocatable, intent(out) :: error
-    real(wp) :: value(size(unknown))
-    type(changed_pieces_type) :: pieces
-    PetscErrorCode :: ierr
+    real(wp) :: of_pad(size(work))
+    logical :: of_bumps
     integer :: i
 
-    value = 0.0_wp
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), first => bearing%pad(i)%first + 1, last => bearing%pad(i)%last)
-        call add_contact_forces(pad%foil, unknown(first:last), value(first:last))
-        if (key%is_gap() .or. key%group == 'contact') cycle
-        call add_changed_force(pad%foil, there, pad%whole, key%group == 'bump_foil', unknown(first:last), value(first:last), &
-                               pieces, error)
+    call take_numbers(there, bearing)
+    call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
+    number = 0.0_wp ! they stay where the foils alone are others
+    select case (key%group)
+    case ('contact', 'top_foil', 'bump_foil')
+    case default
+      number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
+    end select
+    call take_numbers(scene, bearing)
+    of_bumps = key%group == 'bump_foil'
+    if (key%is_gap() .or. .not. (of_bumps .or. key%group == 'top_foil')) return
+    do i = 1, size(answer%motion)
+      associate (pad => bearing%pad(i), motion => answer%motion(i))
+        if (of_bumps) then
+          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%bumps, of_pad, error)
+        else
+          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%top, of_pad, error)
+        end if
       end associate
       if (allocated(error)) exit
+      work = work + of_pad
     end do
-    if (allocated(error)) return
-    PetscCallA(VecSet(residual, 0.0_wp, ierr))
-    call bearing%exchange%add(value/bearing%equation_scale(bearing%point), residual)
-  end subroutine evaluate_foils
+    call share_failure(error)
+    work = sum_over_ranks(work)
+  end subroutine evaluate_in_place
 
   !> Another bearing on a mesh like this one's.
-  subroutine evaluate_rebuilt(there, bearing, unknown, nodes, residual, number, valid, problem, error)
+  subroutine evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)
     type(scene_type), intent(in) :: there
     type(bearing_system_type), intent(in) :: bearing
-    real(wp), intent(in) :: unknown(:) !! in SI
-    type(extreme_nodes_type), intent(in) :: nodes
+    type(known_answer_type), intent(in) :: answer
     type(tVec), intent(in) :: residual !! scaled
     real(wp), intent(out) :: number(:)
     logical, intent(out) :: valid !! gap and pressure are positive
@@ -182,9 +168,9 @@ contains
     if (allocated(error)) return
     if (is_alike(bearing, other)) then
       call take_contacts(bearing, other)
-      call other%set_unknowns(unknown)
+      call other%set_unknowns(answer%unknown)
       call other%evaluate(other%state, residual, valid)
-      number = measure(other, unknown, other%point, nodes)
+      number = measure(other, answer%unknown, other%point, answer%nodes)
     else
       problem = 'the mesh changes with it'
     end if

@@ -7,42 +7,26 @@
 !>    J_u^T \lambda = g_u: $$
 !>
 !> one transposed solve a number, with the factors that the answer has. The derivatives by a at a fixed state are
-!> differences of residual and number, of bearings built with a little more and a little less of the key.
+!> differences of residual and number, of bearings with a little more and a little less of the key.
 !> Contacts stay open, stick or slide as they do at the answer.
-!>
-!> Numbers of an answer as functions of its unknowns and of the bearing, and their derivatives by the unknowns.
-!>
-!> The smallest gap and the extreme pressures are those of the nodes where they are at the answer.
 module gfb_sensitivity
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use petscsys
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
-  use gfb_film_load, only: film_forces
-  use gfb_film_measures, only: film_drag, film_drag_rates, film_integral
-  use gfb_solid_contact, only: contact_pressure_rate
-  use gfb_operating_point, only: operating_point_type
-  use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type
   use gfb_scene, only: scene_type
   use gfb_sensitivity_case, only: parameter_type, quantity_words
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
+  use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: set_lending
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_meshed_foil, only: split_motion
   use gfb_newton, only: newton_type, solve_transposed
+  use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, place_e, place_force, &
+                                place_torque, place_speed, place_extremes
   implicit none (type)
   private
-  public :: find_extremes, measure, measure_gradient, keep_tangent, find_sensitivities, changed_evaluation
-
-  integer, parameter :: place_e = 1, place_force = 3, place_torque = 7, place_speed = 8 !! first numbers of each kind
-  integer, parameter, public :: place_extremes = 9, numbers = 11
-  integer, parameter :: extremes = 3 !! smallest gap, largest and smallest pressure
-
-  !> The film nodes of extreme values, 0 on all ranks but one.
-  type, public :: extreme_nodes_type
-    integer :: node(extremes) = 0
-  end type extreme_nodes_type
+  public :: keep_tangent, find_sensitivities, changed_evaluation
 
   !> How a derivative by a key is made of differences.
   type :: difference_type
@@ -66,212 +50,23 @@ module gfb_sensitivity
 
   abstract interface
     !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
-    subroutine changed_evaluation(scene, parameter, value, bearing, unknown, nodes, residual, number, problem, at)
-      import :: scene_type, parameter_type, bearing_system_type, extreme_nodes_type, tVec, wp
+    subroutine changed_evaluation(scene, parameter, value, bearing, answer, residual, number, work, problem, at)
+      import :: scene_type, parameter_type, bearing_system_type, known_answer_type, tVec, wp
       implicit none (type, external)
       type(scene_type), intent(in) :: scene !! what is asked for
       type(parameter_type), intent(in) :: parameter !! the key
       real(wp), intent(in) :: value !! of it [its unit]
       type(bearing_system_type), intent(inout) :: bearing !! at its answer
-      real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
-      type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
+      type(known_answer_type), intent(in) :: answer !! what is known of it
       type(tVec), intent(in) :: residual !! scaled
       real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
+      real(wp), intent(out) :: work(:) !! of elastic forces that are not in the residual, on each adjoint
       character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
       real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
     end subroutine changed_evaluation
   end interface
 
 contains
-
-  !> The nodes of the smallest gap and of the largest and smallest pressure at the present state.
-  subroutine find_extremes(bearing, where_they_are)
-    type(bearing_system_type), intent(in) :: bearing !! at an answer
-    type(extreme_nodes_type), intent(out) :: where_they_are !! on this rank
-    real(wp) :: unknown(bearing%local_size()), value(bearing%film_nodes(), extremes), most(extremes), here(extremes)
-    integer :: i
-
-    call bearing%get_unknowns(unknown)
-    value(:, 1) = -bearing%gap(unknown)
-    value(:, 2) = bearing%film_pressure(unknown)
-    value(:, 3) = -value(:, 2)
-    here = maxval(value, 1)
-    most = largest_over_ranks(here)
-    ! one of those ranks that have the node
-    here = largest_over_ranks(merge(real(this_rank() + 1, wp), 0.0_wp, here >= most))
-    do i = 1, extremes
-      if (nint(here(i)) == this_rank() + 1) where_they_are%node(i) = maxloc(value(:, i), 1)
-    end do
-  end subroutine find_extremes
-
-  !> Eccentricity [m], forces and torques on the sleeve [N], [N m], friction torque [N m], speed [rad/s], the values
-  !> at the extreme nodes [m], [Pa].
-  function measure(bearing, unknown, point, nodes) result(number)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    type(operating_point_type), intent(in) :: point !! with the shaft's position where it is fixed
-    type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
-    real(wp) :: number(numbers)
-    real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes()), solid(bearing%film_nodes())
-    type(operating_point_type) :: here
-    integer :: i
-
-    here = bearing%position(unknown, point)
-    gap = bearing%gap(unknown, point)
-    pressure = bearing%film_pressure(unknown)
-    solid = bearing%solid_pressure(unknown)
-    number = 0.0_wp
-    number(place_force:place_torque - 1) = bearing%local_force(unknown, gap)
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
-        number(place_torque) = number(place_torque) + pad%film%radius* &
-          film_drag(pad%film, pressure(first:last), gap(first:last), here)
-        if (.not. pad%contact%present) cycle
-        number(place_torque) = number(place_torque) + pad%film%radius*pad%contact%friction* &
-          film_integral(pad%film, solid(first:last))
-      end associate
-    end do
-    if (nodes%node(1) > 0) number(place_extremes) = gap(nodes%node(1))
-    do i = 2, extremes
-      if (nodes%node(i) > 0) number(place_extremes + i - 1) = pressure(nodes%node(i))
-    end do
-    number = sum_over_ranks(number)
-    number(place_e:place_e + 1) = here%eccentricity
-    number(place_speed) = point%speed
-  end function measure
-
-  !> This rank's shares of the derivatives of these numbers by the local unknowns, at the present state and point.
-  subroutine measure_gradient(bearing, nodes, gradient)
-    type(bearing_system_type), intent(in) :: bearing !! at an answer
-    type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
-    real(wp), intent(out) :: gradient(:, :) !! (local unknowns, numbers) [SI]
-    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), by_gap(bearing%film_nodes(), numbers)
-    integer :: i
-
-    call bearing%get_unknowns(unknown)
-    gap = bearing%gap(unknown)
-    gradient = 0.0_wp
-    by_gap = 0.0_wp
-    if (bearing%floats .and. bearing%last_rank) then
-      do i = 1, 2
-        gradient(bearing%first_shaft + i, place_e + i - 1) = 1.0_wp
-      end do
-    end if
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
-        call add_forces(pad, gap(first:last), gradient(pad%first + 1:pad%last, :), by_gap(first:last, :))
-        call add_drag(bearing, pad, unknown, gap(first:last), gradient, by_gap(first:last, :))
-      end associate
-    end do
-    call add_extremes(bearing, nodes, gradient, by_gap)
-    do i = 1, size(bearing%pad)
-      call follow_gap(bearing, bearing%pad(i), by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
-    end do
-  end subroutine measure_gradient
-
-  !> Forces and torques: weights of the pressures, those of the asperities by the gap.
-  pure subroutine add_forces(pad, gap, by_unknown, by_gap)
-    type(pad_type), intent(in) :: pad
-    real(wp), intent(in) :: gap(:) !! at its nodes [m]
-    real(wp), intent(inout) :: by_unknown(:, :), by_gap(:, :) !! (pad's unknowns or nodes, numbers)
-    integer :: k
-
-    do k = 1, film_forces
-      associate (weight => pad%film%force_weight(k, :))
-        by_unknown(:size(gap), place_force + k - 1) = weight
-        by_gap(:, place_force + k - 1) = weight*contact_pressure_rate(pad%contact, gap)
-      end associate
-    end do
-  end subroutine add_forces
-
-  !> Friction torque of a pad's film and asperities. Between the nodes the rigid gap follows the shaft by itself.
-  subroutine add_drag(bearing, pad, unknown, gap, gradient, by_gap)
-    type(bearing_system_type), intent(in) :: bearing
-    type(pad_type), intent(in) :: pad
-    real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
-    real(wp), intent(in) :: gap(:)     !! at the pad's nodes [m]
-    real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (bearing's unknowns or pad's nodes, numbers)
-    real(wp), parameter :: part = 1.0e-3_wp ! of the clearance, that the shaft is moved by
-    real(wp) :: by_pressure(size(gap)), by_node(size(gap)), area(size(gap)), step
-    type(operating_point_type) :: ahead, behind
-    integer :: k
-
-    associate (film => pad%film, pressure => unknown(pad%first + 1:pad%first + size(gap)))
-      call film_drag_rates(film, pressure, gap, bearing%position(unknown), by_pressure, by_node)
-      associate (mine => gradient(pad%first + 1:pad%first + size(gap), place_torque))
-        mine = mine + film%radius*by_pressure
-      end associate
-      area = nodal_areas(pad)
-      by_gap(:, place_torque) = film%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
-      if (.not. bearing%floats) return
-      step = part*film%clearance
-      do k = 1, 2
-        ahead = bearing%position(unknown)
-        behind = ahead
-        ahead%eccentricity(k) = ahead%eccentricity(k) + step
-        behind%eccentricity(k) = behind%eccentricity(k) - step
-        associate (by_shaft => gradient(bearing%first_shaft + k, place_torque))
-          by_shaft = by_shaft + film%radius*(film_drag(film, pressure, gap, ahead) &
-                                             - film_drag(film, pressure, gap, behind))/(2.0_wp*step)
-        end associate
-      end do
-    end associate
-  end subroutine add_drag
-
-  !> Weights of a field's nodal values in its integral, this rank's share [m2].
-  pure function nodal_areas(pad) result(area)
-    type(pad_type), intent(in) :: pad
-    real(wp) :: area(size(pad%film%angle))
-    integer :: element
-
-    area = 0.0_wp
-    do element = 1, size(pad%film%element_nodes, 2)
-      associate (nodes => pad%film%element_nodes(:, element))
-        area(nodes) = area(nodes) + pad%film%copies*matmul(pad%film%shape, pad%film%geometry(element)%area)
-      end associate
-    end do
-  end function nodal_areas
-
-  !> The extreme values, on the rank that has their nodes.
-  pure subroutine add_extremes(bearing, nodes, gradient, by_gap)
-    type(bearing_system_type), intent(in) :: bearing
-    type(extreme_nodes_type), intent(in) :: nodes
-    real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (bearing's unknowns or nodes, numbers)
-    integer :: i, k
-
-    if (nodes%node(1) > 0) by_gap(nodes%node(1), place_extremes) = 1.0_wp
-    do k = 2, extremes
-      do i = 1, size(bearing%pad)
-        associate (pad => bearing%pad(i))
-          if (nodes%node(k) <= pad%first_node .or. nodes%node(k) > pad%last_node) cycle
-          gradient(pad%first + nodes%node(k) - pad%first_node, place_extremes + k - 1) = 1.0_wp
-        end associate
-      end do
-    end do
-  end subroutine add_extremes
-
-  !> What a pad's gap does by the unknowns that move it: its foil's, or pressures, and the shaft's.
-  pure subroutine follow_gap(bearing, pad, by_gap, gradient)
-    type(bearing_system_type), intent(in) :: bearing
-    type(pad_type), intent(in) :: pad
-    real(wp), intent(in) :: by_gap(:, :) !! (pad's nodes, numbers)
-    real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)
-    integer :: node, k
-
-    do node = 1, size(by_gap, 1)
-      if (pad%foil%source(node) > 0) then
-        associate (mine => gradient(pad%first + pad%foil%source(node), :))
-          mine = mine + pad%foil%rate(node)*by_gap(node, :)
-        end associate
-      end if
-      if (.not. bearing%floats) cycle
-      do k = 1, 2
-        associate (mine => gradient(bearing%first_shaft + k, :))
-          mine = mine + pad%film%motion(k, node)*by_gap(node, :)
-        end associate
-      end do
-    end do
-  end subroutine follow_gap
 
   !> The matrix of the bearing's equations at its answer, without what is lent to open contacts.
   subroutine keep_tangent(bearing, tangent)
@@ -297,34 +92,28 @@ contains
     type(sensitivity_type), intent(out) :: found !! values and derivatives
     real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
 
-    Vec :: adjoint(size(quantity_words)), change
-    type(extreme_nodes_type) :: nodes
-    real(wp) :: unknown(bearing%local_size()), number(numbers), slope(numbers), combined(size(quantity_words), numbers), along
+    Vec :: adjoint(size(quantity_words))
+    type(known_answer_type) :: answer
+    real(wp) :: number(numbers), combined(size(quantity_words), numbers)
     character(len=:), allocatable :: problem
     logical :: solved(size(quantity_words))
     PetscErrorCode :: ierr
     integer :: i, k
 
-    call bearing%get_unknowns(unknown)
-    call find_extremes(bearing, nodes)
-    number = measure(bearing, unknown, bearing%point, nodes)
+    allocate (answer%unknown(bearing%local_size()), answer%motion(0))
+    call bearing%get_unknowns(answer%unknown)
+    call find_extremes(bearing, answer%nodes)
+    number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
-    call find_adjoints(scene, bearing, newton, tangent, nodes, combined, adjoint, solved)
-    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    call find_adjoints(scene, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
+    if (bearing%is_meshed()) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
       do i = 1, size(parameter)
-        call find_change(scene, parameter(i), bearing, unknown, nodes, evaluate, change, slope, problem, at)
-        if (problem /= '') then
-          found%problem = parameter(i)%key%label()//': '//problem
-          cycle
-        end if
-        do k = 1, size(quantity_words)
-          if (.not. solved(k)) cycle
-          PetscCallA(VecDot(adjoint(k), change, along, ierr))
-          found%derivative(k, i) = dot_product(combined(k, :), slope) - along
-        end do
+        call find_derivatives(scene, parameter(i), bearing, answer, evaluate, combined, adjoint, solved, found%derivative(:, i), &
+                              problem, at)
+        if (problem /= '') found%problem = parameter(i)%key%label()//': '//problem
       end do
     end associate
     if (any(scene%sensitivity%quantity .and. .not. solved)) found%problem = 'the transposed equations were not solved'
@@ -333,7 +122,6 @@ contains
         PetscCallA(VecDestroy(adjoint(k), ierr))
       end if
     end do
-    PetscCallA(VecDestroy(change, ierr))
   end subroutine find_sensitivities
 
   !> The quantities in the order of `quantity_words` from the numbers that are measured, and their derivatives.
@@ -435,27 +223,71 @@ contains
     PetscCallA(VecDestroy(left, ierr))
   end subroutine solve_adjoint
 
-  !> How residual and numbers change with a key while the state stays.
-  subroutine find_change(scene, parameter, bearing, unknown, nodes, evaluate, change, slope, problem, at)
+  !> How the foils move at the answer, and in the adjoints of all quantities.
+  subroutine find_motions(bearing, adjoint, solved, answer)
+    type(bearing_system_type), intent(in) :: bearing !! with meshed foils
+    Vec, intent(in) :: adjoint(:) !! one a quantity
+    logical, intent(in) :: solved(:) !! else there is none
+    type(known_answer_type), intent(inout) :: answer !! with its unknowns; gets the motions
+    real(wp) :: value(bearing%local_size())
+    integer :: k
+
+    deallocate (answer%motion)
+    allocate (answer%motion(size(bearing%pad)))
+    call add_motion(0, answer%unknown)
+    do k = 1, size(adjoint)
+      if (.not. solved(k)) cycle
+      call bearing%exchange%get(adjoint(k), value)
+      call add_motion(k, value/bearing%equation_scale(bearing%point))
+    end do
+
+  contains
+
+    !> Displacements of a state, or of an adjoint.
+    subroutine add_motion(number, value)
+      integer, intent(in) :: number !! 0: the state
+      real(wp), intent(in) :: value(:) !! local unknowns
+      real(wp), allocatable :: top(:, :), bumps(:, :)
+      integer :: i
+
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i), motion => answer%motion(i))
+          call split_motion(pad%foil, value(pad%first + 1:pad%last), top, bumps)
+          if (number == 0) then
+            allocate (motion%top(size(top, 1), size(top, 2), 0:size(adjoint)), source=0.0_wp)
+            allocate (motion%bumps(size(bumps, 1), size(bumps, 2), 0:size(adjoint)), source=0.0_wp)
+          end if
+          motion%top(:, :, number) = top
+          motion%bumps(:, :, number) = bumps
+        end associate
+      end do
+    end subroutine add_motion
+  end subroutine find_motions
+
+  !> Derivatives of all quantities by a key: by differences of residual and numbers at the state of the answer.
+  subroutine find_derivatives(scene, parameter, bearing, answer, evaluate, combined, adjoint, solved, derivative, problem, at)
     type(scene_type), intent(in) :: scene
     type(parameter_type), intent(in) :: parameter
     type(bearing_system_type), intent(inout) :: bearing
-    real(wp), intent(in) :: unknown(:) !! local ones of the answer, in SI
-    type(extreme_nodes_type), intent(in) :: nodes
+    type(known_answer_type), intent(in) :: answer
     procedure(changed_evaluation) :: evaluate
-    Vec, intent(in) :: change            !! of the residual, scaled, by the key's unit
-    real(wp), intent(out) :: slope(:)    !! of the numbers, by the key's unit
+    real(wp), intent(in) :: combined(:, :) !! (quantities, numbers)
+    Vec, intent(in) :: adjoint(:)     !! one a quantity
+    logical, intent(in) :: solved(:)  !! else there is none
+    real(wp), intent(inout) :: derivative(:) !! stays where there is none
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     real(wp), intent(in), optional :: at !! [the sweep's unit]
-    Vec :: residual
-    real(wp) :: number(numbers), value, step
+    Vec :: change, residual
+    real(wp) :: number(numbers), slope(numbers), work(size(adjoint)), elastic(size(adjoint)), value, step, along
     PetscErrorCode :: ierr
     type(difference_type) :: difference
-    integer :: steps
+    integer :: steps, k
 
-    PetscCallA(VecDuplicate(change, residual, ierr))
+    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    PetscCallA(VecDuplicate(bearing%state, residual, ierr))
     PetscCallA(VecSet(change, 0.0_wp, ierr))
     slope = 0.0_wp
+    elastic = 0.0_wp
     value = present_value(scene, parameter, bearing%point, at)
     difference = difference_of(parameter%key)
     step = difference%part*abs(value)
@@ -465,12 +297,19 @@ contains
     do steps = -2, 2
       if (problem /= '') exit
       if (.not. abs(difference%weight(steps)) > 0.0_wp) cycle
-      call evaluate(scene, parameter, value + steps*step, bearing, unknown, nodes, residual, number, problem, at)
+      call evaluate(scene, parameter, value + steps*step, bearing, answer, residual, number, work, problem, at)
       PetscCallA(VecAXPY(change, difference%weight(steps)/step, residual, ierr))
       slope = slope + difference%weight(steps)/step*number
+      elastic = elastic + difference%weight(steps)/step*work
     end do
+    do k = 1, merge(size(adjoint), 0, problem == '')
+      if (.not. solved(k)) cycle
+      PetscCallA(VecDot(adjoint(k), change, along, ierr))
+      derivative(k) = dot_product(combined(k, :), slope) - along - elastic(k)
+    end do
+    PetscCallA(VecDestroy(change, ierr))
     PetscCallA(VecDestroy(residual, ierr))
-  end subroutine find_change
+  end subroutine find_derivatives
 
   !> The differences that suit a key. Where it leaves the foils' stiffness alone little is lost to rounding. In thickness
   !> and material stiffness is a polynomial, or nearly one, of low degree. The shape of bumps is neither, and a pitch adds
