@@ -7,13 +7,13 @@ program gfb
   use gfb_signals, only: limit_time, stop_agreed, stop_status
   use gfb_pool, only: pool_type, start_pool, stop_pool
   use gfb_petsc_session, only: start_petsc, stop_petsc, this_rank
+  use gfb_reasons, only: status_unconverged
   use gfb_command_line, only: command_line_type, read_command_line
   use gfb_information, only: information
-  use gfb_run_case, only: run_case, run_scene
+  use gfb_run_case, only: run_case
   use gfb_run_groups, only: run_groups
   implicit none (type, external)
 
-  integer, parameter :: status_unconverged = 2
   type(command_line_type) :: line
   type(pool_type) :: pool
   type(run_log_type) :: log
@@ -37,7 +37,7 @@ program gfb
       call information(line, words, error)
       if (.not. allocated(error)) call log%tell(words)
     else if (line%groups > 0) then
-      call run_groups(line, pool, run_scene, log, status, error)
+      call run_groups(line, pool, log, status, error)
     else
       call run_case(line, log, converged, error)
       if (.not. converged) status = status_unconverged

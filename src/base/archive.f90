@@ -136,7 +136,7 @@ contains
 
     number = value
     call self%pass_line(name//' real')
-    call self%pass_numbers(number)
+    call self%pass_numbers(1, number)
     value = number(1)
   end subroutine visit_real
 
@@ -147,7 +147,7 @@ contains
     real(wp), intent(inout) :: value(:) !! written on restoring, in its unit [SI]
 
     call self%pass_line(name//' real'//extents(shape(value)))
-    call self%pass_numbers(value)
+    call self%pass_numbers(size(value), value)
   end subroutine visit_reals
 
   !> A matrix of real numbers.
@@ -155,12 +155,9 @@ contains
     class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name   !! of the component
     real(wp), intent(inout) :: value(:, :) !! written on restoring, in its unit [SI]
-    real(wp) :: number(size(value))
 
-    number = reshape(value, shape(number))
     call self%pass_line(name//' real'//extents(shape(value)))
-    call self%pass_numbers(number)
-    value = reshape(number, shape(value))
+    call self%pass_numbers(size(value), value)
   end subroutine visit_matrix
 
   !> A whole number.
@@ -172,7 +169,7 @@ contains
 
     number = value
     call self%pass_line(name//' integer')
-    call self%pass_whole_numbers(number)
+    call self%pass_whole_numbers(1, number)
     value = number(1)
   end subroutine visit_integer
 
@@ -183,8 +180,31 @@ contains
     integer, intent(inout) :: value(:) !! written on restoring
 
     call self%pass_line(name//' integer'//extents(shape(value)))
-    call self%pass_whole_numbers(value)
+    call self%pass_whole_numbers(size(value), value)
   end subroutine visit_integers
+
+  !> A matrix of whole numbers.
+  pure subroutine visit_integer_matrix(self, name, value)
+    class(archive_type), intent(inout) :: self !! the archive
+    character(len=*), intent(in) :: name !! of the component
+    integer, intent(inout) :: value(:, :)
+
+    call self%pass_line(name//' integer'//extents(shape(value)))
+    call self%pass_whole_numbers(size(value), value)
+  end subroutine visit_integer_matrix
+
+  !> Yes or no.
+  pure subroutine visit_logical(self, name, value)
+    class(archive_type), intent(inout) :: self !! the archive
+    character(len=*), intent(in) :: name !! of the component
+    logical, intent(inout) :: value
+    integer :: number(1)
+
+    number = merge(1, 0, value)
+    call self%pass_line(name//' logical')
+    call self%pass_whole_numbers(1, number)
+    value = number(1) /= 0
+  end subroutine visit_logical
 
   !> How many components follow: what an archive does not hold cannot be that many.
   pure subroutine visit_count(self, name, value)
@@ -199,32 +219,6 @@ contains
     end if
     if (self%failed) value = 0
   end subroutine visit_count
-
-  !> A matrix of whole numbers.
-  pure subroutine visit_integer_matrix(self, name, value)
-    class(archive_type), intent(inout) :: self !! the archive
-    character(len=*), intent(in) :: name !! of the component
-    integer, intent(inout) :: value(:, :)
-    integer :: number(size(value))
-
-    number = reshape(value, shape(number))
-    call self%pass_line(name//' integer'//extents(shape(value)))
-    call self%pass_whole_numbers(number)
-    value = reshape(number, shape(value))
-  end subroutine visit_integer_matrix
-
-  !> Yes or no.
-  pure subroutine visit_logical(self, name, value)
-    class(archive_type), intent(inout) :: self !! the archive
-    character(len=*), intent(in) :: name !! of the component
-    logical, intent(inout) :: value
-    integer :: number(1)
-
-    number = merge(1, 0, value)
-    call self%pass_line(name//' logical')
-    call self%pass_whole_numbers(number)
-    value = number(1) /= 0
-  end subroutine visit_logical
 
   !> A text of any length, or none.
   pure subroutine visit_text(self, name, value)
@@ -265,11 +259,10 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' real', extent, there)
     if (self%failed) return
-    if (.not. self%saves) then
-      if (allocated(value)) deallocate (value)
-      if (there) allocate (value(extent(1)))
-    end if
-    if (there) call self%pass_numbers(value)
+    if (.not. self%saves .and. allocated(value)) deallocate (value)
+    if (.not. there) return
+    if (.not. self%saves) allocate (value(extent(1)))
+    call self%pass_numbers(size(value), value)
   end subroutine visit_sized_reals
 
   !> A matrix of real numbers, as large as it is.
@@ -277,7 +270,6 @@ contains
     class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name                   !! of the component
     real(wp), allocatable, intent(inout) :: value(:, :) !! allocated on restoring, in its unit [SI]
-    real(wp), allocatable :: number(:)
     integer :: extent(2)
     logical :: there
 
@@ -286,14 +278,10 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' real', extent, there)
     if (self%failed) return
-    if (.not. self%saves) then
-      if (allocated(value)) deallocate (value)
-      if (there) allocate (value(extent(1), extent(2)))
-    end if
+    if (.not. self%saves .and. allocated(value)) deallocate (value)
     if (.not. there) return
-    number = reshape(value, [size(value)])
-    call self%pass_numbers(number)
-    value = reshape(number, extent)
+    if (.not. self%saves) allocate (value(extent(1), extent(2)))
+    call self%pass_numbers(size(value), value)
   end subroutine visit_sized_matrix
 
   !> Whole numbers, as many as there are.
@@ -309,11 +297,10 @@ contains
     if (there) extent = shape(value)
     call self%pass_shape(name//' integer', extent, there)
     if (self%failed) return
-    if (.not. self%saves) then
-      if (allocated(value)) deallocate (value)
-      if (there) allocate (value(extent(1)))
-    end if
-    if (there) call self%pass_whole_numbers(value)
+    if (.not. self%saves .and. allocated(value)) deallocate (value)
+    if (.not. there) return
+    if (.not. self%saves) allocate (value(extent(1)))
+    call self%pass_whole_numbers(size(value), value)
   end subroutine visit_sized_integers
 
   !> A rank's block of a field.
@@ -395,15 +382,16 @@ contains
     if (.not. self%failed) self%letters_done = self%letters_done + len(line) + 1
   end subroutine pass_shape
 
-  !> Adds numbers, or takes the next ones.
-  pure subroutine pass_numbers(self, value)
+  !> Adds numbers of any shape, or takes the next ones.
+  pure subroutine pass_numbers(self, many, value)
     class(archive_type), intent(inout) :: self !! the archive
-    real(wp), intent(inout) :: value(:) !! written on restoring, in its unit [SI]
+    integer, intent(in) :: many !! numbers
+    real(wp), intent(inout) :: value(many) !! written on restoring, in its unit [SI]
     real(wp), allocatable :: more(:)
     integer :: last
 
     if (self%failed) return
-    last = self%numbers_done + size(value)
+    last = self%numbers_done + many
     if (self%saves) then
       if (.not. allocated(self%number)) allocate (self%number(0))
       if (last > size(self%number)) then
@@ -422,13 +410,14 @@ contains
   end subroutine pass_numbers
 
   !> Adds whole numbers, or takes the next ones.
-  pure subroutine pass_whole_numbers(self, value)
+  pure subroutine pass_whole_numbers(self, many, value)
     class(archive_type), intent(inout) :: self !! the archive
-    integer, intent(inout) :: value(:) !! written on restoring
-    real(wp) :: number(size(value))
+    integer, intent(in) :: many !! numbers
+    integer, intent(inout) :: value(many) !! written on restoring
+    real(wp) :: number(many)
 
     number = real(value, wp)
-    call self%pass_numbers(number)
+    call self%pass_numbers(many, number)
     call self%require(all(abs(number) <= real(huge(value), wp)), & ! none of ours, or NaN
                       'a number that is not whole')
     if (.not. self%failed) value = nint(number)

@@ -5,8 +5,8 @@ module gfb_quantity
   use gfb_archive, only: archive_type
   implicit none (type, external)
   private
-  public :: number_quantity, count_quantity, word_quantity, truth_quantity, add_quantity, &
-            visit_description, are_alike
+  public :: number_quantity, add_quantity, place_of, number_in, visit_description, &
+            are_alike
 
   integer, parameter, public :: quantity_number = 1, quantity_count = 2, quantity_word = 3, &
                                 quantity_truth = 4
@@ -41,33 +41,6 @@ contains
     quantity = quantity_type(name, unit, meaning, quantity_number, number, '')
   end function number_quantity
 
-  !> A whole number.
-  pure function count_quantity(name, number, meaning) result(quantity)
-    character(len=*), intent(in) :: name    !! of the result
-    integer, intent(in) :: number           !! its value
-    character(len=*), intent(in) :: meaning !! what is counted, in one line
-    type(quantity_type) :: quantity
-    quantity = quantity_type(name, '1', meaning, quantity_count, real(number, wp), '')
-  end function count_quantity
-
-  !> A word.
-  pure function word_quantity(name, word, meaning) result(quantity)
-    character(len=*), intent(in) :: name    !! of the result
-    character(len=*), intent(in) :: word    !! its value
-    character(len=*), intent(in) :: meaning !! what the word says, in one line
-    type(quantity_type) :: quantity
-    quantity = quantity_type(name, '', meaning, quantity_word, 0.0_wp, word)
-  end function word_quantity
-
-  !> Yes or no.
-  pure function truth_quantity(name, truth, meaning) result(quantity)
-    character(len=*), intent(in) :: name    !! of the result
-    logical, intent(in) :: truth            !! its value
-    character(len=*), intent(in) :: meaning !! what is true or not, in one line
-    type(quantity_type) :: quantity
-    quantity = quantity_type(name, '1', meaning, quantity_truth, merge(1.0_wp, 0.0_wp, truth), '')
-  end function truth_quantity
-
   !> Puts a quantity at the end of a list.
   pure subroutine add_one(list, quantity)
     type(quantity_type), allocatable, intent(inout) :: list(:)
@@ -91,6 +64,31 @@ contains
       list = quantities
     end if
   end subroutine add_many
+
+  !> Place of a name in a list; 0 where it is not there.
+  pure function place_of(name, list) result(place)
+    character(len=*), intent(in) :: name !! of a result
+    type(quantity_type), intent(in) :: list(:) !! without a name twice
+    integer :: place
+
+    do place = size(list), 1, -1
+      if (list(place)%name == name) return
+    end do
+  end function place_of
+
+  !> The number of a name in a list [its unit].
+  pure function number_in(list, name, missing) result(number)
+    type(quantity_type), intent(in) :: list(:) !! without a name twice
+    character(len=*), intent(in) :: name !! of a result
+    real(wp), intent(in), optional :: missing !! where the name is not there; default: 0 [its unit]
+    real(wp) :: number
+    integer :: place
+
+    number = 0.0_wp
+    if (present(missing)) number = missing
+    place = place_of(name, list)
+    if (place > 0) number = list(place)%number
+  end function number_in
 
   !> `name = value [unit]`; the number reads back exactly.
   pure function quantity_line(self) result(line)

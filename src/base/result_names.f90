@@ -1,19 +1,31 @@
-!> What the table of result names says of a name, and lists made from it.
+!> Results by their names: what the table says of them, lists made from it, and lists of values
+!> whose unit and meaning come from it.
 module gfb_result_names
   use gfb_result_table, only: result_type, result_rows, study_words, own_unit, own_square, &
                               name_length
   use gfb_text, only: join, plain_text
+  use gfb_kinds, only: wp
+  use gfb_quantity, only: quantity_type, add_quantity, quantity_number, quantity_count, &
+                          quantity_word, quantity_truth
   implicit none (type, external)
   private
   public :: find_result, result_unit, result_meaning, is_of, is_nodal, asked_names, &
-            compared_names, results_text, result_words, row_names, quotient_unit
+            compared_names, results_text, result_words, row_names, quotient_unit, add_result
 
   character(len=*), parameter :: any_number = '<n>', any_key = '<key>', &
                                  any_quantity = '<quantity>'
   !> What stands for one of several words; the last one changes first.
   character(len=*), parameter :: markers(*) = [character(len=10) :: '<b>', '<a>', '<state>', &
                                                any_quantity]
+  character(len=*), parameter :: digits = '0123456789'
+  character(len=*), parameter :: key_letters = digits//'_abcdefghijklmnopqrstuvwxyz'
   character(len=*), parameter :: next = new_line('a')
+
+  !> Puts a result at the end of a list. A name that the table does not have, or has for values of
+  !> another kind, is a mistake in the program, and stops it.
+  interface add_result
+    module procedure add_number, add_count, add_word, add_truth
+  end interface add_result
 
 contains
 
@@ -22,38 +34,59 @@ contains
   pure recursive subroutine find_result(name, found)
     character(len=*), intent(in) :: name     !! as it is written
     type(result_type), intent(out) :: found  !! its row
-    character(len=name_length), allocatable :: names(:)
-    integer :: row, i
+    logical :: fits
+    integer :: row
 
     do row = 1, size(result_rows)
-      if (.not. may_fit(trim(result_rows(row)%name), name)) cycle
-      names = names_of_row(result_rows(row)%name)
-      do i = 1, size(names)
-        if (.not. fits(trim(names(i)), name)) cycle
-        found = result_rows(row)
-        found%name = names(i)
-        found%meaning = filled(trim(found%meaning), result_rows(row)%name, i)
-        if (index(result_rows(row)%name, any_quantity) > 0) then
-          if (found%unit == own_unit) found%unit = unit_of_asked(i)
-          if (found%unit == own_square) found%unit = bracketed(unit_of_asked(i))//'2'
-        end if
-        return
-      end do
+      found = result_rows(row)
+      if (.not. may_fit(trim(found%name), name)) cycle
+      call fit(trim(result_rows(row)%name), name, found, fits)
+      if (fits) return
     end do
     found%name = ''
   end subroutine find_result
 
-  !> Unit of a quantity that `&accuracy` may ask for.
-  pure recursive function unit_of_asked(number) result(unit)
-    integer, intent(in) :: number !! of its name among them
-    character(len=:), allocatable :: unit
-    character(len=name_length), allocatable :: names(:)
-    type(result_type) :: found
+  !> Whether a name is a row's, with a word, a number or a key in the place of each of its marks.
+  !> The row gets the words, and a unit that is its quantity's.
+  pure recursive subroutine fit(pattern, name, row, fits)
+    character(len=*), intent(in) :: pattern !! the row's name, or what is left of it
+    character(len=*), intent(in) :: name    !! the same of the name
+    type(result_type), intent(inout) :: row
+    logical, intent(out) :: fits
+    type(result_type) :: quantity
+    character(len=name_length), allocatable :: words(:)
+    character(len=:), allocatable :: mark, word
+    integer :: first, last, behind, i
 
-    names = asked_names()
-    call find_result(trim(names(number)), found)
-    unit = trim(found%unit)
-  end function unit_of_asked
+    first = index(pattern, '<')
+    last = index(pattern, '>')
+    fits = first == 0 .and. pattern == name
+    if (first == 0 .or. len(name) < first) return
+    if (name(:first - 1) /= pattern(:first - 1)) return
+    mark = pattern(first:last)
+    if (mark == any_number .or. mark == any_key) then ! the last of a name's marks
+      behind = len(name) - (len(pattern) - last)
+      if (behind < first) return
+      fits = name(behind + 1:) == pattern(last + 1:)
+      if (fits .and. mark == any_number) fits = verify(name(first:behind), digits) == 0
+      if (fits .and. mark == any_key) fits = verify(name(first:behind), key_letters) == 0
+      return
+    end if
+    words = marker_words(mark)
+    do i = 1, size(words)
+      word = trim(words(i))
+      if (index(name(first:), word) /= 1) cycle
+      call fit(pattern(last + 1:), name(first + len(word):), row, fits)
+      if (.not. fits) cycle
+      row%name = replaced(trim(row%name), mark, word)
+      row%meaning = replaced(trim(row%meaning), mark, word)
+      if (mark /= any_quantity) return
+      call find_result(word, quantity)
+      if (row%unit == own_unit) row%unit = quantity%unit
+      if (row%unit == own_square) row%unit = bracketed(trim(quantity%unit))//'2'
+      return
+    end do
+  end subroutine fit
 
   !> A unit as a factor: in brackets where it is a product.
   pure function bracketed(unit) result(factor)
@@ -202,26 +235,6 @@ contains
     end do
   end function names_of_row
 
-  !> A text with the words that one of a row's names has in the place of its marks.
-  pure recursive function filled(words, pattern, number) result(new)
-    character(len=*), intent(in) :: words
-    character(len=*), intent(in) :: pattern !! the row's name
-    integer, intent(in) :: number !! of the name among those of the row, from 1
-    character(len=:), allocatable :: new
-    character(len=name_length), allocatable :: choices(:)
-    integer :: i, left
-
-    new = words
-    if (index(pattern, '<') == 0) return
-    left = number - 1
-    do i = 1, size(markers)
-      if (index(pattern, trim(markers(i))) == 0) cycle
-      choices = marker_words(markers(i))
-      new = replaced(new, trim(markers(i)), trim(choices(1 + modulo(left, size(choices)))))
-      left = left/size(choices)
-    end do
-  end function filled
-
   !> What a mark stands for.
   pure recursive function marker_words(marker) result(words)
     character(len=*), intent(in) :: marker
@@ -254,37 +267,6 @@ contains
     if (may) may = name(:first - 1) == pattern(:first - 1) .and. &
       name(len(name) - behind + 1:) == pattern(len(pattern) - behind + 1:)
   end function may_fit
-
-  !> Whether a name is a row's, which may have a number or a key in the place of a mark.
-  pure function fits(pattern, name) result(fit)
-    character(len=*), intent(in) :: pattern !! a row's name
-    character(len=*), intent(in) :: name
-    logical :: fit
-
-    if (index(pattern, any_number) > 0) then
-      fit = fits_mark(pattern, any_number, '0123456789', name)
-    else if (index(pattern, any_key) > 0) then
-      fit = fits_mark(pattern, any_key, '0123456789_abcdefghijklmnopqrstuvwxyz', name)
-    else
-      fit = pattern == name
-    end if
-  end function fits
-
-  !> Whether a name is a row's with some characters in the place of a mark.
-  pure function fits_mark(pattern, mark, characters, name) result(fit)
-    character(len=*), intent(in) :: pattern !! a row's name
-    character(len=*), intent(in) :: mark, characters, name
-    logical :: fit
-    integer :: at, behind
-
-    at = index(pattern, mark)
-    behind = len(pattern) - at - len(mark) + 1
-    fit = len(name) - behind >= at
-    if (.not. fit) return
-    fit = name(:at - 1) == pattern(:at - 1) .and. &
-      name(len(name) - behind + 1:) == pattern(len(pattern) - behind + 1:) .and. &
-      verify(name(at:len(name) - behind), characters) == 0
-  end function fits_mark
 
   !> A text with a word in every place of a mark.
   pure function replaced(words, marker, word) result(new)
@@ -389,4 +371,66 @@ contains
       words = words//trim(study_words(i))
     end do
   end function studies_text
+
+  !> A real number.
+  pure subroutine add_number(list, name, number, phrase)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name             !! in the table
+    real(wp), intent(in) :: number                   !! in the table's unit
+    character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
+
+    call add_value(list, name, quantity_number, number, '', phrase)
+  end subroutine add_number
+
+  !> A whole number.
+  pure subroutine add_count(list, name, number, phrase)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name             !! in the table
+    integer, intent(in) :: number
+    character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
+
+    call add_value(list, name, quantity_count, real(number, wp), '', phrase)
+  end subroutine add_count
+
+  !> A word.
+  pure subroutine add_word(list, name, word, phrase)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name             !! in the table
+    character(len=*), intent(in) :: word
+    character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
+
+    call add_value(list, name, quantity_word, 0.0_wp, word, phrase)
+  end subroutine add_word
+
+  !> Yes or no.
+  pure subroutine add_truth(list, name, truth, phrase)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name             !! in the table
+    logical, intent(in) :: truth
+    character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
+
+    call add_value(list, name, quantity_truth, merge(1.0_wp, 0.0_wp, truth), '', phrase)
+  end subroutine add_truth
+
+  !> A value, with unit and meaning from the table; stops where that has values of another kind.
+  pure subroutine add_value(list, name, kind, number, word, phrase)
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: kind !! `quantity_number`, ...
+    real(wp), intent(in) :: number
+    character(len=*), intent(in) :: word
+    character(len=*), intent(in), optional :: phrase
+    type(result_type) :: row
+    type(quantity_type) :: value
+
+    call find_known(name, row)
+    if (row%kind /= kind) error stop 'a value of another kind than the table says: '//name
+    value%name = name
+    value%unit = trim(row%unit)
+    value%meaning = result_meaning(name, phrase)
+    value%kind = kind
+    value%number = number
+    value%word = word
+    call add_quantity(list, value)
+  end subroutine add_value
 end module gfb_result_names

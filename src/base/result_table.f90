@@ -1,19 +1,36 @@
 !> The table of all names under which results are written.
 !>
-!> A new name is a row here and a call of `add_result` (module gfb_results) where its value is
+!> A new name is a row here and a call of `add_result` (module gfb_result_names) where its value is
 !> known. `<a>`, `<b>` and `<state>` in a name stand for one name each of what `marker_words` has,
 !> `<n>` for a number, `<key>` for a key of the case file, `<quantity>` for a name that `&accuracy`
-!> may ask for. What stands in braces in a meaning is replaced by one of the phrases of
-!> module gfb_result_phrases.
+!> may ask for. What stands in braces in a meaning may be replaced by one of the phrases.
 !>
 !> The table lies in the lowest layer: the scene, which knows no bearing, needs the names that
 !> `&accuracy` may ask for, and the output, which knows no scene, units and meanings.
 module gfb_result_table
   use gfb_quantity, only: number => quantity_number, total => quantity_count, &
                           word => quantity_word, truth => quantity_truth
-  use gfb_result_phrases, only: at_this_point, at_fixed_equilibrium, load_kept, over_tilt
   implicit none (type, external)
   private
+
+  !> Phrases that take the place of the braces in a meaning.
+  character(len=*), parameter, public :: &
+    film_and_contact = 'film and solid contact', &
+    film_and_contact_brake = 'film and solid contact brake', &
+    all_modes_found = 'all modes asked for were found', &
+    all_members = 'all members have an answer', of_this_step = 'of this step', &
+    seed_and_reason = 'seed of the member, and why it has no answer', &
+    of_all_steps = 'of all load steps', of_shifted_stiffness = 'of the shifted stiffness', &
+    of_whole_table = 'of the whole table', travel_of_plate = 'travel of the plate', &
+    with_stretches = 'of ranks, each with a stretch of the sweep', &
+    at_this_point = 'at this point', at_first_point = 'at the sweep''s first point', &
+    at_fixed_equilibrium = 'in the equilibrium at which the shaft is held', &
+    at_begin_of_time = 'where the time begins', &
+    load_kept = '; the load is kept', shaft_fixed = '; the shaft is held', &
+    linearised_there = ', contact and friction linearised there'
+  !> By the axis of the sweep.
+  character(len=*), parameter, public :: over_tilt(2) = ['tilt_x = 0, over tilt_x', &
+                                                         'tilt_y = 0, over tilt_y']
 
   integer, parameter, public :: name_length = 64
   !> What has a result of a name: a bit each, and its words in the manual.

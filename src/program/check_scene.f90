@@ -24,41 +24,34 @@ module gfb_check_scene
 
 contains
 
-  !> Shares of a bearing.
+  !> Shares of a bearing, or of the foil that is alone.
   !>
   !> Fails when METIS does.
-  subroutine show_bearing_partition(scene, plan, ranks, log, error)
+  subroutine show_partition(scene, plan, foil_plan, ranks, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
-    type(bearing_plan_type), intent(in) :: plan !! of the bearing
+    type(bearing_plan_type), intent(in) :: plan !! of the bearing, if it is one
+    type(foil_plan_type), intent(in) :: foil_plan !! of the foil
     integer, intent(in) :: ranks !! that share
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(division_type) :: division
-
-    call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
-    if (allocated(error)) return
-    call show_shares(division, &
-      scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan, log)
-    if (scene%model%foil /= foil_shell) call log%line('beams, if any, are the first rank''s')
-  end subroutine show_bearing_partition
-
-  !> Shares of a strip, or of what else vibrates.
-  !>
-  !> Fails when METIS does.
-  subroutine show_strip_partition(scene, plan, ranks, log, error)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(foil_plan_type), intent(in) :: plan !! of the foil
-    integer, intent(in) :: ranks !! that share
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(division_type) :: division
+    logical :: reduced
     integer :: rows
 
-    rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, plan%half, 1.0_wp))
-    call divide(no_chain(), foil_chain(scene, rows, plan%reduced), ranks, division, error)
+    if (is_bearing(scene%general%analysis)) then
+      reduced = scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan
+      call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
+    else
+      reduced = foil_plan%reduced
+      rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, foil_plan%half, 1.0_wp))
+      call divide(no_chain(), foil_chain(scene, rows, reduced), ranks, division, error)
+    end if
     if (allocated(error)) return
-    call show_shares(division, plan%reduced, log)
-  end subroutine show_strip_partition
+    call show_shares(division, reduced, log)
+    if (is_bearing(scene%general%analysis) .and. scene%model%foil /= foil_shell) then
+      call log%line('beams, if any, are the first rank''s')
+    end if
+  end subroutine show_partition
 
   !> A line a share.
   subroutine show_shares(division, reduced, log)
@@ -110,11 +103,7 @@ contains
     ! With &accuracy the run begins on a coarser mesh, and stops where the machine is full.
     if (.not. scene%accuracy%present) call check_memory(scene, memory, error)
     if (allocated(error)) return
-    if (shares >= 0 .and. is_bearing(scene%general%analysis)) then
-      call show_bearing_partition(scene, plan, ranks, log, error)
-    else if (shares >= 0) then
-      call show_strip_partition(scene, foil_plan, ranks, log, error)
-    end if
+    if (shares >= 0) call show_partition(scene, plan, foil_plan, ranks, log, error)
     if (allocated(error)) return
     call log%line('')
     if (scene%warnings /= '') call log%tell(scene%warnings)

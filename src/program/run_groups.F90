@@ -6,9 +6,9 @@ module gfb_run_groups
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, count_quantity, word_quantity, add_quantity
-  use gfb_results, only: add_result
-  use gfb_result_phrases, only: of_whole_table
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_result_names, only: add_result
+  use gfb_result_table, only: of_whole_table
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
   use gfb_text_file, only: table_member_type, write_table_file, write_unfinished_text
@@ -19,6 +19,7 @@ module gfb_run_groups
   use gfb_pool, only: pool_type, visit_task, end_log
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
+  use gfb_reasons, only: status_unconverged
   use gfb_provenance, only: version_text
   use gfb_machine_memory, only: start_blas
   use gfb_scene_reading, only: read_scene
@@ -27,34 +28,18 @@ module gfb_run_groups
   use gfb_reduction_choice, only: choose_reduction
   use gfb_divided_sample, only: run_divided_sample
   use gfb_sample, only: sample_type
-  use gfb_studies, only: create_study
+  use gfb_studies, only: create_study, run_scene
   use gfb_divided_bearing, only: run_divided_bearing
   implicit none (type)
   private
   public :: run_groups
 
-  integer, parameter :: status_unconverged = 2
-
-  abstract interface
-    !> Computes and writes what one scene asks for. Fails on files that cannot be written.
-    subroutine scene_runner(scene, branches, context, study, summary, error)
-      import :: scene_type, run_context_type, study_type, quantity_type, error_type
-      type(scene_type), intent(in) :: scene !! what the case file asks for
-      logical, intent(in) :: branches !! all equilibria are looked for
-      type(run_context_type), intent(inout) :: context !! of the run
-      class(study_type), allocatable, intent(out) :: study !! that was done
-      type(quantity_type), allocatable, intent(out) :: summary(:) !! what was written of the answer
-      type(error_type), allocatable, intent(out) :: error !! why it failed
-    end subroutine scene_runner
-  end interface
-
 contains
 
   !> Computes all members, each of which writes its own files, and writes their table.
-  subroutine run_scene_table(scenes, name, run_scene, context, pool, status)
+  subroutine run_scene_table(scenes, name, context, pool, status)
     type(scene_type), intent(in) :: scenes(:) !! the members
     character(len=*), intent(in) :: name          !! of the table
-    procedure(scene_runner) :: run_scene          !! computes a member
     type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
     type(pool_type), target, intent(inout) :: pool !! that is divided
     integer, intent(out) :: status                !! exit status of the program
@@ -74,7 +59,7 @@ contains
     pool%total = size(scenes)
     call pool%next_task(number)
     do while (number <= size(scenes))
-      call run_member(scenes(number), run_scene, context, pool, members(number))
+      call run_member(scenes(number), context, pool, members(number))
       status = max(status, members(number)%status)
       call visit_task(mine, members, number)
       call pool%next_task(number)
@@ -92,9 +77,8 @@ contains
   end subroutine run_scene_table
 
   !> One member from its case to its files.
-  subroutine run_member(scene, run_scene, context, pool, member)
+  subroutine run_member(scene, context, pool, member)
     type(scene_type), intent(in) :: scene
-    procedure(scene_runner) :: run_scene
     type(run_context_type), intent(in) :: context
     type(pool_type), target, intent(inout) :: pool
     type(table_member_type), intent(out) :: member
@@ -213,10 +197,9 @@ contains
   !>
   !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
   !> members: they are told, and `status` says so.
-  subroutine run_groups(line, pool, run_scene, log, status, error)
+  subroutine run_groups(line, pool, log, status, error)
     type(command_line_type), intent(in) :: line !! what was typed
     type(pool_type), target, intent(inout) :: pool !! whose groups compute
-    procedure(scene_runner) :: run_scene  !! computes one of several cases
     type(run_log_type), intent(in) :: log !! the terminal
     integer, intent(out) :: status        !! exit status of the program
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -260,7 +243,7 @@ contains
         call run_divided_bearing(scenes(1), context, pool, status)
       end if
     else
-      call run_scene_table(scenes, line%table, run_scene, context, pool, status)
+      call run_scene_table(scenes, line%table, context, pool, status)
     end if
     call agree_on_signal(pool%largest(agreed_signal()))
   end subroutine run_groups

@@ -3,8 +3,7 @@ module gfb_bearing_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
-  use gfb_results, only: add_result
-  use gfb_result_names, only: result_unit, result_meaning
+  use gfb_result_names, only: add_result, result_unit, result_meaning
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_words
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &

@@ -1,9 +1,10 @@
 !> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity
-  use gfb_results, only: add_result
-  use gfb_result_phrases, only: film_and_contact, film_and_contact_brake
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, &
+                          place_of
+  use gfb_result_names, only: add_result
+  use gfb_result_table, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
@@ -35,7 +36,6 @@ module gfb_bearing_summary
     'lift_off_speed_rpm', 'misalignment_allowance', 'limit_reached', 'not_reached', 'ending', &
     'onset_speed_rpm', 'critical_mass', 'growth_rate', 'time', 'turns', 'orbit_x', 'orbit_y', &
     'minimum_gap_over_time']
-  character(len=*), parameter :: opening(*) = [character(len=9) :: 'analysis', 'converged']
   integer, parameter :: digits = 6, label = 16 !! of their lines
 
 contains
@@ -66,8 +66,19 @@ contains
     call add_result(list, 'minimum_pressure', answer%minimum_pressure)
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
     if (allocated(answer%pad_gap)) call add_pads(answer, list)
-    if (answer%has_foils) call add_foil_edges(answer, list)
-    if (answer%has_solid_contact) call add_solid_contact(answer, list)
+    if (answer%has_foils) then
+      call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
+      call add_result(list, 'leading_edge_lift_edge', answer%leading_edge_lift(2))
+      call add_result(list, 'trailing_edge_lift', answer%trailing_edge_lift(1))
+      call add_result(list, 'trailing_edge_lift_edge', answer%trailing_edge_lift(2))
+      call add_result(list, 'lifted_length', answer%lifted_length)
+    end if
+    if (answer%has_solid_contact) then
+      call add_result(list, 'solid_contact_force_x', answer%solid_force(1))
+      call add_result(list, 'solid_contact_force_y', answer%solid_force(2))
+      call add_result(list, 'solid_contact_torque', answer%solid_torque)
+      call add_result(list, 'maximum_solid_contact_pressure', answer%maximum_solid_pressure)
+    end if
   end function answer_quantities
 
   !> Adds what presses on sleeve and shaft.
@@ -104,29 +115,6 @@ contains
       call add_result(list, 'leading_edge_lift_edge_'//text(i), answer%pad_lift(2, i))
     end do
   end subroutine add_pads
-
-  !> Adds what asperities of the shaft do.
-  subroutine add_solid_contact(answer, list)
-    type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type), allocatable, intent(inout) :: list(:)
-
-    call add_result(list, 'solid_contact_force_x', answer%solid_force(1))
-    call add_result(list, 'solid_contact_force_y', answer%solid_force(2))
-    call add_result(list, 'solid_contact_torque', answer%solid_torque)
-    call add_result(list, 'maximum_solid_contact_pressure', answer%maximum_solid_pressure)
-  end subroutine add_solid_contact
-
-  !> Adds what foils that are structures do.
-  subroutine add_foil_edges(answer, list)
-    type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type), allocatable, intent(inout) :: list(:)
-
-    call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
-    call add_result(list, 'leading_edge_lift_edge', answer%leading_edge_lift(2))
-    call add_result(list, 'trailing_edge_lift', answer%trailing_edge_lift(1))
-    call add_result(list, 'trailing_edge_lift_edge', answer%trailing_edge_lift(2))
-    call add_result(list, 'lifted_length', answer%lifted_length)
-  end subroutine add_foil_edges
 
   !> Quantities of what it cost.
   function cost_quantities(cost) result(list)
@@ -266,20 +254,16 @@ contains
   pure function asked_first(list) result(ordered)
     type(quantity_type), intent(in) :: list(:) !! of a summary
     type(quantity_type), allocatable :: ordered(:)
-    integer :: i, k
+    character(len=*), parameter :: front(*) = [character(len=28) :: 'analysis', 'converged', asked]
+    integer :: i, place
 
     allocate (ordered(0))
-    do i = 1, size(list)
-      if (any(opening == list(i)%name)) call add_quantity(ordered, list(i))
-    end do
-    do k = 1, size(asked)
-      do i = 1, size(list)
-        if (list(i)%name == asked(k)) call add_quantity(ordered, list(i))
-      end do
+    do i = 1, size(front)
+      place = place_of(trim(front(i)), list)
+      if (place > 0) call add_quantity(ordered, list(place))
     end do
     do i = 1, size(list)
-      if (any(opening == list(i)%name) .or. any(asked == list(i)%name)) cycle
-      call add_quantity(ordered, list(i))
+      if (all(front /= list(i)%name)) call add_quantity(ordered, list(i))
     end do
   end function asked_first
 
@@ -288,17 +272,15 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(quantity_type), intent(in) :: list(:) !! of a summary
     character(len=:), allocatable :: name
-    integer :: i, k
+    integer :: i, place, rpm
 
-    do k = 1, size(asked)
-      do i = 1, size(list)
-        if (list(i)%name /= asked(k)) cycle
-        name = list(i)%name
-        if (len(name) > 4) then
-          if (name(len(name) - 3:) == '_rpm') name = name(:len(name) - 4)
-        end if
-        call log%line(with_blanks(name)//' '//value_of(list(i)))
-      end do
+    do i = 1, size(asked)
+      name = trim(asked(i))
+      place = place_of(name, list)
+      if (place == 0) cycle
+      rpm = index(name, '_rpm', back=.true.)
+      if (rpm > 1 .and. rpm == len(name) - 3) name = name(:rpm - 1)
+      call log%line(with_blanks(name)//' '//value_of(list(place)))
     end do
   end subroutine show_asked
 

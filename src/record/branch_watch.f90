@@ -14,7 +14,8 @@
 !> only the first sign counts.
 module gfb_branch_watch
   use gfb_kinds, only: wp
-  use gfb_results, only: add_result
+  use gfb_quantity, only: number_in
+  use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_equilibrium
@@ -72,12 +73,12 @@ contains
     integer :: row, folds
 
     changed = .false.
-    now = number_of(history(size(history)), 'determinant_sign')
+    now = number_in(history(size(history))%quantity, 'determinant_sign')
     if (.not. abs(now) > 0.0_wp) return
     folds = 0
     do row = size(history) - 1, 1, -1
-      if (number_of(history(row), 'fold') > 0.0_wp) folds = folds + 1
-      before = number_of(history(row), 'determinant_sign')
+      if (number_in(history(row)%quantity, 'fold') > 0.0_wp) folds = folds + 1
+      before = number_in(history(row)%quantity, 'determinant_sign')
       if (.not. abs(before) > 0.0_wp) cycle
       changed = now*before < 0.0_wp .neqv. modulo(folds, 2) == 1
       return
@@ -97,7 +98,7 @@ contains
     if (last < 2) return
     known = 1 ! answers before on one branch
     if (last > 2) then
-      if (.not. number_of(history(last - 1), 'branch_changed') > 0.0_wp) known = 2
+      if (.not. number_in(history(last - 1)%quantity, 'branch_changed') > 0.0_wp) known = 2
     end if
     if (known == 2) at = places(scene, history(last - 2:))
     if (known == 2) then
@@ -118,12 +119,13 @@ contains
       logical :: leaves
       real(wp) :: now, before, change
 
-      now = number_of(history(last), name)
-      before = number_of(history(last - 1), name)
+      now = number_in(history(last)%quantity, name)
+      before = number_in(history(last - 1)%quantity, name)
       if (known == 1) then
         leaves = abs(now - before) > alone*scene%bearing%clearance
       else
-        change = (before - number_of(history(last - 2), name))*(at(3) - at(2))/(at(2) - at(1))
+        change = (before - number_in(history(last - 2)%quantity, name))* &
+                 (at(3) - at(2))/(at(2) - at(1))
         leaves = abs(now - before - change) > max(foretold*scene%bearing%clearance, abs(change))
       end if
     end function leaves
@@ -137,30 +139,12 @@ contains
     character(len=:), allocatable :: name
     integer :: i
 
-    if (scene%sweep%parameter == sweep_keys) then
-      name = 'key_value'
-    else
-      name = trim(parameter_words(scene%sweep%parameter))
-    end if
-    do i = 1, size(rows)
-      at(i) = number_of(rows(i), name)
-    end do
+    name = 'key_value'
+    if (scene%sweep%parameter /= sweep_keys) name = trim(parameter_words(scene%sweep%parameter))
+    at = [(number_in(rows(i)%quantity, name), i=1, size(rows))]
     associate (values => scene%sweep%values)
       if (scene%sweep%parameter == sweep_load_angle) return
       if (all(values > 0.0_wp) .or. all(values < 0.0_wp)) at = log(abs(at))
     end associate
   end function places
-
-  !> A row's number of a name; zero where it has none.
-  pure function number_of(row, name) result(number)
-    type(history_row_type), intent(in) :: row
-    character(len=*), intent(in) :: name
-    real(wp) :: number
-    integer :: i
-
-    number = 0.0_wp
-    do i = 1, size(row%quantity)
-      if (row%quantity(i)%name == name) number = row%quantity(i)%number
-    end do
-  end function number_of
 end module gfb_branch_watch

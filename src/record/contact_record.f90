@@ -4,7 +4,7 @@ module gfb_contact_record
   use gfb_archive, only: archive_type
   use gfb_natural_order, only: visit_field
   use gfb_petsc_session, only: fetch_entries, largest_number
-  use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  use gfb_case_file, only: case_array_type, add_array, add_arrays
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top, normal_line_force
@@ -115,26 +115,23 @@ contains
     type(contact_record_type), intent(in) :: record !! of all steps
     integer, intent(in) :: steps !! recorded
     type(case_array_type), allocatable :: arrays(:)
-    type(case_array_type) :: sleeve(fields + 3), top(fields + 3)
 
     allocate (arrays(0))
     if (.not. allocated(record%value)) return
-    call surface_arrays(contacts, slaves, record, steps, contact_sleeve, '/contact/sleeve', sleeve)
-    call surface_arrays(contacts, slaves, record, steps, contact_top, '/contact/top', top)
-    if (size(sleeve(1)%values) > 0) call add_arrays(arrays, sleeve)
-    if (size(top(1)%values) > 0) call add_arrays(arrays, top)
+    call add_surface(contacts, slaves, record, steps, contact_sleeve, '/contact/sleeve', arrays)
+    call add_surface(contacts, slaves, record, steps, contact_top, '/contact/top', arrays)
   end function contact_arrays
 
-  !> The arrays of one surface, the whole width also where one half was solved; a column a
-  !> node, a row a step.
-  subroutine surface_arrays(contacts, slaves, record, steps, surface, group, arrays)
+  !> Adds the arrays of a surface that has contacts, the whole width also where one half was solved;
+  !> a column a node, a row a step.
+  subroutine add_surface(contacts, slaves, record, steps, surface, group, arrays)
     type(contact_set_type), intent(in) :: contacts
     class(foil_surface_type), intent(in) :: slaves
     type(contact_record_type), intent(in) :: record
     integer, intent(in) :: steps
     integer, intent(in) :: surface !! `contact_sleeve` or `contact_top`
     character(len=*), intent(in) :: group
-    type(case_array_type), intent(out) :: arrays(fields + 3)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
 
     character(len=*), parameter :: name(fields) = [character(len=12) :: &
       'normal_force', 'friction_x', 'friction_z', 'slip_x', 'slip_z', 'state']
@@ -162,24 +159,24 @@ contains
       position(1, :) = real(point(own)%line, wp)
       position(2:3, :) = mesh%position([1, 3], point(own)%node)
     end associate
-    values = fetch_entries(max(1, total), number, position, all_nodes)
+    if (total == 0) return
+    values = fetch_entries(total, number, position, all_nodes)
     where (mirrored) values(3, :) = 0.0_wp - values(3, :) ! no minus zero
-    call fill_array(group//'/line', '1', 'number of the contact line', values(1:1, :), arrays(1))
-    call fill_array(group//'/position_x', 'm', 'of the node, along the motion', values(2:2, :), &
-                    arrays(2))
-    call fill_array(group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :), &
-                    arrays(3))
+    call add_array(arrays, group//'/line', '1', 'number of the contact line', values(1:1, :))
+    call add_array(arrays, group//'/position_x', 'm', 'of the node, along the motion', &
+                   values(2:2, :))
+    call add_array(arrays, group//'/position_z', 'm', 'of the node, along the axis', values(3:3, :))
     do field = 1, fields
-      values = fetch_entries(max(1, total), number, &
+      values = fetch_entries(total, number, &
                              transpose(record%value(field, own, :steps)), all_nodes)
       do i = 1, size(mirrored)
         if (mirrored(i) .and. odd(field)) values(:, i) = 0.0_wp - values(:, i)
       end do
       values = transpose(values)
-      call fill_array(group//'/'//trim(name(field)), trim(unit(field)), trim(meaning(field)), &
-                      values, arrays(3 + field), by_step=.true.)
+      call add_array(arrays, group//'/'//trim(name(field)), trim(unit(field)), &
+                     trim(meaning(field)), values, by_step=.true.)
     end do
-  end subroutine surface_arrays
+  end subroutine add_surface
 
   !> The nodes of all contact lines from end to end of the foil, and which of them stand for their
   !> mirror images at z < 0.

@@ -9,10 +9,10 @@ module gfb_dynamics_record
   use gfb_archive, only: archive_type
   use gfb_text, only: exact_text
   use gfb_shaft_motion, only: shaft_coordinates
-  use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private
-  public :: stiffness_of, damping_of, dynamics_arrays, dynamics_table, visit_dynamics, &
+  public :: stiffness_of, damping_of, add_dynamics_arrays, dynamics_table, visit_dynamics, &
             coefficients_of
 
   !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense, foil's
@@ -35,8 +35,13 @@ module gfb_dynamics_record
 
   character(len=*), parameter :: names(shaft_coordinates) = [character(len=4) :: 'x', 'y', &
                                                              'phix', 'phiy']
+  integer, parameter :: entries = shaft_coordinates**2 !! of a matrix
   character(len=*), parameter :: order = &
     'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
+  !> Stiffness and damping.
+  character(len=*), parameter :: kinds(2) = [character(len=9) :: 'stiffness', 'damping']
+  character(len=*), parameter :: units(2) = [character(len=36) :: &
+    'N/m, N/rad; N m/m, N m/rad', 'N s/m, N s/rad; N m s/m, N m s/rad']
 
   !> At one answer.
   type, public :: dynamics_point_type
@@ -84,13 +89,9 @@ contains
     real(wp), allocatable :: values(:) !! [SI] (row, column, frequency, stiffness or damping)
     integer :: i
 
-    allocate (values(0))
-    do i = 1, size(point%frequency)
-      values = [values, reshape(stiffness_of(point, i), [shaft_coordinates**2])]
-    end do
-    do i = 1, size(point%frequency)
-      values = [values, reshape(damping_of(point, i), [shaft_coordinates**2])]
-    end do
+    associate (n => size(point%frequency))
+      values = [(stiffness_of(point, i), i=1, n), (damping_of(point, i), i=1, n)]
+    end associate
   end function coefficients_of
 
   !> Errors of stiffness (1) or damping (2) at one of the frequencies.
@@ -101,39 +102,39 @@ contains
     real(wp) :: error(shaft_coordinates, shaft_coordinates)
     integer :: first
 
-    first = ((part - 1)*size(point%frequency) + i - 1)*shaft_coordinates**2
-    error = reshape(point%error(first + 1:first + shaft_coordinates**2), shape(error))
+    first = ((part - 1)*size(point%frequency) + i - 1)*entries
+    error = reshape(point%error(first + 1:first + entries), shape(error))
   end function error_of
 
-  !> The arrays of the result file; none without an answer. Those of a sweep have its points first.
-  function dynamics_arrays(record, sweeps, points) result(arrays)
+  !> The entries of a matrix, row by row.
+  pure function by_rows(matrix) result(list)
+    real(wp), intent(in) :: matrix(shaft_coordinates, shaft_coordinates)
+    real(wp) :: list(entries)
+    list = reshape(transpose(matrix), [entries])
+  end function by_rows
+
+  !> Adds the arrays of the result file; none without an answer. Those of a sweep have its points
+  !> first.
+  subroutine add_dynamics_arrays(record, sweeps, points, arrays)
     type(dynamics_record_type), intent(in) :: record !! of a run
     logical, intent(in) :: sweeps !! the answers are those of a sweep
     integer, intent(in) :: points !! of the record, from the first
-    type(case_array_type), allocatable :: arrays(:)
-    type(case_array_type) :: three(3)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     real(wp), allocatable, dimension(:, :) :: frequency, stiffness, damping
     character(len=:), allocatable :: axes
-    integer, parameter :: entries = shaft_coordinates**2
-    integer :: i, k, n, first
+    integer :: i, k, n
 
-    allocate (arrays(0))
     if (.not. allocated(record%point)) return
     if (min(points, size(record%point)) == 0) return
     n = size(record%point(1)%frequency)
     allocate (frequency(n, points), stiffness(n*entries, points))
     allocate (damping, mold=stiffness)
     do k = 1, points
-      frequency(:, k) = record%point(k)%frequency
-      do i = 1, n
-        first = (i - 1)*entries
-        associate (point => record%point(k))
-          stiffness(first + 1:first + entries, k) = &
-            reshape(transpose(stiffness_of(point, i)), [entries])
-          damping(first + 1:first + entries, k) = &
-            reshape(transpose(damping_of(point, i)), [entries])
-        end associate
-      end do
+      associate (point => record%point(k))
+        frequency(:, k) = point%frequency
+        stiffness(:, k) = [(by_rows(stiffness_of(point, i)), i=1, n)]
+        damping(:, k) = [(by_rows(damping_of(point, i)), i=1, n)]
+      end associate
     end do
     axes = ', [point, '//order
     if (.not. sweeps) then
@@ -142,87 +143,69 @@ contains
       stiffness = reshape(stiffness, [entries, n])
       damping = reshape(damping, [entries, n])
     end if
-    call fill_array('/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
-                    frequency, three(1), sweeps)
-    call fill_array('/dynamics/stiffness', 'N/m, N/rad; N m/m, N m/rad', &
-                    'real part of K + i omega C'//axes//'film force (x, y) or torque that '// &
-                    'brings the shaft back, over its displacement or rotation', stiffness, &
-                    three(2), sweeps)
-    call fill_array('/dynamics/damping', 'N s/m, N s/rad; N m s/m, N m s/rad', &
-                    'imaginary part of K + i omega C over omega'//axes// &
-                    'the same over velocity or angular velocity', damping, three(3), sweeps)
-    three(2:)%order = shaft_coordinates
-    call add_arrays(arrays, three)
+    call add_array(arrays, '/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
+                   frequency, sweeps)
+    call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
+                   'real part of K + i omega C'//axes//'film force (x, y) or torque that '// &
+                   'brings the shaft back, over its displacement or rotation', stiffness, sweeps, &
+                   shaft_coordinates)
+    call add_array(arrays, '/dynamics/damping', trim(units(2)), &
+                   'imaginary part of K + i omega C over omega'//axes// &
+                   'the same over velocity or angular velocity', damping, sweeps, shaft_coordinates)
     if (allocated(record%point(1)%error)) call add_error_arrays(record%point(1), arrays)
     call add_mode_arrays(record, sweeps, points, arrays)
     if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)
-  end function dynamics_arrays
+  end subroutine add_dynamics_arrays
 
   !> Adds the errors of the coefficients; there is one answer.
   subroutine add_error_arrays(point, arrays)
     type(dynamics_point_type), intent(in) :: point
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(case_array_type) :: two(2)
-    real(wp), allocatable :: values(:, :)
-    integer, parameter :: entries = shaft_coordinates**2
-    character(len=*), parameter :: meaning = 'error of every entry, estimated from nested '// &
-                                             'meshes, absolute, ['//order
     integer :: part, i
 
-    allocate (values(entries, size(point%frequency)))
-    do part = 1, 2
-      do i = 1, size(point%frequency)
-        values(:, i) = reshape(transpose(error_of(point, part, i)), [entries])
-      end do
-      if (part == 1) then
-        call fill_array('/dynamics/stiffness_error', 'N/m, N/rad; N m/m, N m/rad', &
-                        meaning//'of stiffness', values, two(1))
-      else
-        call fill_array('/dynamics/damping_error', 'N s/m, N s/rad; N m s/m, N m s/rad', &
-                        meaning//'of damping', values, two(2))
-      end if
+    do part = 1, size(kinds)
+      associate (n => size(point%frequency))
+        call add_array(arrays, '/dynamics/'//trim(kinds(part))//'_error', trim(units(part)), &
+                       'error of every entry, estimated from nested meshes, absolute, ['//order// &
+                       'of '//trim(kinds(part)), &
+                       reshape([(by_rows(error_of(point, part, i)), i=1, n)], [entries, n]), &
+                       order=shaft_coordinates)
+      end associate
     end do
-    two%order = shaft_coordinates
-    call add_arrays(arrays, two)
   end subroutine add_error_arrays
 
   !> Adds what was found at the shaft's amplitudes. Tilts stay small ones: their columns are NaN.
   subroutine add_amplitude_arrays(point, arrays)
     type(dynamics_point_type), intent(in) :: point
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(case_array_type) :: four(4)
     real(wp), allocatable, dimension(:, :) :: stiffness, damping
-    character(len=*), parameter :: axes = ', [frequency, amplitude, row, column] in the order '// &
-                                          'e_x, e_y, phi_x, phi_y, NaN in the columns of phi'
-    integer :: i, k, first
-    integer, parameter :: entries = shaft_coordinates**2
+    character(len=*), parameter :: at_amplitude = ', with contacts that slide to and fro at an '// &
+                                                  'amplitude, one harmonic, [frequency, '// &
+                                                  'amplitude, row, column] in the order e_x, '// &
+                                                  'e_y, phi_x, phi_y, NaN in the columns of phi'
+    integer :: i, k
 
-    allocate (stiffness(entries*size(point%amplitude), size(point%frequency)))
-    allocate (damping, mold=stiffness)
-    do i = 1, size(point%frequency)
-      do k = 1, size(point%amplitude)
-        first = (k - 1)*entries
-        associate (z => transpose(point%at_amplitude(:, :, k, i)))
-          stiffness(first + 1:first + entries, i) = reshape(real(z, wp), [entries])
-          damping(first + 1:first + entries, i) = reshape(aimag(z), [entries])/point%frequency(i)
+    associate (amplitudes => size(point%amplitude), n => size(point%frequency))
+      allocate (stiffness(entries*amplitudes, n))
+      allocate (damping, mold=stiffness)
+      do i = 1, n
+        associate (z => point%at_amplitude(:, :, :, i))
+          stiffness(:, i) = [(by_rows(real(z(:, :, k), wp)), k=1, amplitudes)]
+          damping(:, i) = [(by_rows(aimag(z(:, :, k))), k=1, amplitudes)]/point%frequency(i)
         end associate
       end do
-    end do
-    call fill_array('/dynamics/amplitude', 'm', 'amplitude of the shaft, along x or along y', &
-                    reshape(point%amplitude, [1, size(point%amplitude)]), four(1))
-    call fill_array('/dynamics/stiffness_at_amplitude', 'N/m; N m/m', 'as stiffness, with '// &
-                    'contacts that slide to and fro at an amplitude, one harmonic'//axes, &
-                    stiffness, four(2), by_step=.true.)
-    call fill_array('/dynamics/damping_at_amplitude', 'N s/m; N m s/m', 'as damping, with '// &
-                    'contacts that slide to and fro at an amplitude, one harmonic'//axes, &
-                    damping, four(3), by_step=.true.)
-    call fill_array('/dynamics/friction_loss_at_amplitude', 'J', 'energy that contacts lose in '// &
-                    'a cycle; a row a frequency: shaft along x, y with the first amplitude, x, '// &
-                    'y with the second, ...', &
-                    reshape(point%friction_loss, [2*size(point%amplitude), &
-                                                  size(point%frequency)]), four(4), by_step=.true.)
-    four(2:3)%order = shaft_coordinates
-    call add_arrays(arrays, four)
+      call add_array(arrays, '/dynamics/amplitude', 'm', &
+                     'amplitude of the shaft, along x or along y', &
+                     reshape(point%amplitude, [1, amplitudes]))
+      call add_array(arrays, '/dynamics/stiffness_at_amplitude', 'N/m; N m/m', &
+                     'as stiffness'//at_amplitude, stiffness, .true., shaft_coordinates)
+      call add_array(arrays, '/dynamics/damping_at_amplitude', 'N s/m; N m s/m', &
+                     'as damping'//at_amplitude, damping, .true., shaft_coordinates)
+      call add_array(arrays, '/dynamics/friction_loss_at_amplitude', 'J', 'energy that '// &
+                     'contacts lose in a cycle; a row a frequency: shaft along x, y with the '// &
+                     'first amplitude, x, y with the second, ...', &
+                     reshape(point%friction_loss, [2*amplitudes, n]), .true.)
+    end associate
   end subroutine add_amplitude_arrays
 
   !> Adds the rotor's modes; a point of a sweep that has fewer than others has NaN at the end.
@@ -231,7 +214,6 @@ contains
     logical, intent(in) :: sweeps
     integer, intent(in) :: points
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(case_array_type) :: one(mode_numbers)
     real(wp), allocatable :: values(:, :)
     integer :: i, k, n, most
 
@@ -249,11 +231,10 @@ contains
         values(:n, k) = record%point(k)%mode(i, :n)
       end do
       if (.not. sweeps) values = transpose(values)
-      call fill_array('/dynamics/mode_'//trim(mode_names(i)), trim(mode_units(i)), &
-                      trim(mode_meanings(i)), values, one(i), sweeps)
+      call add_array(arrays, '/dynamics/mode_'//trim(mode_names(i)), trim(mode_units(i)), &
+                     trim(mode_meanings(i)), values, sweeps)
       deallocate (values)
     end do
-    call add_arrays(arrays, one)
   end subroutine add_mode_arrays
 
   !> A table for other programs: a row a frequency, comma-separated; the value of the sweep first.
@@ -262,22 +243,15 @@ contains
     character(len=*), intent(in) :: sweep_name !! what the sweep changes; empty without one
     real(wp), intent(in) :: values(:) !! of the sweep, as many as answers, in its unit
     character(len=:), allocatable :: words
-    integer :: i, k, row, column
+    integer :: i, k
 
     words = 'frequency'
     if (sweep_name /= '') words = sweep_name//',frequency'
-    do row = 1, shaft_coordinates
-      do column = 1, shaft_coordinates
-        words = words//',k'//trim(names(row))//trim(names(column))
-      end do
-    end do
-    do row = 1, shaft_coordinates
-      do column = 1, shaft_coordinates
-        words = words//',c'//trim(names(row))//trim(names(column))
-      end do
-    end do
+    words = words//heads('k', '')//heads('c', '')
     if (size(record%point) > 0) then
-      if (allocated(record%point(1)%error)) words = words//error_names()
+      if (allocated(record%point(1)%error)) then
+        words = words//heads('k', '_error')//heads('c', '_error')
+      end if
     end if
     words = words//new_line('a')
     do k = 1, size(record%point)
@@ -295,33 +269,31 @@ contains
     end do
   end function dynamics_table
 
-  !> Names of the columns of errors, each behind a comma.
-  pure function error_names() result(words)
+  !> Names of a matrix' columns, each behind a comma.
+  pure function heads(letter, ending) result(words)
+    character(len=*), intent(in) :: letter, ending !! of each name
     character(len=:), allocatable :: words
-    character(len=*), parameter :: kinds = 'kc'
-    integer :: part, row, column
+    integer :: row, column
 
     words = ''
-    do part = 1, len(kinds)
-      do row = 1, shaft_coordinates
-        do column = 1, shaft_coordinates
-          words = words//','//kinds(part:part)//trim(names(row))//trim(names(column))//'_error'
-        end do
+    do row = 1, shaft_coordinates
+      do column = 1, shaft_coordinates
+        words = words//','//letter//trim(names(row))//trim(names(column))//ending
       end do
     end do
-  end function error_names
+  end function heads
 
   !> A matrix row by row, each number behind a comma.
   pure function matrix_text(matrix) result(words)
     real(wp), intent(in) :: matrix(:, :)
     character(len=:), allocatable :: words
-    integer :: row, column
+    real(wp) :: list(entries)
+    integer :: i
 
+    list = by_rows(matrix)
     words = ''
-    do row = 1, size(matrix, 1)
-      do column = 1, size(matrix, 2)
-        words = words//','//exact_text(matrix(row, column))
-      end do
+    do i = 1, entries
+      words = words//','//exact_text(list(i))
     end do
   end function matrix_text
 
@@ -350,7 +322,6 @@ contains
     type(archive_type), intent(inout) :: archive
     type(dynamics_point_type), intent(inout) :: point
     real(wp), allocatable :: parts(:, :)
-    integer, parameter :: entries = shaft_coordinates**2
 
     if (archive%saves) then
       allocate (parts(2*entries, size(point%frequency)))

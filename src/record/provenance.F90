@@ -2,7 +2,7 @@
 !> Which program computed this, where and with what.
 module gfb_provenance
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_c_library, only: host_name
   use gfb_petsc_session, only: petsc_version_text, rank_count
   implicit none (type, external)

@@ -10,13 +10,13 @@ module gfb_strip_summary
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness
-  use gfb_case_file, only: case_array_type, fill_array, add_arrays, history_row_type, visit_rows
+  use gfb_case_file, only: case_array_type, add_array, history_row_type, visit_rows
   use gfb_archive, only: archive_type
   use gfb_strip_answer, only: strip_answer_type, visit_answer
   use gfb_contact_record, only: contact_record_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
-  use gfb_result_phrases, only: of_this_step, of_all_steps, travel_of_plate
+  use gfb_result_names, only: add_result
+  use gfb_result_table, only: of_this_step, of_all_steps, travel_of_plate
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_substructures, only: kind_count
@@ -25,7 +25,7 @@ module gfb_strip_summary
   use gfb_strip_system, only: strip_system_type
   implicit none (type, external)
   private
-  public :: strip_companions, show_companions, companion_arrays, visit_run, step_quantities, &
+  public :: strip_companions, show_companions, add_companions, visit_run, step_quantities, &
             answer_quantities, cost_quantities, show_step, show_step_header
 
   integer, parameter :: longest_chain = 60 !! bumps; longer ones can take seconds
@@ -147,12 +147,10 @@ contains
   end subroutine show_companions
 
   !> The same for the result file.
-  function companion_arrays(companions) result(arrays)
+  subroutine add_companions(companions, arrays)
     type(companions_type), intent(in) :: companions !! deflections by formulas
-    type(case_array_type), allocatable :: arrays(:)
-    character(len=*), parameter :: group = '/companions/'
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
 
-    allocate (arrays(0))
     call add('walowit_anno', 'deflection of single bumps without friction', companions%walowit_anno)
     call add('curved_bump', 'deflection of exact single bumps, feet rubbing', &
              companions%curved_bump)
@@ -166,11 +164,9 @@ contains
     subroutine add(name, meaning, values)
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(in) :: values(:) !! [m]
-      type(case_array_type) :: array(1)
-      call fill_array(group//name, 'm', meaning, reshape(values, [size(values), 1]), array(1))
-      call add_arrays(arrays, array)
+      call add_array(arrays, '/companions/'//name, 'm', meaning, reshape(values, [size(values), 1]))
     end subroutine add
-  end function companion_arrays
+  end subroutine add_companions
 
   !> Saves or restores a run but for the contacts; one that is restored knows its number of bumps.
   pure subroutine visit_run(archive, run)

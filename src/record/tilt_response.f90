@@ -6,9 +6,9 @@ module gfb_tilt_response
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
-  use gfb_result_phrases, only: at_this_point, at_first_point, at_fixed_equilibrium, load_kept, &
-                                shaft_fixed, linearised_there, over_tilt
+  use gfb_result_names, only: add_result
+  use gfb_result_table, only: at_this_point, at_first_point, at_fixed_equilibrium, load_kept, &
+                              shaft_fixed, linearised_there, over_tilt
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_tilt_x, sweep_tilt_y
   use gfb_bearing_system, only: bearing_system_type

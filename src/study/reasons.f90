@@ -17,6 +17,8 @@ module gfb_reasons
   integer, parameter, public :: reason_no_limit = 9       !! of load, speed or tilt
   integer, parameter, public :: reason_not_reached = 10   !! by a motion; `detail` says what
 
+  integer, parameter, public :: status_unconverged = 2 !! of the program where there is no answer
+
   !> Why there is no answer.
   type, public :: reason_type
     integer :: code = reason_none

@@ -4,9 +4,8 @@ module gfb_refinement
   use gfb_grid_convergence, only: convergence_type, estimate_errors, estimate_error
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_accuracy_case, only: accuracy_case_type, all_coefficients, asked_name
-  use gfb_quantity, only: quantity_type
-  use gfb_result_names, only: is_nodal
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, place_of
+  use gfb_result_names, only: is_nodal, add_result
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_errors, only: error_type
@@ -51,9 +50,7 @@ module gfb_refinement
     real(wp), allocatable :: coefficients(:, :) !! (entry, mesh) the same of stiffness, damping [SI]
   contains
     procedure :: add => sequence_add
-    procedure :: add_failure => sequence_add_failure
     procedure :: add_coefficients => sequence_add_coefficients
-    procedure :: drop_coefficients => sequence_drop_coefficients
     procedure :: coefficient_errors => sequence_coefficient_errors
     procedure :: is_of_many => sequence_is_of_many
     procedure :: met => sequence_met
@@ -61,7 +58,6 @@ module gfb_refinement
     procedure :: show => sequence_show
     procedure :: needs => sequence_needs
     procedure :: value_words => sequence_value_words
-    procedure, private :: has_error => sequence_has_error
     procedure, private :: last => sequence_last
   end type mesh_sequence_type
 
@@ -82,17 +78,6 @@ module gfb_refinement
   end type refinement_type
 
 contains
-
-  !> Error of every entry on the finest mesh.
-  pure function entry_errors(value, formal_order) result(error)
-    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), each mesh twice as fine as the last
-    real(wp), intent(in) :: formal_order !! of the elements [1]
-    real(wp), allocatable :: error(:) !! [SI] of the finest mesh
-    type(convergence_type), allocatable :: estimate(:)
-
-    estimate = entry_estimates(value, formal_order)
-    error = estimate%error
-  end function entry_errors
 
   !> What the meshes say of every entry; those of a block share one order.
   !>
@@ -179,25 +164,30 @@ contains
     allocate (sequence%answer(0), sequence%value(0))
   end function start_sequence
 
-  !> Takes a mesh's value, and judges all of them.
-  subroutine sequence_add(self, mesh, quantity, unknowns, seconds)
+  !> Takes a mesh, and judges the values of all of them. Without a value coarser ones no longer
+  !> count: the next one is none of theirs.
+  subroutine sequence_add(self, mesh, unknowns, seconds, quantity)
     class(mesh_sequence_type), intent(inout) :: self !! the sequence
     character(len=*), intent(in) :: mesh     !! in words
-    type(quantity_type), intent(in) :: quantity !! its number on that mesh
     integer, intent(in) :: unknowns !! of its equations
     real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
+    type(quantity_type), intent(in), optional :: quantity !! its number on that mesh
     type(mesh_answer_type) :: one
 
-    self%unit = quantity%unit
-    self%value = [self%value, quantity%number]
     one%mesh = mesh
-    one%found = .true.
+    one%found = present(quantity)
     one%unknowns = unknowns
     one%seconds = seconds
-    if (self%is_of_many()) then
-      one%estimate = worst_error(self%coefficients, self%formal_order)
+    if (.not. one%found) then
+      self%value = self%value(:0)
     else
-      one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
+      self%unit = quantity%unit
+      self%value = [self%value, quantity%number]
+      if (self%is_of_many()) then
+        one%estimate = worst_error(self%coefficients, self%formal_order)
+      else
+        one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
+      end if
     end if
     self%answer = [self%answer, one]
   end subroutine sequence_add
@@ -213,20 +203,16 @@ contains
     self%coefficients = reshape([all, values], [size(values), size(all)/size(values) + 1])
   end subroutine sequence_add_coefficients
 
-  !> A mesh without an answer: coarser ones' stiffness and damping no longer count.
-  pure subroutine sequence_drop_coefficients(self)
-    class(mesh_sequence_type), intent(inout) :: self !! the sequence
-    if (allocated(self%coefficients)) deallocate (self%coefficients)
-  end subroutine sequence_drop_coefficients
-
   !> Errors of the finest mesh's stiffness and damping; not allocated where none is known.
   pure subroutine sequence_coefficient_errors(self, errors)
     class(mesh_sequence_type), intent(in) :: self !! the sequence
     real(wp), allocatable, intent(out) :: errors(:) !! [SI] in the order of the coefficients
+    type(convergence_type), allocatable :: estimate(:)
 
     if (.not. allocated(self%coefficients)) return
     if (size(self%coefficients, 2) < 2) return
-    errors = entry_errors(self%coefficients, self%formal_order)
+    estimate = entry_estimates(self%coefficients, self%formal_order)
+    errors = estimate%error
   end subroutine sequence_coefficient_errors
 
   !> Whether the error is that of all stiffness and damping, relative, and belongs to no value.
@@ -236,34 +222,12 @@ contains
     is = self%name == all_coefficients
   end function sequence_is_of_many
 
-  !> Takes a mesh without an answer: coarser ones no longer count, the next one is none of theirs.
-  subroutine sequence_add_failure(self, mesh, unknowns, seconds)
-    class(mesh_sequence_type), intent(inout) :: self !! the sequence
-    character(len=*), intent(in) :: mesh     !! in words
-    integer, intent(in) :: unknowns !! of its equations
-    real(wp), intent(in) :: seconds          !! CPU time of all ranks [s]
-    type(mesh_answer_type) :: one
-
-    self%value = self%value(:0)
-    one%mesh = mesh
-    one%unknowns = unknowns
-    one%seconds = seconds
-    self%answer = [self%answer, one]
-  end subroutine sequence_add_failure
-
   !> The finest mesh's estimate.
   pure function sequence_last(self) result(estimate)
     class(mesh_sequence_type), intent(in) :: self !! the sequence
     type(convergence_type) :: estimate
     if (size(self%value) > 0) estimate = self%answer(size(self%answer))%estimate
   end function sequence_last
-
-  !> Whether the finest mesh's error is known.
-  pure function sequence_has_error(self) result(has)
-    class(mesh_sequence_type), intent(in) :: self !! the sequence
-    logical :: has
-    has = size(self%value) > 1
-  end function sequence_has_error
 
   !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
   !> an estimate without one is not enough.
@@ -282,7 +246,7 @@ contains
     type(quantity_type), allocatable :: list(:)
     type(convergence_type) :: last
 
-    if (self%has_error()) then
+    if (size(self%value) > 1) then
       last = self%last()
       call add_result(list, self%name//'_error', last%error)
       call add_result(list, self%name//'_order', last%order)
@@ -291,10 +255,11 @@ contains
     call add_result(list, 'meshes', size(self%answer))
   end function sequence_quantities
 
-  !> The meshes as a table.
+  !> The meshes as a table; a dash where there is no value, error, or order that is believed.
   subroutine sequence_show(self, log)
     class(mesh_sequence_type), intent(in) :: self !! the sequence
     type(run_log_type), intent(in) :: log !! where lines go
+    character(len=:), allocatable :: value, error, order
     character(len=80) :: line
     integer :: i
 
@@ -303,47 +268,24 @@ contains
       'order', 'CPU [s]'
     call log%line(trim(line))
     do i = 1, size(self%answer)
-      associate (answer => self%answer(i))
+      associate (answer => self%answer(i), estimate => self%answer(i)%estimate)
+        value = 'no answer'
+        error = ''
+        order = ''
         if (answer%found) then
-          write (line, row_format) answer%mesh, text(answer%unknowns), &
-            shown_value(self, answer%estimate), error_words(answer%estimate), &
-            order_words(answer%estimate), text(answer%seconds, 3)
-        else
-          write (line, row_format) answer%mesh, text(answer%unknowns), 'no answer', '', '', &
-            text(answer%seconds, 3)
+          value = '-'
+          error = '-'
+          order = '-'
+          if (.not. self%is_of_many()) value = text(estimate%value, 8)
+          if (estimate%error < huge(1.0_wp)) error = '+- '//text(estimate%error, 3)
+          if (estimate%trusted .and. estimate%order > 0.0_wp) order = text(estimate%order, 3)
         end if
+        write (line, row_format) answer%mesh, text(answer%unknowns), value, error, order, &
+          text(answer%seconds, 3)
       end associate
       call log%line(trim(line))
     end do
   end subroutine sequence_show
-
-  !> A value; none of many.
-  pure function shown_value(self, estimate) result(words)
-    class(mesh_sequence_type), intent(in) :: self
-    type(convergence_type), intent(in) :: estimate
-    character(len=:), allocatable :: words
-
-    words = '-'
-    if (.not. self%is_of_many()) words = text(estimate%value, 8)
-  end function shown_value
-
-  !> An estimate; none on one mesh.
-  pure function error_words(estimate) result(words)
-    type(convergence_type), intent(in) :: estimate
-    character(len=:), allocatable :: words
-
-    words = '-'
-    if (estimate%error < huge(1.0_wp)) words = '+- '//text(estimate%error, 3)
-  end function error_words
-
-  !> An order; none where it is not believed.
-  pure function order_words(estimate) result(words)
-    type(convergence_type), intent(in) :: estimate
-    character(len=:), allocatable :: words
-
-    words = '-'
-    if (estimate%trusted .and. estimate%order > 0.0_wp) words = text(estimate%order, 3)
-  end function order_words
 
   !> The number with its error, in words.
   function sequence_value_words(self) result(words)
@@ -354,12 +296,12 @@ contains
     last = self%last()
     if (self%is_of_many()) then
       words = 'stiffness and damping: no error yet'
-      if (.not. self%has_error()) return
+      if (size(self%value) < 2) return
       words = 'stiffness and damping: errors up to '//text(100.0_wp*last%error, 2)// &
               ' % of the largest entry of a block ('//text(last%error, 2)
     else
       words = self%name//' = '//text(last%value, 6)//' '//self%unit
-      if (.not. self%has_error()) return
+      if (size(self%value) < 2) return
       words = self%name//' = '//text(last%value, 6)//' +- '//text(last%error, 2)//' '//self%unit
     end if
     if (self%is_of_many()) then
@@ -470,7 +412,8 @@ contains
       return
     end if
     self%reason%code = reason_inaccurate
-    self%reason%detail = missed(self%sequence)
+    self%reason%detail = 'target of '//text(100.0_wp*self%sequence%target, 4)// &
+                         ' % not met: it needs '//self%sequence%needs()
   end subroutine refine
 
   !> Replaces the study by that of a finer mesh, if it fits into memory.
@@ -526,15 +469,15 @@ contains
     if (study%converged .and. allocated(study%coefficients)) then
       call sequence%add_coefficients(study%coefficients)
       if (sequence%is_of_many()) call add_result(study%found, all_coefficients, 1.0_wp)
-    else
-      call sequence%drop_coefficients()
+    else if (allocated(sequence%coefficients)) then
+      deallocate (sequence%coefficients) ! those of coarser meshes no longer count
     end if
-    number = number_of(sequence%name, study%found)
+    number = place_of(sequence%name, study%found)
     if (study%converged .and. number > 0) then
-      call sequence%add(mesh_words(scene), study%found(number), study%unknowns, seconds)
+      call sequence%add(mesh_words(scene), study%unknowns, seconds, study%found(number))
       call context%log%line(sequence%value_words())
     else
-      call sequence%add_failure(mesh_words(scene), study%unknowns, seconds)
+      call sequence%add(mesh_words(scene), study%unknowns, seconds)
       call context%log%line('no '//sequence%name//' on this mesh: only finer ones count')
     end if
   end subroutine solve_mesh
@@ -569,7 +512,7 @@ contains
     if (.not. allocated(error)) call study%solve(beams, quiet, error)
     if (allocated(error)) return
     number = 0
-    if (study%converged) number = number_of(sequence%name, study%found)
+    if (study%converged) number = place_of(sequence%name, study%found)
     if (number > 0) then
       off = abs(study%found(number)%number - sequence%value(1))/ &
             max(abs(sequence%value(1)), tiny(1.0_wp))
@@ -595,40 +538,26 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=:), allocatable :: left_out
 
     self%finest%converged = self%converged
     self%finest%more = self%sequence%quantities()
     call self%sequence%coefficient_errors(self%finest%coefficient_errors)
     call self%finest%write(self%mesh, context, summary, error)
     if (allocated(error)) return
-    call self%sequence%show(context%log)
-    call conclude(self, context%log, self%finest%left_out(scene)//self%beams)
+    left_out = self%finest%left_out(scene)//self%beams//'finer meshes, '
+    associate (log => context%log)
+      call self%sequence%show(log)
+      call log%line(self%sequence%value_words())
+      if (self%converged) then
+        call log%line('target of '//text(100.0_wp*self%sequence%target, 4)//' % met; left out: '// &
+                      left_out//'which the target does not need')
+      else
+        call log%tell(self%reason%words())
+        call log%line('left out: '//left_out//'because '//self%stopped)
+      end if
+    end associate
   end subroutine write_finest
-
-  !> What came out, and what was left out.
-  subroutine conclude(self, log, left_out)
-    class(refinement_type), intent(in) :: self !! the study that refines
-    type(run_log_type), intent(in) :: log
-    character(len=*), intent(in) :: left_out !! by the model
-
-    call log%line(self%sequence%value_words())
-    if (self%converged) then
-      call log%line('target of '//text(100.0_wp*self%sequence%target, 4)// &
-                    ' % met; left out: '//left_out//'finer meshes, which the target does not need')
-    else
-      call log%tell(self%reason%words())
-      call log%line('left out: '//left_out//'finer meshes, because '//self%stopped)
-    end if
-  end subroutine conclude
-
-  !> A target that was not met, in words.
-  function missed(sequence) result(words)
-    type(mesh_sequence_type), intent(in) :: sequence
-    character(len=:), allocatable :: words
-
-    words = 'target of '//text(100.0_wp*sequence%target, 4)//' % not met: it needs '// &
-            sequence%needs()
-  end function missed
 
   !> Frees what the solvers hold.
   subroutine discard_finest(self)
@@ -636,17 +565,6 @@ contains
 
     if (allocated(self%finest)) call self%finest%discard()
   end subroutine discard_finest
-
-  !> Number of a quantity in a list; 0: it is not there.
-  pure function number_of(name, list) result(number)
-    character(len=*), intent(in) :: name
-    type(quantity_type), intent(in) :: list(:)
-    integer :: number
-
-    do number = size(list), 1, -1
-      if (list(number)%name == name) return
-    end do
-  end function number_of
 
   !> CPU time of all ranks [s].
   function cpu_seconds() result(seconds)

@@ -1,4 +1,5 @@
-!> A study: what an analysis does with a scene, from what it needs to the files it writes.
+!> A study: what an analysis does with a scene, from what it needs to the files it writes; and its
+!> run from answer to answer where there are several: points of a sweep, load steps of a strip.
 module gfb_study
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
@@ -6,13 +7,15 @@ module gfb_study
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_memory_check, only: check_memory
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_petsc_session, only: stop_is_asked
   use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_restart, only: drop_restart
   implicit none (type, external)
   private
-  public :: run_study
+  public :: run_study, run_points
 
   !> One analysis of one scene. It stays where it is from `solve` to `discard`: solvers point into
   !> it.
@@ -36,6 +39,10 @@ module gfb_study
     procedure(write_study), deferred :: write     !! writes the result files
     procedure :: left_out => nothing_left_out     !! what the model leaves out, and why
     procedure(discard_study), deferred :: discard !! gives the memory back
+    procedure :: reach => reach_nothing      !! finds the answer of a point from the last point's
+    procedure :: record_point => pass_point  !! records it
+    procedure :: save_point => pass_point    !! for a restart, where that is due
+    procedure :: save_stopped => pass_point  !! for a restart, where the run stops behind a point
   end type study_type
 
   abstract interface
@@ -102,6 +109,47 @@ contains
 
     words = ''
   end function nothing_left_out
+
+  !> A study of one answer has no further point. Without an answer a study is left at the last state
+  !> that it has reached.
+  !>
+  !> Fails where the equations of the point cannot be set up.
+  subroutine reach_nothing(self, point, reason, error)
+    class(study_type), target, intent(inout) :: self !! the study
+    integer, intent(in) :: point             !! number, from 1
+    type(reason_type), intent(out) :: reason !! why there is no answer
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+  end subroutine reach_nothing
+
+  !> Nothing is to be done at a point that has its answer.
+  subroutine pass_point(self, point)
+    class(study_type), target, intent(inout) :: self !! the study
+    integer, intent(in) :: point !! number, from 1
+  end subroutine pass_point
+
+  !> Runs from a point to another; the first without an answer ends the run, and so does a signal.
+  !>
+  !> Fails where a point does.
+  subroutine run_points(study, first, last, reason, error)
+    class(study_type), target, intent(inout) :: study !! left at the last answer
+    integer, intent(in) :: first, last       !! points; none where the last lies before the first
+    type(reason_type), intent(out) :: reason !! why it has ended before its last point
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    integer :: point
+
+    do point = first, last
+      if (.not. stop_is_asked()) call study%reach(point, reason, error)
+      if (allocated(error)) return
+      if (stop_agreed()) then
+        reason%code = reason_stopped
+        reason%detail = stop_words()
+        call study%save_stopped(point - 1)
+      end if
+      if (reason%is_given()) return
+      call study%record_point(point)
+      call study%save_point(point)
+    end do
+  end subroutine run_points
 
   !> Plans, checks, solves, writes and discards; a restart file goes when its run has ended well.
   !>

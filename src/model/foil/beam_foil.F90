@@ -18,7 +18,7 @@ module gfb_beam_foil
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_bump_contacts, only: line_shares, line_length, bump_contact, touch_with_face, touch_top_face, crest_name, &
                                contact_sleeve, contact_top
   use gfb_contact_point, only: contact_point_type

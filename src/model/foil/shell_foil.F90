@@ -5,7 +5,7 @@ module gfb_shell_foil
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_number
   use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns

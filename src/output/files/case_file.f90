@@ -1,17 +1,17 @@
 !> `<case>.h5`: the scene, where it was computed, its summary and its history.
 module gfb_case_file
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_archive, only: archive_type
-  use gfb_quantity, only: quantity_type, quantity_word, quantity_number, visit_description, &
-                          are_alike
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_number, place_of, &
+                          number_in, visit_description, are_alike
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   use gfb_text, only: exact_text, text
   implicit none (type, external)
   private
   public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
-            add_arrays, history_csv, history_values, visit_rows, visit_arrays
+            add_array, add_arrays, history_csv, history_values, visit_rows, visit_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -95,6 +95,20 @@ contains
     call move_alloc(grown, list)
   end subroutine add_arrays
 
+  !> Puts an array at the end of a list.
+  subroutine add_array(list, path, unit, meaning, values, by_step, order)
+    type(case_array_type), allocatable, intent(inout) :: list(:) !! gets it behind its own
+    character(len=*), intent(in) :: path, unit, meaning !! where it goes; of the numbers; a sentence
+    real(wp), intent(in) :: values(:, :) !! (columns, rows) of the file, in `unit` [SI]
+    logical, intent(in), optional :: by_step !! a row is a load step or sweep point
+    integer, intent(in), optional :: order !! a row is a square matrix of that order, or several
+    type(case_array_type) :: one(1)
+
+    call fill_array(path, unit, meaning, values, one(1), by_step)
+    if (present(order)) one%order = order
+    call add_arrays(list, one)
+  end subroutine add_array
+
   !> One dataset an array, in groups one or two levels deep.
   subroutine write_arrays(file, arrays)
     type(result_file_type), intent(inout) :: file
@@ -162,9 +176,10 @@ contains
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
     character(len=:), allocatable :: words
     type(quantity_type), allocatable :: column(:)
-    real(wp) :: value
+    real(wp) :: value, none
     integer :: i, row
 
+    none = ieee_value(none, ieee_quiet_nan)
     call collect_columns(history, column, columns)
     words = ''
     do i = 1, size(column)
@@ -175,7 +190,7 @@ contains
     do row = 1, size(history)
       do i = 1, size(column)
         if (i > 1) words = words//','
-        value = value_of(history(row), column(i)%name)
+        value = number_in(history(row)%quantity, column(i)%name, none)
         if (ieee_is_nan(value)) cycle
         if (column(i)%kind == quantity_number) words = words//exact_text(value)
         if (column(i)%kind /= quantity_number) words = words//text(nint(value))
@@ -190,10 +205,10 @@ contains
     character(len=*), intent(in) :: name !! of the result
     real(wp) :: values(size(history))
     integer :: row
+    real(wp) :: none
 
-    do row = 1, size(history)
-      values(row) = value_of(history(row), name)
-    end do
+    none = ieee_value(none, ieee_quiet_nan)
+    values = [(number_in(history(row)%quantity, name, none), row=1, size(history))]
   end function history_values
 
   !> Every numeric name that any row has.
@@ -201,8 +216,7 @@ contains
     type(history_row_type), intent(in) :: history(:)
     type(quantity_type), allocatable, intent(out) :: column(:)
     type(history_row_type), intent(in), optional :: columns(:)
-    integer :: row, i, j
-    logical :: known
+    integer :: row, i
 
     if (present(columns) .and. size(history) == 0) then
       call collect_columns(columns, column)
@@ -211,29 +225,13 @@ contains
     allocate (column(0))
     do row = 1, size(history)
       do i = 1, size(history(row)%quantity)
-        if (history(row)%quantity(i)%kind == quantity_word) cycle
-        known = .false.
-        do j = 1, size(column)
-          known = known .or. column(j)%name == history(row)%quantity(i)%name
-        end do
-        if (.not. known) column = [column, history(row)%quantity(i)]
+        associate (one => history(row)%quantity(i))
+          if (one%kind == quantity_word) cycle
+          if (place_of(one%name, column) == 0) column = [column, one]
+        end associate
       end do
     end do
   end subroutine collect_columns
-
-  !> A row's number of a name, NaN where it has none.
-  function value_of(row, name) result(value)
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    type(history_row_type), intent(in) :: row
-    character(len=*), intent(in) :: name
-    real(wp) :: value
-    integer :: i
-
-    value = ieee_value(value, ieee_quiet_nan)
-    do i = 1, size(row%quantity)
-      if (row%quantity(i)%name == name) value = row%quantity(i)%number
-    end do
-  end function value_of
 
   !> `name = value [unit]`, one a line.
   function summary_text(summary) result(words)

@@ -47,6 +47,7 @@ module gfb_result_file
     procedure :: mark_text
     procedure :: mark_longs
     procedure, private :: put_parts
+    procedure, private :: put_texts
     procedure, private :: put_whole
     procedure, private :: describe
   end type result_file_type
@@ -248,20 +249,12 @@ contains
   subroutine put_text(self, path, words, meaning)
     class(result_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path, words, meaning !! where it goes; the text; a sentence
-    integer(hid_t) :: kind, space, dataset
+    integer(hid_t) :: space
     integer :: status
 
     if (.not. self%first_rank) return
-    call text_kind(kind, status)
     call h5screate_f(H5S_SCALAR_F, space, status)
-    call h5dcreate_f(self%file, path, kind, space, dataset, status)
-    if (status /= 0) self%failed = .true.
-    call self%describe(dataset, '', meaning)
-    call write_texts(dataset, kind, [words], status)
-    if (status /= 0) self%failed = .true.
-    call h5dclose_f(dataset, status)
-    call h5sclose_f(space, status)
-    call h5tclose_f(kind, status)
+    call self%put_texts(path, [words], space, meaning)
   end subroutine put_text
 
   !> Adds a list of words that all ranks know.
@@ -270,12 +263,24 @@ contains
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     character(len=*), intent(in) :: words(:) !! blank-padded
     character(len=*), intent(in) :: meaning !! a sentence
-    integer(hid_t) :: kind, space, dataset
+    integer(hid_t) :: space
     integer :: status
 
     if (.not. self%first_rank) return
-    call text_kind(kind, status)
     call h5screate_simple_f(1, [size(words, kind=hsize_t)], space, status)
+    call self%put_texts(path, words, space, meaning)
+  end subroutine put_words
+
+  !> Adds texts in the shape of a space, which is closed; only the first rank may.
+  subroutine put_texts(self, path, words, space, meaning)
+    class(result_file_type), intent(inout) :: self !! the file
+    character(len=*), intent(in) :: path, meaning !! of the texts; a sentence
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    integer(hid_t), intent(in) :: space !! of the HDF5 library
+    integer(hid_t) :: kind, dataset
+    integer :: status
+
+    call text_kind(kind, status)
     call h5dcreate_f(self%file, path, kind, space, dataset, status)
     if (status /= 0) self%failed = .true.
     call self%describe(dataset, '', meaning)
@@ -284,7 +289,7 @@ contains
     call h5dclose_f(dataset, status)
     call h5sclose_f(space, status)
     call h5tclose_f(kind, status)
-  end subroutine put_words
+  end subroutine put_texts
 
   !> Adds numbers that all ranks know.
   subroutine put_numbers(self, path, numbers, unit, meaning)

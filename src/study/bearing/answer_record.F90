@@ -1,285 +1,85 @@
 #include "gfb_petsc.h"
 !> An answer of a scene goes into the record, with all that is asked of it.
 module gfb_answer_record
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use petscmat
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, add_quantity, number_quantity
-  use gfb_results, only: add_result
-  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, add_quantity, place_of
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_shell
+  use gfb_sweep_case, only: sweep_keys
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, find_determinant_sign
-  use gfb_static_stiffness, only: find_edge_stiffness
-  use gfb_stability, only: stability_type, find_stability
-  use gfb_result_names, only: result_unit, result_meaning, quotient_unit
-  use gfb_sensitivity_case, only: quantity_words, parameter_type
-  use gfb_sweep_case, only: swept_key_type, sweep_keys
-  use gfb_sensitivity, only: sensitivity_type, find_sensitivities, changed_evaluation, keep_tangent
   use gfb_tilt_response, only: begin_tilt, measure_tilt
-  use gfb_bearing_record, only: bearing_record_type, add_row, sweep_name, sweep_unit
+  use gfb_bearing_record, only: add_row, sweep_name, sweep_unit
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_grid, only: add_foil_grids
   use gfb_grid_series, only: grid_series_type
   use gfb_result_set, only: result_grid_type, add_series_step
-  use gfb_rotor_modes, only: rotor_answer_type
-  use gfb_dynamics_record, only: dynamics_record_type
-  use gfb_dynamics, only: find_dynamics, opposite_builder, report_rotor
-  implicit none (type)
+  use gfb_answer_judgement, only: judge_and_derive
+  use gfb_dynamics, only: find_dynamics
+  use gfb_bearing_solution, only: bearing_solution_type
+  implicit none (type, external)
   private
-  public :: judge_answer, record_single, record_swept, fix_shaft, builders_type
-
-  integer, parameter :: digits = 5     !! of a derivative in the log
-  integer, parameter :: few_digits = 3 !! of a part
-  real(wp), parameter :: percent = 100.0_wp
-
-  !> What makes further bearings of an answer's scene.
-  type :: builders_type
-    procedure(opposite_builder), pointer, nopass :: opposite => null() !! that of tilts, for vibrations
-    procedure(changed_evaluation), pointer, nopass :: changed => null() !! its equations with another value of a key
-  end type builders_type
+  public :: record_answer, record_last_state, fix_shaft
 
 contains
 
-  !> Judges the bearing's present state, which must be an answer; state and point stay as they are.
-  subroutine judge_answer(scene, log, bearing, newton, list)
-    type(scene_type), intent(in) :: scene !! whether stability is asked for
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at an answer
-    type(newton_type), intent(inout) :: newton !! its solver
-    type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
-    type(stability_type) :: stability
-    integer :: sign_of_determinant
-    real(wp), allocatable :: stiffness(:)
-    logical, allocatable :: known(:)
-    integer :: i
-
-    allocate (list(0))
-    if (scene%solver%stability) then
-      call find_stability(bearing, stability)
-      newton%factorizations = newton%factorizations + stability%factorizations
-      newton%enlargements = newton%enlargements + stability%enlargements
-      call log%line('stability: '//stability_words(stability, &
-                    bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell))
-      if (stability%counted) call add_result(list, 'stability', stability%negative)
-      if (stability%found) then
-        call add_result(list, 'growing_modes', stability%growing)
-        call add_result(list, 'stability_margin', real(stability%nearest, wp))
-      end if
-    end if
-    if (.not. bearing%floats .or. bearing%shaft_fixed) return
-    ! The last of the factors, so that the next solve can begin with them.
-    call find_determinant_sign(newton, sign_of_determinant)
-    if (sign_of_determinant == 0) return
-    call add_result(list, 'determinant_sign', sign_of_determinant)
-    if (.not. bearing%pad(1)%foil%has_contacts()) return
-    call find_edge_stiffness(bearing, newton, known, stiffness)
-    if (any(known)) call add_result(list, 'edge_stiffness', minval(stiffness, known))
-    do i = 1, merge(size(known), 0, size(known) > 1)
-      if (known(i)) call add_result(list, 'edge_stiffness_'//text(i), stiffness(i))
-    end do
-  end subroutine judge_answer
-
-  !> The stability as a sentence.
-  function stability_words(stability, symmetric) result(words)
-    type(stability_type), intent(in) :: stability
-    logical, intent(in) :: symmetric !! no others were looked for
-    character(len=:), allocatable :: words
-
-    if (.not. stability%found) then
-      words = 'the eigenvalues of the foils were not found'
-      return
-    end if
-    words = 'an unknown number of'
-    if (stability%counted) words = text(stability%negative)
-    words = words//' negative eigenvalue(s) of the foils'' stiffness, '// &
-      text(stability%growing)//' growing mode(s) ('// &
-      trim(merge('stable  ', 'unstable', stability%negative + stability%growing == 0))
-    if (stability%nearly_neutral) words = words//', one nearly neutral'
-    words = words//') while the shaft is fixed; nearest to a change: ('// &
-            text(real(stability%nearest, wp), 3)
-    if (aimag(stability%nearest) > 0.0_wp) then
-      words = words//' +- '//text(aimag(stability%nearest), 3)//' i'
-    end if
-    words = words//') p_a/C'
-    if (symmetric) words = words//'; of modes symmetric about z = 0'
-  end function stability_words
-
-  !> Finds the derivatives that a scene asks for, and adds them to what is known of the answer.
-  subroutine add_sensitivities(scene, log, bearing, newton, tangent, evaluate, list, at)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at its answer
-    type(newton_type), intent(inout) :: newton !! its solver
-    type(tMat), intent(inout) :: tangent !! of `keep_tangent`; is destroyed
-    procedure(changed_evaluation) :: evaluate !! of the equations with other values of the keys
-    type(quantity_type), allocatable, intent(inout) :: list(:) !! has `determinant_sign` where the factors are there
-    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
-    type(sensitivity_type) :: found
-    PetscErrorCode :: ierr
-    integer :: sign_of_determinant, i
-
-    sign_of_determinant = 0
-    do i = 1, size(list)
-      if (list(i)%name == 'determinant_sign') sign_of_determinant = nint(list(i)%number)
-    end do
-    if (sign_of_determinant == 0) call find_determinant_sign(newton, sign_of_determinant)
-    call find_sensitivities(scene, bearing, newton, tangent, evaluate, found, at)
-    PetscCallA(MatDestroy(tangent, ierr))
-    if (found%problem /= '') call log%warning('no derivative by '//found%problem)
-    do i = 1, size(quantity_words)
-      if (scene%sensitivity%quantity(i)) call add_results(scene, trim(quantity_words(i)), found%derivative(i, :), list)
-    end do
-    if (.not. scene%sweep%present) call show(scene, found, log)
-  end subroutine add_sensitivities
-
-  !> Adds a quantity's derivatives, and what the tolerances make of them.
-  subroutine add_results(scene, name, derivative, list)
-    type(scene_type), intent(in) :: scene
-    character(len=*), intent(in) :: name
-    real(wp), intent(in) :: derivative(:) !! one a parameter
-    type(quantity_type), allocatable, intent(inout) :: list(:)
-    character(len=:), allocatable :: full
-    integer :: i
-
-    associate (asked => scene%sensitivity)
-      do i = 1, size(derivative)
-        if (ieee_is_nan(derivative(i))) cycle ! there is none, which was told
-        associate (key => asked%parameter(i))
-          full = 'd_'//name//'_d_'//result_part(key%key)
-          call add_quantity(list, number_quantity(full, derivative(i), quotient_unit(result_unit(name), key%unit), &
-                                                  result_meaning(full, name//' by '//key%key%label())))
-        end associate
-      end do
-      if (size(asked%tolerances) == 0 .or. any(ieee_is_nan(derivative))) return
-      associate (variance => variance_of(scene, derivative))
-        call add_result(list, 'standard_deviation_'//name, sqrt(variance))
-        call add_result(list, 'variance_'//name, variance)
-      end associate
-    end associate
-  end subroutine add_results
-
-  !> A key as part of a result's name.
-  pure function result_part(key) result(words)
-    type(swept_key_type), intent(in) :: key
-    character(len=:), allocatable :: words
-
-    words = key%group//'_'//key%name
-    if (key%element > 0) words = words//'_'//text(key%element)
-  end function result_part
-
-  !> Variance that independent deviations of the parameters cause, to first order.
-  pure function variance_of(scene, derivative) result(variance)
-    type(scene_type), intent(in) :: scene
-    real(wp), intent(in) :: derivative(:) !! of a quantity, one a parameter
-    real(wp) :: variance
-
-    variance = sum((derivative*scene%sensitivity%parameter%tolerance)**2)
-  end function variance_of
-
-  !> A table: a line a quantity and a parameter.
-  subroutine show(scene, found, log)
-    type(scene_type), intent(in) :: scene
-    type(sensitivity_type), intent(in) :: found
-    type(run_log_type), intent(in) :: log
-    character(len=:), allocatable :: unit
-    integer :: i, k
-
-    call log%heading('sensitivities')
-    associate (asked => scene%sensitivity)
-      do i = 1, size(quantity_words)
-        if (.not. asked%quantity(i)) cycle
-        unit = result_unit(trim(quantity_words(i)))
-        call log%line(trim(quantity_words(i))//' = '//text(found%value(i), digits)//' '//unit)
-        do k = 1, size(asked%parameter)
-          call log%line('  '//parameter_line(asked%parameter(k), found%value(i), found%derivative(i, k), unit, &
-                                             size(asked%tolerances) > 0))
-        end do
-        if (size(asked%tolerances) == 0 .or. any(ieee_is_nan(found%derivative(i, :)))) cycle
-        associate (deviation => sqrt(variance_of(scene, found%derivative(i, :))))
-          call log%line('  standard deviation by all tolerances: '//text(deviation, digits)//' '//unit)
-        end associate
-      end do
-    end associate
-  end subroutine show
-
-  !> A derivative in words.
-  function parameter_line(key, value, derivative, unit, tolerated) result(words)
-    type(parameter_type), intent(in) :: key
-    real(wp), intent(in) :: value      !! of the quantity
-    real(wp), intent(in) :: derivative !! of it by the key
-    character(len=*), intent(in) :: unit !! of the quantity
-    logical, intent(in) :: tolerated !! tolerances are given
-    character(len=:), allocatable :: words
-
-    words = 'by '//key%key%label()
-    words = words//repeat(' ', max(0, 32 - len(words)))
-    if (ieee_is_nan(derivative)) then
-      words = words//'none'
-      return
-    end if
-    words = words//text(derivative, digits)//' '//quotient_unit(unit, key%unit)
-    if (abs(value) > 0.0_wp .and. abs(key%value) > 0.0_wp) then
-      words = words//'; by 1 % of it: '//text(percent*derivative*(key%value/percent)/value, few_digits)//' %'
-    end if
-    if (tolerated) words = words//'; by its tolerance: '//text(abs(derivative)*key%tolerance, few_digits)//' '//unit
-  end function parameter_line
-
-  !> Records the one answer of a scene without a sweep, or the state where the search for it has ended.
-  subroutine record_single(scene, log, bearing, newton, build, converged, record)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at the state
-    type(newton_type), intent(inout) :: newton !! its solver
-    type(builders_type), intent(in) :: build !! of bearings like it
-    logical, intent(in) :: converged !! the state is an answer
-    type(bearing_record_type), intent(inout) :: record !! gets the row
-    type(quantity_type), allocatable :: vibrations(:)
-
-    if (converged) call judge_and_derive(scene, log, bearing, newton, build, record%judged)
-    if (record%at_fold) call forget_sign(record%judged)
-    if (converged .and. allocated(record%limit)) call add_quantity(record%judged, record%limit)
-    if (scene%sensitivity%present .and. .not. converged) then
-      call log%line('no sensitivities: they are those of an answer, and there is none')
-    end if
-    call add_row(scene, bearing, newton, converged, record)
-    if (.not. scene%dynamics%present) return
-    if (converged) then
-      call vibrate(scene, log, bearing, newton, build%opposite, record%dynamics, vibrations)
-      call add_quantity(record%judged, vibrations)
-    else
-      call log%line('no stiffness and damping: they are those of an answer, and there is none')
-    end if
-  end subroutine record_single
-
-  !> Records the answer at a value of the sweep.
-  subroutine record_swept(scene, here, log, bearing, newton, build, record, value, fold)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(scene_type), intent(in) :: here  !! the same with the value in its keys, where the sweep changes keys
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at the answer
-    type(newton_type), intent(inout) :: newton !! its solver
-    type(builders_type), intent(in) :: build !! of bearings like it
-    type(bearing_record_type), intent(inout) :: record !! gets the row
-    real(wp), intent(in) :: value !! of the sweep, in its unit
+  !> Records the present answer: at a value of the sweep, or the one answer of a scene without a sweep.
+  subroutine record_answer(solution, value, fold)
+    type(bearing_solution_type), intent(inout) :: solution !! gets the row
+    real(wp), intent(in), optional :: value !! of the sweep, in its unit
     logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
     type(quantity_type), allocatable :: vibrations(:)
     logical :: turns
+    integer :: place
 
-    call measure_tilt(scene, value, bearing, newton, record%tilted)
-    if (scene%dynamics%present) call vibrate(here, log, bearing, newton, build%opposite, record%dynamics, vibrations)
-    ! The last of the factors, for the next answer.
-    call judge_and_derive(here, log, bearing, newton, build, record%judged, value)
-    turns = record%at_fold
-    if (present(fold)) turns = turns .or. fold
-    if (turns) call forget_sign(record%judged)
-    if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
-    if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
-    call add_row(scene, bearing, newton, .true., record, value, fold)
-    call add_fields(scene, bearing, record%series, value)
-  end subroutine record_swept
+    associate (scene => solution%scene, here => solution%here, log => solution%context%log, &
+               bearing => solution%bearing, newton => solution%newton, record => solution%record)
+      if (present(value)) then
+        call measure_tilt(scene, value, bearing, newton, record%tilted)
+        call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations)
+      end if
+      ! The last of the factors, for the next answer.
+      call judge_and_derive(here, log, bearing, newton, record%judged, value)
+      turns = record%at_fold
+      if (present(fold)) turns = turns .or. fold
+      place = place_of('determinant_sign', record%judged)
+      if (turns .and. place > 0) record%judged(place)%number = 0.0_wp ! it changes there
+      if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
+      if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
+      call add_row(scene, bearing, newton, .true., record, value, fold)
+      if (present(value)) then
+        call add_fields(scene, bearing, record%series, value)
+      else
+        call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations)
+        if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
+      end if
+    end associate
+  end subroutine record_answer
+
+  !> Records the state where the search for the one answer has ended.
+  subroutine record_last_state(solution)
+    type(bearing_solution_type), intent(inout) :: solution !! gets the row
+
+    associate (scene => solution%scene, log => solution%context%log)
+      if (scene%sensitivity%present) call log%line('no sensitivities: they are those of an answer, and there is none')
+      call add_row(scene, solution%bearing, solution%newton, .false., solution%record)
+      if (scene%dynamics%present) call log%line('no stiffness and damping: they are those of an answer, and there is none')
+    end associate
+  end subroutine record_last_state
+
+  !> Fixes the shaft at its equilibrium for the points of a sweep, and measures what they are compared with.
+  subroutine fix_shaft(solution)
+    type(bearing_solution_type), intent(inout) :: solution !! at its equilibrium; its record gets the torque without tilt
+    real(wp), parameter :: micrometres = 1.0e6_wp ! in a metre
+
+    associate (scene => solution%scene, bearing => solution%bearing)
+      if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
+      bearing%point%eccentricity = bearing%eccentricity()
+      bearing%shaft_fixed = .true.
+      call solution%context%log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*micrometres, 5)//', '// &
+                                     text(bearing%point%eccentricity(2)*micrometres, 5)//') um')
+      call begin_tilt(scene, bearing, solution%newton, solution%record%tilted)
+    end associate
+  end subroutine fix_shaft
 
   !> Adds film and foils of an answer to the series of the sweep, where the scene asks for fields.
   subroutine add_fields(scene, bearing, series, value)
@@ -300,65 +100,4 @@ contains
       call add_series_step(series, name, sweep_unit(sweep), value, grids)
     end associate
   end subroutine add_fields
-
-  !> Judges an answer and, where that is asked for, derives its numbers by keys, with the factors of the judgement.
-  subroutine judge_and_derive(scene, log, bearing, newton, build, judged, value)
-    type(scene_type), intent(in) :: scene
-    type(run_log_type), intent(in) :: log
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    type(builders_type), intent(in) :: build
-    type(quantity_type), allocatable, intent(out) :: judged(:) !! what is known of the answer
-    real(wp), intent(in), optional :: value !! of the sweep, in its unit
-    Mat :: tangent
-
-    if (scene%sensitivity%present) call keep_tangent(bearing, tangent)
-    call judge_answer(scene, log, bearing, newton, judged)
-    if (.not. scene%sensitivity%present) return
-    call add_sensitivities(scene, log, bearing, newton, tangent, build%changed, judged, value)
-  end subroutine judge_and_derive
-
-  !> At a fold the determinant of the equations has no sign: it changes there.
-  pure subroutine forget_sign(judged)
-    type(quantity_type), intent(inout) :: judged(:)
-    integer :: i
-
-    do i = 1, size(judged)
-      if (judged(i)%name == 'determinant_sign') judged(i)%number = 0.0_wp
-    end do
-  end subroutine forget_sign
-
-  !> Small vibrations about an answer.
-  subroutine vibrate(scene, log, bearing, newton, build, record, found)
-    type(scene_type), intent(in) :: scene
-    type(run_log_type), intent(in) :: log
-    type(bearing_system_type), intent(inout) :: bearing
-    type(newton_type), intent(inout) :: newton
-    procedure(opposite_builder) :: build
-    type(dynamics_record_type), intent(inout) :: record
-    type(quantity_type), allocatable, intent(out) :: found(:) !! what the summary and the history say of them
-    type(rotor_answer_type) :: rotor
-
-    call find_dynamics(scene, log, bearing, newton, build, record, found, rotor)
-    if (.not. allocated(rotor%mode)) return
-    call report_rotor(log, bearing%point%speed, scene%sweep%present, scene%rotor%mass, rotor, found, &
-                      record%point(size(record%point))%mode)
-  end subroutine vibrate
-
-  !> Fixes the shaft at its equilibrium for the points of a sweep, and measures what they are compared with.
-  subroutine fix_shaft(scene, log, bearing, newton, record)
-    type(scene_type), intent(in) :: scene !! whose sweep asks for it
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at its equilibrium
-    type(newton_type), intent(inout) :: newton !! its solver
-    type(bearing_record_type), intent(inout) :: record !! gets the torque without tilt
-    real(wp), parameter :: micrometres = 1.0e6_wp ! in a metre
-
-    if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
-    bearing%point%eccentricity = bearing%eccentricity()
-    bearing%shaft_fixed = .true.
-    call log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*micrometres, 5)//', '// &
-                  text(bearing%point%eccentricity(2)*micrometres, 5)//') um')
-    call begin_tilt(scene, bearing, newton, record%tilted)
-  end subroutine fix_shaft
 end module gfb_answer_record

@@ -9,16 +9,16 @@ module gfb_bearing_writing
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_sweep_case, only: sweep_keys
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit, analysis_name, add_row
-  use gfb_case_file, only: case_array_type, add_arrays, history_row_type, history_values
+  use gfb_case_file, only: case_array_type, history_row_type, history_values
   use gfb_contact_record, only: foil_contact_arrays
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamics_record, only: dynamics_arrays, dynamics_table
+  use gfb_dynamics_record, only: add_dynamics_arrays, dynamics_table
   use gfb_text_file, only: write_text_file
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type, add_quantity
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
+  use gfb_result_names, only: add_result
   use gfb_shape_rules, only: thin
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block, asked_first
@@ -28,10 +28,11 @@ module gfb_bearing_writing
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_grid, only: add_foil_grids
   use gfb_provenance, only: blas_in_use
-  use gfb_sweep, only: sweep_type
+  use gfb_bearing_solution, only: bearing_solution_type
+  use gfb_mesh_plan, only: bearing_plan_type
   implicit none (type)
   private
-  public :: record_arrays, write_coefficients, write_bearing
+  public :: record_arrays, write_bearing
 
   integer, parameter :: digits = 5, widest = 8 !! of a number; columns of a table
 
@@ -72,9 +73,7 @@ module gfb_bearing_writing
   !> What is written beside the bearing's state and record.
   type, public :: bearing_result_type
     logical :: converged = .false.                   !! the state is the answer
-    logical :: upwind = .false.                      !! SUPG was planned
-    real(wp) :: peclet = 0.0_wp                      !! cell Peclet number of the concentric film [1]
-    integer :: cells = 0                             !! film elements along the motion
+    type(bearing_plan_type) :: plan                  !! of the bearing
     type(cost_type) :: cost
     integer :: ranks = 1                             !! that computed it
     type(quantity_type), allocatable :: origin(:)    !! what the files say of it
@@ -92,7 +91,7 @@ contains
     type(case_array_type), allocatable :: arrays(:)
 
     arrays = foil_contact_arrays(bearing, record%contacts, points)
-    call add_arrays(arrays, dynamics_arrays(record%dynamics, scene%sweep%present, points))
+    call add_dynamics_arrays(record%dynamics, scene%sweep%present, points, arrays)
   end function record_arrays
 
   !> Writes `<case>.coefficients.csv`; nothing where there is no answer.
@@ -104,22 +103,14 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
     character(len=:), allocatable :: name
-    real(wp), allocatable :: values(:)
-    integer :: i, k
+    real(wp) :: values(size(record%history))
+    integer :: i
 
     if (.not. allocated(record%dynamics%point)) return
     if (size(record%dynamics%point) == 0) return ! as a restart file leaves it
     name = ''
-    allocate (values(size(record%history)), source=0.0_wp)
-    if (scene%sweep%present) then
-      name = 'key_value'
-      if (scene%sweep%parameter /= sweep_keys) name = sweep_name(scene%sweep)
-    end if
-    do i = 1, size(values)
-      do k = 1, size(record%history(i)%quantity)
-        if (record%history(i)%quantity(k)%name == name) values(i) = record%history(i)%quantity(k)%number
-      end do
-    end do
+    if (scene%sweep%present) name = column_name(scene)
+    values = [(number_in(record%history(i)%quantity, name), i=1, size(values))]
     if (this_rank() == 0) then
       call write_text_file(context%folder//'/'//scene%name//'.coefficients.csv', dynamics_table(record%dynamics, name, values), error)
     end if
@@ -237,10 +228,10 @@ contains
   !> Shows the present state and writes it with what was recorded before.
   !>
   !> Fails when a file cannot be written.
-  subroutine write_bearing(scene, context, sweep, result, summary, error)
+  subroutine write_bearing(scene, context, solution, result, summary, error)
     type(scene_type), intent(in) :: scene !! whose names the files have
     type(run_context_type), intent(in) :: context !! of the run
-    type(sweep_type), intent(inout) :: sweep !! with the last state and the record
+    type(bearing_solution_type), intent(inout) :: solution !! with the last state and the record
     type(bearing_result_type), intent(in) :: result !! what else is written
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -249,7 +240,7 @@ contains
     type(result_grid_type), allocatable :: grids(:)
     type(history_row_type), allocatable :: columns(:)
 
-    associate (bearing => sweep%bearing, record => sweep%record, converged => result%converged, log => context%log)
+    associate (bearing => solution%bearing, record => solution%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing)
       call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, &
                                                    bearing%pad(1)%film%clearance, bearing%force_scale()))
@@ -259,7 +250,7 @@ contains
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
       call add_quantity(summary, cost_quantities(result%cost))
       summary = asked_first(summary)
-      columns = columns_of(scene, sweep)
+      columns = columns_of(scene, solution)
       if (scene%sweep%present) call show_points(scene, record%history, log)
       call show_closing_block(log, summary, converged, place_on_sweep(scene, record%history, converged), answer, &
                               bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
@@ -269,7 +260,7 @@ contains
         call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance, size(bearing%pad) == 1)
       end if
       call show_tilt_response(log, record%tilted)
-      if (.not. result%upwind) call show_unresolved(log, result, answer%rough_peclet)
+      if (.not. result%plan%upwind) call show_unresolved(log, result%plan, answer%rough_peclet)
       call show_large_deflection(log, scene, answer%maximum_deflection)
       if (.not. converged) call show_early_end(log, scene, answer%minimum_gap)
       call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
@@ -278,23 +269,24 @@ contains
       call add_foil_grids(bearing, grids)
       call write_result_set(scene, context%folder, converged, result%origin, summary, record%history, result%contacts, &
                             grids, context%csv, log, error, columns, record%series)
+      if (.not. allocated(error)) call write_coefficients(record, scene, context, error)
     end associate
   end subroutine write_bearing
 
   !> Warns of cells so long, and without upwinding, that the pressure may oscillate, or that it does not fall behind the film as
   !> it should.
-  subroutine show_unresolved(log, result, rough)
+  subroutine show_unresolved(log, plan, rough)
     type(run_log_type), intent(in) :: log
-    type(bearing_result_type), intent(in) :: result
+    type(bearing_plan_type), intent(in) :: plan !! without upwinding
     real(wp), intent(in) :: rough !! Peclet number of cells along which the gap changes [1]
 
     if (rough > rough_limit) then
       call log%warning('cell Peclet number '//text(rough, 3)//' where the gap changes from '// &
                        'cell to cell: the pressure may oscillate; refine, or use film_scheme = ''supg'' with film_order = 1')
-    else if (result%peclet > rough_limit) then
-      call log%warning('cell Peclet number '//text(result%peclet, 3)//' of the concentric film, without upwinding: the smallest '// &
+    else if (plan%peclet > rough_limit) then
+      call log%warning('cell Peclet number '//text(plan%peclet, 3)//' of the concentric film, without upwinding: the smallest '// &
                        'pressure may be 1 to 5 % too low, forces keep their digits; circumferential_elements = '// &
-                       text(ceiling(result%cells*result%peclet/rough_limit))//', or film_scheme = ''supg'' with film_order = 1')
+                       text(ceiling(plan%circumferential*plan%peclet/rough_limit))//', or film_scheme = ''supg'' with film_order = 1')
     end if
   end subroutine show_unresolved
 
@@ -329,15 +321,15 @@ contains
   end subroutine show_large_deflection
 
   !> The columns that the history of a sweep has, also where no point has an answer.
-  function columns_of(scene, sweep) result(columns)
+  function columns_of(scene, solution) result(columns)
     type(scene_type), intent(in) :: scene
-    type(sweep_type), intent(in) :: sweep
+    type(bearing_solution_type), intent(in) :: solution
     type(history_row_type), allocatable :: columns(:)
     type(bearing_record_type) :: record
 
     allocate (columns(0))
-    if (.not. scene%sweep%present .or. size(sweep%record%history) > 0) return
-    call add_row(scene, sweep%bearing, sweep%newton, .false., record, scene%sweep%values(1))
+    if (.not. scene%sweep%present .or. size(solution%record%history) > 0) return
+    call add_row(scene, solution%bearing, solution%newton, .false., record, scene%sweep%values(1))
     columns = record%history
   end function columns_of
 
@@ -349,21 +341,18 @@ contains
     real(wp), intent(in) :: firm !! stiffness of an edge that rests firmly [N/m]
     logical, intent(in) :: listed !! a search for equilibria can list them
     character(len=:), allocatable :: advice
-    integer :: i
 
     advice = ''
     if (listed) advice = '; gfb --branches lists equilibria'
-
-    do i = 1, size(judged)
-      associate (number => judged(i)%number)
-        if (judged(i)%name == 'determinant_sign' .and. number < -0.5_wp) then
-          call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
-                        'foils grows'//advice)
-        else if (judged(i)%name == 'edge_stiffness' .and. abs(number) < firm) then
-          call log%line('stability        nearly neutral: '//text(number*micrometre, 2)//' N lift the free edge of the top foil '// &
-                        'by 1 um'//advice)
-        end if
-      end associate
-    end do
+    if (number_in(judged, 'determinant_sign') < -0.5_wp) then
+      call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
+                    'foils grows'//advice)
+    end if
+    if (place_of('edge_stiffness', judged) == 0) return
+    associate (stiffness => number_in(judged, 'edge_stiffness'))
+      if (.not. abs(stiffness) < firm) return
+      call log%line('stability        nearly neutral: '//text(stiffness*micrometre, 2)//' N lift the free edge of the top foil '// &
+                    'by 1 um'//advice)
+    end associate
   end subroutine show_growth
 end module gfb_bearing_writing

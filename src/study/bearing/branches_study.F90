@@ -4,8 +4,8 @@ module gfb_branches_study
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, add_quantity
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
+  use gfb_result_names, only: add_result
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
@@ -20,7 +20,7 @@ module gfb_branches_study
   use gfb_foil_grid, only: add_foil_grids
   use gfb_contact_record, only: foil_contact_arrays
   use gfb_run_context, only: run_context_type
-  use gfb_answer_record, only: judge_answer
+  use gfb_answer_judgement, only: judge_answer
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
@@ -150,12 +150,9 @@ contains
     type(quantity_type), intent(in) :: list(:)
     character(len=*), intent(in) :: name
     character(len=:), allocatable :: words
-    integer :: i
 
     words = '-'
-    do i = 1, size(list)
-      if (list(i)%name == name) words = text(list(i)%number, 3)
-    end do
+    if (place_of(name, list) > 0) words = text(number_in(list, name), 3)
   end function value_of
 
   !> Numbers of the equilibria by rising lift of both ends of the top foil, midplane and edges.

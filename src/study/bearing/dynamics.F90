@@ -6,8 +6,8 @@ module gfb_dynamics
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, place_of
+  use gfb_result_names, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, meshes_foils
@@ -15,6 +15,7 @@ module gfb_dynamics
   use gfb_shaft_motion, only: shaft_coordinates
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type, show_enlargements
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, response_failure, destroy_response
   use gfb_vibration_equations, only: vibration_type
@@ -26,22 +27,10 @@ module gfb_dynamics
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers
   implicit none (type, external)
   private
-  public :: find_dynamics, find_instability, mass_excess, find_whirl, opposite_builder, report_rotor
+  public :: find_dynamics, find_instability, mass_excess, find_whirl
 
   integer, parameter :: digits = 4       !! in tables of the log
   integer, parameter :: translations = 2 !! of the shaft's coordinates, the first ones
-
-  abstract interface
-    !> Builds the bearing of motions against the mirror's, where shells are solved on half the width.
-    subroutine opposite_builder(scene, bearing, opposite, error)
-      import :: scene_type, bearing_system_type, error_type
-      implicit none (type, external)
-      type(scene_type), intent(in) :: scene !! that the bearing is of
-      type(bearing_system_type), intent(in) :: bearing !! on half the width
-      type(bearing_system_type), intent(inout) :: opposite !! at no answer yet
-      type(error_type), allocatable, intent(out) :: error !! why it failed
-    end subroutine opposite_builder
-  end interface
 
   integer, parameter :: mode_digits = 5
   real(wp), parameter :: dead = 0.9_wp !! a mode with a larger damping ratio is not shown [1]
@@ -49,27 +38,28 @@ module gfb_dynamics
 
 contains
 
-  !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes; the bearing's
+  !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes, where they are asked for; the bearing's
   !> state and equations are left as they are.
-  subroutine find_dynamics(scene, log, bearing, newton, build, record, found, rotor)
+  subroutine find_dynamics(scene, log, bearing, newton, record, found)
     type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
-    procedure(opposite_builder) :: build !! of the bearing of tilts
     type(dynamics_record_type), intent(inout) :: record !! gets the answer's coefficients
-    type(quantity_type), allocatable, intent(out) :: found(:) !! entries of K and C, critical mass, whirl ratio
-    type(rotor_answer_type), intent(out) :: rotor !! modes of the scene's rotor, where it has one
+    !> entries of K and C, critical mass, whirl ratio, the rotor's growth; not allocated where nothing is asked for
+    type(quantity_type), allocatable, intent(out) :: found(:)
+    type(rotor_answer_type) :: rotor
     type(dynamic_response_type) :: response
     type(dynamics_point_type) :: point
     logical :: first
 
+    if (.not. scene%dynamics%present) return
     if (.not. allocated(record%point)) allocate (record%point(0))
     first = size(record%point) == 0
     allocate (found(0))
     if (.not. scene%sweep%present) call log%heading('small vibrations')
     if (first) call describe(scene, log)
-    call start_response(scene, bearing, build, response, record%problem)
+    call start_response(scene, bearing, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, log, bearing, response, point, record%problem)
@@ -86,11 +76,12 @@ contains
       if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
     record%point = [record%point, point]
-    newton%factorizations = newton%factorizations + response%factorizations
-    newton%enlargements = newton%enlargements + response%enlargements
     if (response%enlargements > 0) call show_enlargements(log, response%enlargements)
-    call destroy_response(response)
-    call bearing%linearise(bearing%state)
+    call end_response(bearing, newton, response)
+    if (.not. allocated(rotor%mode)) return
+    call show_rotor(log, bearing%point%speed, scene%sweep%present, found, scene%rotor%mass, rotor)
+    call add_rotor(rotor, found)
+    if (rotor%defined) record%point(size(record%point))%mode = mode_matrix(rotor)
   end subroutine find_dynamics
 
   !> Stiffness and damping at the frequencies of the scene.
@@ -190,11 +181,10 @@ contains
 
   !> What is positive where the rotor is unstable: growth of its least damped mode at an answer, and with a loss factor,
   !> which has no growth, the excess of its mass over the critical one.
-  subroutine find_instability(scene, bearing, newton, build, excess, problem)
+  subroutine find_instability(scene, bearing, newton, excess, problem)
     type(scene_type), intent(in) :: scene !! with a rotor
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
-    procedure(opposite_builder) :: build !! of the bearing of tilts
     real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
     character(len=:), allocatable, intent(out) :: problem !! why it was not found
     type(dynamic_response_type) :: response
@@ -207,7 +197,7 @@ contains
       excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
       return
     end if
-    call start_response(scene, bearing, build, response, problem)
+    call start_response(scene, bearing, response, problem)
     if (allocated(problem)) return
     call find_rotor_modes(bearing, response, rotor_of(scene), answer)
     if (.not. answer%found) then
@@ -217,10 +207,7 @@ contains
     else
       excess = real(answer%mode(answer%decides)%rate, wp)
     end if
-    newton%factorizations = newton%factorizations + response%factorizations
-    newton%enlargements = newton%enlargements + response%enlargements
-    call destroy_response(response)
-    call bearing%linearise(bearing%state)
+    call end_response(bearing, newton, response)
   end subroutine find_instability
 
   !> The excess of a mass over the critical one, over the sum of both: -1 where no mass whirls, 1 where every one does.
@@ -247,10 +234,7 @@ contains
     call choose_mass(scene, bearing, response)
     call find_critical_mass(bearing, response, whirl)
     if (.not. whirl%searched) problem = response_failure(response)
-    newton%factorizations = newton%factorizations + response%factorizations
-    newton%enlargements = newton%enlargements + response%enlargements
-    call destroy_response(response)
-    call bearing%linearise(bearing%state)
+    call end_response(bearing, newton, response)
   end subroutine find_whirl
 
   !> The scene's rotor.
@@ -263,10 +247,9 @@ contains
   end function rotor_of
 
   !> The bearing linearised at its answer, with that of tilts where shells are solved on half the width.
-  subroutine start_response(scene, bearing, build, response, problem)
+  subroutine start_response(scene, bearing, response, problem)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
-    procedure(opposite_builder) :: build
     type(dynamic_response_type), intent(out) :: response
     character(len=:), allocatable, intent(inout) :: problem !! why there is none
     type(bearing_system_type), allocatable :: opposite
@@ -274,7 +257,7 @@ contains
 
     if (scene%model%foil == foil_shell .and. bearing%pad(1)%whole%half) then
       allocate (opposite)
-      call build(scene, bearing, opposite, error)
+      call build_opposite(scene, bearing, opposite, error)
       if (allocated(error)) then
         problem = error%message
         return
@@ -283,6 +266,18 @@ contains
     call create_response(bearing, vibration_of(scene), response, opposite)
     call choose_mass(scene, bearing, response)
   end subroutine start_response
+
+  !> Counts what the vibrations have cost, and leaves the bearing's equations as they were.
+  subroutine end_response(bearing, newton, response)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(dynamic_response_type), intent(inout) :: response
+
+    newton%factorizations = newton%factorizations + response%factorizations
+    newton%enlargements = newton%enlargements + response%enlargements
+    call destroy_response(response)
+    call bearing%linearise(bearing%state)
+  end subroutine end_response
 
   !> What the foil does under vibration.
   pure function vibration_of(scene) result(vibration)
@@ -305,15 +300,12 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
 
-    associate (dynamics => scene%dynamics, foil => scene%model%foil)
-      if (meshes_foils(foil)) then
-        call log%line('contacts: closed ones stay closed, and if they rub '// &
-                      trim(merge('stick   ', 'slide on', dynamics%contact_tangent == tangent_stick)))
-        if (dynamics%loss_factor > 0.0_wp) then
-          call log%line('losses: loss_factor acts on the stiffness of top foil and bumps, in the place of friction')
-        end if
-      end if
-    end associate
+    if (.not. meshes_foils(scene%model%foil)) return
+    call log%line('contacts: closed ones stay closed, and if they rub '// &
+                  trim(merge('stick   ', 'slide on', scene%dynamics%contact_tangent == tangent_stick)))
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      call log%line('losses: loss_factor acts on the stiffness of top foil and bumps, in the place of friction')
+    end if
   end subroutine describe
 
   !> A line a frequency.
@@ -369,21 +361,6 @@ contains
     end if
   end subroutine add_whirl
 
-  !> Says how the rotor moves, in the log and as results, and gives the numbers that are kept.
-  subroutine report_rotor(log, speed, briefly, mass, answer, found, mode)
-    type(run_log_type), intent(in) :: log !! where lines go
-    real(wp), intent(in) :: speed !! of the shaft [rad/s]
-    logical, intent(in) :: briefly !! without the table of modes
-    real(wp), intent(in) :: mass !! of the rotor on this bearing [kg]
-    type(rotor_answer_type), intent(in) :: answer !! its modes
-    type(quantity_type), allocatable, intent(inout) :: found(:) !! has the critical mass, if there is one; gets growth, ...
-    real(wp), allocatable, intent(inout) :: mode(:, :) !! (number, mode) of the record [SI]
-
-    call show_rotor(log, speed, briefly, found, mass, answer)
-    call add_rotor(answer, found)
-    if (answer%defined) mode = mode_matrix(answer)
-  end subroutine report_rotor
-
   !> Says how the rotor moves.
   subroutine show_rotor(log, speed, briefly, known, mass, answer)
     type(run_log_type), intent(in) :: log !! where lines go
@@ -423,14 +400,13 @@ contains
     type(quantity_type), intent(in) :: known(:)
     real(wp), intent(in) :: mass !! [kg]
     character(len=:), allocatable :: words
-    integer :: i
+    integer :: place
 
     words = 'no mass whirls in x and y'
-    do i = 1, size(known)
-      if (known(i)%name /= 'critical_mass') cycle
-      words = 'it is lighter than the critical mass: stable in x and y'
-      if (mass > known(i)%number) words = 'it is heavier than the critical mass: it whirls'
-    end do
+    place = place_of('critical_mass', known)
+    if (place == 0) return
+    words = 'it is lighter than the critical mass: stable in x and y'
+    if (mass > known(place)%number) words = 'it is heavier than the critical mass: it whirls'
   end function by_mass
 
   !> A mode as a line of the table.

@@ -17,8 +17,8 @@ module gfb_folds
   use gfb_bearing_restart, only: save_bearing, restore_branch
   use gfb_bearing_record, only: sweep_name, sweep_unit
   use gfb_reasons, only: reason_type
-  use gfb_answer_record, only: record_swept
-  use gfb_sweep, only: sweep_type
+  use gfb_answer_record, only: record_answer
+  use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type)
   private
   public :: sweep_round_folds
@@ -32,7 +32,7 @@ contains
   !>
   !> Fails when that file is damaged.
   subroutine sweep_round_folds(sweep, reason, error)
-    type(sweep_type), target, intent(inout) :: sweep !! left at the last answer
+    type(bearing_solution_type), target, intent(inout) :: sweep !! left at the last answer
     type(reason_type), intent(out) :: reason !! why the branch does not lead on
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(fold_way_type), allocatable, target :: branch
@@ -72,7 +72,7 @@ contains
   !>
   !> Fails when that file is damaged.
   subroutine begin_branch(sweep, branch, error)
-    type(sweep_type), target, intent(inout) :: sweep
+    type(bearing_solution_type), target, intent(inout) :: sweep
     type(fold_way_type), target, intent(inout) :: branch
     type(error_type), allocatable, intent(out) :: error
     logical :: begun
@@ -95,7 +95,7 @@ contains
 
   !> One step along the branch, with what it has passed.
   subroutine take_step(sweep, branch, report, ended)
-    type(sweep_type), target, intent(inout) :: sweep
+    type(bearing_solution_type), target, intent(inout) :: sweep
     type(fold_way_type), target, intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(inout) :: ended
@@ -125,7 +125,7 @@ contains
   !> Records the answers at those values that the last step has passed; the branch ends where it leaves
   !> their range.
   subroutine record_values(sweep, branch, report, ended)
-    type(sweep_type), target, intent(inout) :: sweep
+    type(bearing_solution_type), target, intent(inout) :: sweep
     type(fold_way_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ended
@@ -155,14 +155,14 @@ contains
 
   !> Finds and records the answer at a value from a state on the branch close to it.
   subroutine record_value(sweep, number, branch, report, found)
-    type(sweep_type), target, intent(inout) :: sweep
+    type(bearing_solution_type), target, intent(inout) :: sweep
     integer, intent(in) :: number !! of the value
     type(fold_way_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: found
     type(newton_report_type) :: solved
 
-    associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
+    associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton)
       bearing%point = point_between(branch%first, branch%last, branch%lambda(number))
       call solve_newton(newton, solved)
       found = solved%converged
@@ -173,7 +173,7 @@ contains
       end if
       branch%kept = number
       branch%kept_heading = branch%arc%heading
-      call record_swept(scene, scene, sweep%context%log, bearing, newton, sweep%build, record, scene%sweep%values(number), .false.)
+      call record_answer(sweep, scene%sweep%values(number), .false.)
       call sweep%context%log%line('on the branch: '//value_text(scene, branch%lambda(number)))
     end associate
     call sweep%watch()
@@ -181,17 +181,15 @@ contains
 
   !> Records the answer at which the parameter turns back.
   subroutine record_fold(sweep, branch)
-    type(sweep_type), target, intent(inout) :: sweep
+    type(bearing_solution_type), target, intent(inout) :: sweep
     type(fold_way_type), intent(inout) :: branch
     real(wp) :: fold
 
     call branch%arc%to_turn()
     fold = branch%arc%lambda_before
-    associate (scene => sweep%scene, bearing => sweep%bearing, newton => sweep%newton, record => sweep%record)
-      call record_swept(scene, scene, sweep%context%log, bearing, newton, sweep%build, record, value_at(scene, fold), .true.)
-      branch%kept = 0
-      call sweep%context%log%line('fold: the branch turns back at '//value_text(scene, fold))
-    end associate
+    call record_answer(sweep, value_at(sweep%scene, fold), .true.)
+    branch%kept = 0
+    call sweep%context%log%line('fold: the branch turns back at '//value_text(sweep%scene, fold))
     call sweep%watch()
     call branch%arc%return_to()
   end subroutine record_fold

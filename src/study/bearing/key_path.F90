@@ -9,6 +9,7 @@ module gfb_key_path
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
   use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: scene_at_value
   use gfb_scene_point, only: operating_point
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type
@@ -24,18 +25,6 @@ module gfb_key_path
   implicit none (type)
   private
   public :: follow_keys
-
-  abstract interface
-    !> A scene with another value in it, on its mesh; fails where the value breaks a rule.
-    subroutine scene_at_interface(scene, value, there, error)
-      import :: wp, scene_type, error_type
-      type(scene_type), intent(in) :: scene !! what is asked for
-      real(wp), intent(in) :: value         !! of the keys [their unit]
-      type(scene_type), intent(out) :: there !! the scene with the value in it
-      type(error_type), allocatable, intent(out) :: error !! which rule is broken
-    end subroutine scene_at_interface
-
-  end interface
 
   integer, parameter :: hasty_iterations = 20      !! of a step that can be cut: one that converges does so soon
   integer, parameter :: straight_steps = 8         !! of a leap, before they are bent at contacts that change
@@ -57,7 +46,6 @@ module gfb_key_path
   !> A bearing on its way from a value of keys to another; the parameter is the share of the way.
   type, extends(path_problem_type) :: key_path_type
     type(scene_type), pointer :: scene => null()
-    procedure(scene_at_interface), pointer, nopass :: scene_at => null()
     type(bearing_plan_type), pointer :: plan => null()
     real(wp) :: from = 0.0_wp, to = 0.0_wp !! values [the keys' unit]
     integer :: maximum_steps = 0
@@ -84,9 +72,8 @@ contains
   !> converge, or moves the shaft or the free edge far, which may be to another branch, is halved. Where Newton's method
   !> goes to and fro between contacts however short the step, longer steps are tried, bent at contacts that change; what
   !> they find has to be near, too. On return the bearing is at the last answer.
-  subroutine follow_keys(scene, scene_at, plan, from, to, settings, bearing, newton, report)
+  subroutine follow_keys(scene, plan, from, to, settings, bearing, newton, report)
     type(scene_type), target, intent(in) :: scene !! what is asked for
-    procedure(scene_at_interface) :: scene_at !! puts a value into it
     type(bearing_plan_type), target, intent(in) :: plan !! of its meshes
     real(wp), intent(in) :: from, to !! values [the keys' unit]
     type(path_settings_type), intent(in) :: settings !! limits of the path
@@ -98,7 +85,6 @@ contains
     integer :: ending
 
     path%scene => scene
-    path%scene_at => scene_at
     path%plan => plan
     path%from = from
     path%to = to
@@ -125,7 +111,7 @@ contains
     report%steps = path%steps
     report%cuts = path%cuts
     if (report%fraction < 1.0_wp .and. .not. report%has_cause()) then
-      call rebuild(scene, scene_at, plan, value_at(from, to, report%fraction), path%here, bearing, newton, problem)
+      call rebuild(scene, plan, value_at(from, to, report%fraction), path%here, bearing, newton, problem)
       if (problem /= '') error stop 'a bearing that had been built cannot be built again'
     end if
     report%reached = bearing%point
@@ -139,7 +125,7 @@ contains
     logical, intent(out) :: converged !! there is an answer near the last one
     integer, intent(out) :: iterations
 
-    call try_value(self%scene, self%scene_at, self%plan, value_at(self%from, self%to, trial), trial, self%here, self%before, &
+    call try_value(self%scene, self%plan, value_at(self%from, self%to, trial), trial, self%here, self%before, &
                    self%leaps, self%bearing, self%newton, iterations, self%problem)
     if (self%problem == '') then
       if (has_moved(self%here, self%bearing)) self%problem = 'the shaft or the free edge jumps'
@@ -197,9 +183,8 @@ contains
   end function value_at
 
   !> Builds the bearing at a value and solves it from the answers before.
-  subroutine try_value(scene, scene_at, plan, value, at, here, before, leaps, bearing, newton, iterations, problem)
+  subroutine try_value(scene, plan, value, at, here, before, leaps, bearing, newton, iterations, problem)
     type(scene_type), intent(in) :: scene
-    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     real(wp), intent(in) :: value              !! [the sweep's unit]
     real(wp), intent(in) :: at                 !! path parameter [1]
@@ -213,7 +198,7 @@ contains
     type(newton_settings_type) :: kept
 
     iterations = 0
-    call rebuild(scene, scene_at, plan, value, here, bearing, newton, problem)
+    call rebuild(scene, plan, value, here, bearing, newton, problem)
     if (problem /= '') return
     if (before%at >= 0.0_wp .and. .not. leaps) then
       call predict(here, before, (at - here%at)/(here%at - before%at), bearing)
@@ -231,9 +216,8 @@ contains
   end subroutine try_value
 
   !> The bearing at a value, with a carried answer as its state; nothing is done where the value breaks a rule.
-  subroutine rebuild(scene, scene_at, plan, value, carried, bearing, newton, problem)
+  subroutine rebuild(scene, plan, value, carried, bearing, newton, problem)
     type(scene_type), intent(in) :: scene
-    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     real(wp), intent(in) :: value !! [the sweep's unit]
     type(carried_type), intent(in) :: carried
@@ -245,7 +229,7 @@ contains
     logical :: fits
 
     problem = ''
-    call scene_at(scene, value, there, error)
+    call scene_at_value(scene, value, there, error)
     if (allocated(error)) then
       problem = error%message
       return
@@ -256,7 +240,7 @@ contains
     if (fits) then
       call bearing%set_unknowns(carried%unknown)
     else
-      call interpolate(scene, scene_at, plan, carried, bearing)
+      call interpolate(scene, plan, carried, bearing)
     end if
   end subroutine rebuild
 
@@ -291,9 +275,8 @@ contains
   end subroutine compare_nodes
 
   !> Interpolates an answer on other nodes: where a pitch changes, the top foil may get more stations between its bumps.
-  subroutine interpolate(scene, scene_at, plan, carried, bearing)
+  subroutine interpolate(scene, plan, carried, bearing)
     type(scene_type), intent(in) :: scene
-    procedure(scene_at_interface) :: scene_at
     type(bearing_plan_type), intent(in) :: plan
     type(carried_type), intent(in) :: carried
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
@@ -301,7 +284,7 @@ contains
     type(scene_type) :: there
     type(error_type), allocatable :: error
 
-    call scene_at(scene, carried%value, there, error)
+    call scene_at_value(scene, carried%value, there, error)
     if (.not. allocated(error)) call build_bearing(there, plan, other, error)
     if (allocated(error)) error stop 'a bearing that had been built cannot be built again'
     other%point = operating_point(there%operation)

@@ -4,9 +4,9 @@
 module gfb_onset
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type
-  use gfb_result_phrases, only: at_begin_of_time
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, place_of, number_in
+  use gfb_result_table, only: at_begin_of_time
+  use gfb_result_names, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_speed
@@ -16,10 +16,10 @@ module gfb_onset
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_operating_point, only: operating_point_type
-  use gfb_case_file, only: history_row_type
   use gfb_last_answer, only: last_answer_type
+  use gfb_bearing_solution, only: bearing_solution_type
   use gfb_whirl, only: whirl_type
-  use gfb_dynamics, only: find_instability, mass_excess, find_whirl, opposite_builder
+  use gfb_dynamics, only: find_instability, mass_excess, find_whirl
   implicit none (type, external)
   private
   public :: look_for_onset, judge_first_point
@@ -36,54 +36,48 @@ contains
   !> the rotor's. The bearing comes back to its present answer.
   !>
   !> Every trial has an equilibrium of its own, on the path from the present answer.
-  subroutine look_for_onset(scene, log, path, history, bearing, newton, build, onset)
-    type(scene_type), intent(in) :: scene !! with the sweep
-    type(run_log_type), intent(in) :: log !! where lines go
-    type(path_settings_type), intent(in) :: path !! limits of paths
-    type(history_row_type), intent(in) :: history(:) !! of the points so far, the last one present
-    type(bearing_system_type), intent(inout) :: bearing !! at the last point's answer
-    type(newton_type), intent(inout) :: newton !! its solver
-    procedure(opposite_builder) :: build !! of the bearing of tilts
-    real(wp), intent(inout) :: onset !! set where it is 0, and a change is found [rpm]
+  subroutine look_for_onset(solution)
+    type(bearing_solution_type), intent(inout) :: solution !! at the last point's answer; its record gets the onset
     type(last_answer_type) :: kept
     type(root_bracket_type) :: bracket
     real(wp) :: speed(2), excess(2)
     character(len=:), allocatable :: problem
-    logical :: known(4)
+    logical :: known(2)
 
-    if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present) return
-    if (onset > 0.0_wp .or. size(history) < 2) return
-    associate (last => history(size(history) - 1:))
-      call look_up(last(1), 'speed_rpm', speed(1), known(1))
-      call look_up(last(2), 'speed_rpm', speed(2), known(2))
-      call look_up_excess(scene, last(1), excess(1), known(3))
-      call look_up_excess(scene, last(2), excess(2), known(4))
+    associate (scene => solution%scene, bearing => solution%bearing, newton => solution%newton, &
+               history => solution%record%history, onset => solution%record%dynamics%onset)
+      if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present) return
+      if (onset > 0.0_wp .or. size(history) < 2) return
+      associate (before => history(size(history) - 1)%quantity, last => history(size(history))%quantity)
+        speed = [number_in(before, 'speed_rpm'), number_in(last, 'speed_rpm')]
+        call look_up_excess(scene, before, excess(1), known(1))
+        call look_up_excess(scene, last, excess(2), known(2))
+      end associate
+      if (.not. all(known) .or. excess(1)*excess(2) > 0.0_wp) return
+      bracket = root_bracket_type(speed(1), speed(2), excess(1), excess(2))
+      call kept%save(bearing, newton)
+      call close_in(scene, solution%path, bearing, newton, bracket, problem)
+      call kept%restore(bearing, newton)
+      call bearing%linearise(bearing%state)
+      call kept%destroy()
+      if (.not. allocated(problem)) onset = bracket%high
+      call show_onset(scene, solution%context%log, bracket, excess(1) > 0.0_wp, problem)
     end associate
-    if (.not. all(known) .or. excess(1)*excess(2) > 0.0_wp) return
-    bracket = root_bracket_type(speed(1), speed(2), excess(1), excess(2))
-    call kept%save(bearing, newton)
-    call close_in(scene, path, bearing, newton, build, bracket, problem)
-    call kept%restore(bearing, newton)
-    call bearing%linearise(bearing%state)
-    call kept%destroy()
-    if (.not. allocated(problem)) onset = bracket%high
-    call show_onset(scene, log, bracket, excess(1) > 0.0_wp, problem)
   end subroutine look_for_onset
 
   !> What is positive where the rotor is unstable, of a point of the sweep.
   pure subroutine look_up_excess(scene, row, excess, known)
     type(scene_type), intent(in) :: scene
-    type(history_row_type), intent(in) :: row
+    type(quantity_type), intent(in) :: row(:)
     real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
     logical, intent(out) :: known
-    real(wp) :: critical_mass
 
     if (scene%dynamics%loss_factor > 0.0_wp) then
-      call look_up(row, 'critical_mass', critical_mass, known)
-      excess = mass_excess(scene%rotor%mass, critical_mass, known)
       known = .true. ! no mass whirls where there is none
+      excess = mass_excess(scene%rotor%mass, number_in(row, 'critical_mass'), place_of('critical_mass', row) > 0)
     else
-      call look_up(row, 'growth_rate', excess, known)
+      known = place_of('growth_rate', row) > 0
+      excess = number_in(row, 'growth_rate')
     end if
   end subroutine look_up_excess
 
@@ -110,30 +104,12 @@ contains
     end if
   end subroutine show_onset
 
-  !> A number of a row.
-  pure subroutine look_up(row, name, value, known)
-    type(history_row_type), intent(in) :: row
-    character(len=*), intent(in) :: name
-    real(wp), intent(out) :: value !! [its unit]
-    logical, intent(out) :: known
-    integer :: i
-
-    value = 0.0_wp
-    known = .false.
-    do i = 1, size(row%quantity)
-      if (row%quantity(i)%name /= name) cycle
-      value = row%quantity(i)%number
-      known = .true.
-    end do
-  end subroutine look_up
-
   !> False position with halved weights (Illinois) between two speeds, from the second one's answer.
-  subroutine close_in(scene, path, bearing, newton, build, bracket, problem)
+  subroutine close_in(scene, path, bearing, newton, bracket, problem)
     type(scene_type), intent(in) :: scene
     type(path_settings_type), intent(in) :: path
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
-    procedure(opposite_builder) :: build
     type(root_bracket_type), intent(inout) :: bracket !! of speeds [rpm]; its `high` is the onset where that is found
     character(len=:), allocatable, intent(out) :: problem !! why it is not found
     type(operating_point_type) :: target
@@ -148,7 +124,7 @@ contains
       target%speed = angular_speed(trial)
       call follow_path(bearing, newton, target, 1.0_wp, path, report)
       if (report%converged()) then
-        call find_instability(scene, bearing, newton, build, here, problem)
+        call find_instability(scene, bearing, newton, here, problem)
       else
         problem = report%reason()
       end if
@@ -168,36 +144,32 @@ contains
   !>
   !> Of a rotor that tilts on two bearings it is the motion without tilt that is judged, by what
   !> each of them carries. The bearing's state and equations are left as they are.
-  subroutine judge_first_point(scene, log, bearing, newton, found)
-    type(scene_type), intent(in) :: scene !! with `&transient`
-    type(run_log_type), intent(in) :: log !! where the line goes
-    type(bearing_system_type), intent(inout) :: bearing !! at its equilibrium
-    type(newton_type), intent(inout) :: newton !! its factorizations are counted
-    type(quantity_type), allocatable, intent(inout) :: found(:) !! gets what it is
+  subroutine judge_first_point(solution)
+    type(bearing_solution_type), intent(inout) :: solution !! of `&transient`, at its equilibrium; its record gets what it is
     type(scene_type) :: vibrating
     type(whirl_type) :: whirl
     character(len=:), allocatable :: words, problem
 
-    if (.not. bearing%floats .or. bearing%shaft_fixed) return
-    if (.not. bearing%point%speed > 0.0_wp) return
-    call log%is_at('the critical mass')
-    vibrating = scene
-    vibrating%dynamics%foundation_damping = scene%transient%foundation_damping
-    vibrating%dynamics%arm = scene%transient%arm
-    vibrating%dynamics%foil_modes = scene%transient%foil_modes
-    call find_whirl(vibrating, bearing, newton, whirl, problem)
-    call log%is_at('')
-    if (allocated(problem)) return
-    associate (point => bearing%point, mass => scene%rotor%mass)
+    associate (bearing => solution%bearing, log => solution%context%log, point => solution%bearing%point, &
+               mass => solution%scene%rotor%mass)
+      if (.not. bearing%floats .or. bearing%shaft_fixed) return
+      if (.not. point%speed > 0.0_wp) return
+      call log%is_at('the critical mass')
+      vibrating = solution%scene
+      vibrating%dynamics%foundation_damping = vibrating%transient%foundation_damping
+      vibrating%dynamics%arm = vibrating%transient%arm
+      vibrating%dynamics%foil_modes = vibrating%transient%foil_modes
+      call find_whirl(vibrating, bearing, solution%newton, whirl, problem)
+      call log%is_at('')
+      if (allocated(problem)) return
       words = 'the first point, '//text(point%speed/rpm)//' rpm under ('// &
               text(point%load(1), digits)//', '//text(point%load(2), digits)//') N, is linearly '
       if (.not. whirl%found) then
-        call log%line(words//'stable: no rigid shaft whirls there between 0.05 and 1.2 times '// &
-                      'the speed')
+        call log%line(words//'stable: no rigid shaft whirls there between 0.05 and 1.2 times the speed')
         return
       end if
-      call add_result(found, 'critical_mass', whirl%critical_mass, at_begin_of_time)
-      call add_result(found, 'whirl_ratio', whirl%ratio)
+      call add_result(solution%record%judged, 'critical_mass', whirl%critical_mass, at_begin_of_time)
+      call add_result(solution%record%judged, 'whirl_ratio', whirl%ratio)
       if (mass > whirl%critical_mass) then
         call log%warning(words//'unstable: the mass of '//text(mass, digits)//' kg is above '// &
                          'the critical mass of '//text(whirl%critical_mass, digits)// &

@@ -5,7 +5,7 @@ module gfb_limit_search
   use gfb_kinds, only: wp
   use gfb_ending, only: path_reached, path_stopped, path_lost, ending_fold
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_load_capacity, analysis_lift_off

@@ -7,8 +7,8 @@ module gfb_modes_study
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
-  use gfb_results, only: add_result
-  use gfb_result_phrases, only: all_modes_found, of_shifted_stiffness
+  use gfb_result_names, only: add_result
+  use gfb_result_table, only: all_modes_found, of_shifted_stiffness
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count, largest_over_ranks
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
@@ -36,22 +36,16 @@ module gfb_modes_study
   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
   real(wp), parameter :: rigid = 1.0e-3_wp !! eigenvalues below this share of the plate's are rigid [1]
 
-  !> What was found.
-  type :: modes_result_type
-    logical :: converged = .false.                  !! all modes asked for
-    type(modes_type) :: modes
-    real(wp) :: shift = 0.0_wp                      !! size of the lowest eigenvalue [1/s2]
-    real(wp) :: lost = 0.0_wp, left = 0.0_wp        !! digits of eigenvalues, as `sharpen_modes` has it [1]
-    type(case_array_type), allocatable :: arrays(:) !! matrices of the reduced strip
-    type(quantity_type), allocatable :: reduced(:)  !! its frequencies
-  end type modes_result_type
-
   !> The component that vibrates, and its modes.
   type, extends(study_type), public :: modes_study_type
     private
     type(foil_plan_type) :: plan
     type(foil_structure_type) :: component
-    type(modes_result_type) :: result
+    type(modes_type) :: modes
+    real(wp) :: shift = 0.0_wp                      !! size of the lowest eigenvalue [1/s2]
+    real(wp) :: lost = 0.0_wp, left = 0.0_wp        !! digits of eigenvalues, as `sharpen_modes` has it [1]
+    type(case_array_type), allocatable :: arrays(:) !! matrices of the reduced strip
+    type(quantity_type), allocatable :: reduced(:)  !! its frequencies
   contains
     procedure :: prepare => prepare_modes
     procedure :: solve => solve_modes
@@ -61,30 +55,56 @@ module gfb_modes_study
 
 contains
 
-  !> Shows the modes and writes all files.
+  !> Shows the modes and writes the result files.
   !>
   !> Fails when one cannot be written.
-  subroutine write_modes(scene, context, component, found, summary, error)
+  subroutine write_study(self, scene, context, summary, error)
+    class(modes_study_type), target, intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
-    type(foil_structure_type), intent(in) :: component !! that vibrates
-    type(modes_result_type), intent(in) :: found !! the modes
-    type(quantity_type), allocatable, intent(out) :: summary(:) !! all of it
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(quantity_type), allocatable :: list(:)
     type(history_row_type) :: history(1)
     type(result_grid_type) :: grid
+    real(wp) :: memory(1)
+    integer :: i
 
-    call show_closing_block(context%log, scene, found%modes, component)
-    call warn_of_round_off(context%log, found%lost, found%left, scene%modes%part == part_strip)
-    call draw_modes(scene, component, found%modes, grid)
-    call add_quantity(history(1)%quantity, mode_quantities(found%converged, found%modes, found%shift))
-    call add_round_off(found%lost, found%left, history(1)%quantity)
-    call add_quantity(history(1)%quantity, cost_quantities(component, context%start_time))
-    call add_quantity(summary, history(1)%quantity)
-    call add_quantity(summary, found%reduced)
-    call write_result_set(scene, context%folder, found%converged, context%origin(), summary, history, &
-                          found%arrays, [grid], context%csv, context%log, error)
-  end subroutine write_modes
+    associate (log => context%log, eigenvalue => self%modes%eigenvalue)
+      call log%heading('answer')
+      do i = 1, size(eigenvalue)
+        call log%line('mode '//text(i)//'  '//text(hertz(eigenvalue(i)), 6)//' Hz')
+      end do
+      call log%line(trim(part_words(scene%modes%part))//' of '//text(self%component%unknowns)//' unknowns, '// &
+                    text(rank_count())//' rank(s), BLAS '//blas_in_use())
+      if (self%lost > exact) call warn_of_round_off(log, self%lost, self%left, scene%modes%part == part_strip)
+      call draw_modes(scene, self%component, self%modes, grid)
+      call add_result(list, 'analysis', 'modes')
+      call add_result(list, 'converged', self%converged, all_modes_found)
+      do i = 1, size(eigenvalue)
+        call add_result(list, 'frequency_'//text(i), hertz(eigenvalue(i)))
+      end do
+      call add_result(list, 'rigid_modes', count(abs(eigenvalue) < rigid*self%shift))
+      if (self%lost > exact) call add_result(list, 'frequency_round_off', self%left)
+      memory = sum_over_ranks([peak_memory()])
+      call add_result(list, 'unknowns', self%component%unknowns)
+      call add_result(list, 'factorizations', 1, of_shifted_stiffness)
+      call add_result(list, 'wall_time', wall_time() - context%start_time)
+      call add_result(list, 'peak_memory', memory(1))
+      history(1)%quantity = list
+      call add_quantity(summary, list)
+      call add_quantity(summary, self%reduced)
+      call write_result_set(scene, context%folder, self%converged, context%origin(), summary, history, &
+                            self%arrays, [grid], context%csv, log, error)
+    end associate
+  end subroutine write_study
+
+  !> Frequency of an eigenvalue; one that rounding has made negative has none.
+  elemental function hertz(eigenvalue) result(frequency)
+    real(wp), intent(in) :: eigenvalue !! [1/s2]
+    real(wp) :: frequency !! [Hz]
+    frequency = sqrt(max(eigenvalue, 0.0_wp))/turn
+  end function hertz
 
   !> The shapes of the modes as fields of a surface.
   subroutine draw_modes(scene, component, modes, grid)
@@ -103,72 +123,17 @@ contains
     end do
   end subroutine draw_modes
 
-  !> Quantities of the answer.
-  function mode_quantities(converged, modes, shift) result(list)
-    logical, intent(in) :: converged
-    type(modes_type), intent(in) :: modes
-    real(wp), intent(in) :: shift !! [1/s2]
-    type(quantity_type), allocatable :: list(:)
-    integer :: i
-
-    call add_result(list, 'analysis', 'modes')
-    call add_result(list, 'converged', converged, all_modes_found)
-    do i = 1, size(modes%eigenvalue)
-      call add_result(list, 'frequency_'//text(i), sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn)
-    end do
-    call add_result(list, 'rigid_modes', count(abs(modes%eigenvalue) < rigid*shift))
-  end function mode_quantities
-
-  !> Quantities of what it cost.
-  function cost_quantities(component, start_time) result(list)
-    type(foil_structure_type), intent(in) :: component
-    real(wp), intent(in) :: start_time !! [s]
-    type(quantity_type), allocatable :: list(:)
-    real(wp) :: memory(1)
-
-    memory = sum_over_ranks([peak_memory()])
-    call add_result(list, 'unknowns', component%unknowns)
-    call add_result(list, 'factorizations', 1, of_shifted_stiffness)
-    call add_result(list, 'wall_time', wall_time() - start_time)
-    call add_result(list, 'peak_memory', memory(1))
-  end function cost_quantities
-
-  !> Adds what round-off leaves, where it is worth a word.
-  subroutine add_round_off(lost, left, list)
-    real(wp), intent(in) :: lost, left !! of the eigenvalues, as `sharpen_modes` has it [1]
-    type(quantity_type), allocatable, intent(inout) :: list(:)
-
-    if (lost > exact) call add_result(list, 'frequency_round_off', left)
-  end subroutine add_round_off
-
   !> Says where the matrix had lost digits.
   subroutine warn_of_round_off(log, lost, left, reduced)
     type(run_log_type), intent(in) :: log
     real(wp), intent(in) :: lost, left !! of the eigenvalues [1]
     logical, intent(in) :: reduced     !! there is a reduced strip too
 
-    if (.not. lost > exact) return
     call log%warning('the foil is so thin that round-off of its stretching stiffness moves frequencies by up to '// &
                      text(0.5_wp*lost, 2)//' of themselves; the energies of strains put them right, to about '// &
                      text(left, 2))
     if (reduced) call log%warning('the Craig-Bampton matrices and frequencies keep that round-off')
   end subroutine warn_of_round_off
-
-  !> The answer in the units an engineer reads.
-  subroutine show_closing_block(log, scene, modes, component)
-    type(run_log_type), intent(in) :: log
-    type(scene_type), intent(in) :: scene
-    type(modes_type), intent(in) :: modes
-    type(foil_structure_type), intent(in) :: component
-    integer :: i
-
-    call log%heading('answer')
-    do i = 1, size(modes%eigenvalue)
-      call log%line('mode '//text(i)//'  '//text(sqrt(max(modes%eigenvalue(i), 0.0_wp))/turn, 6)//' Hz')
-    end do
-    call log%line(trim(part_words(scene%modes%part))//' of '//text(component%unknowns)//' unknowns, '// &
-                  text(rank_count())//' rank(s), BLAS '//blas_in_use())
-  end subroutine show_closing_block
 
   !> Condenses every super-element of a strip, with some of its fixed-interface modes.
   !>
@@ -192,7 +157,7 @@ contains
     eigenvalue = assembled_eigenvalues(strip, kinds, shift, wanted)
     call list_matrices(strip, kinds, arrays)
     do i = 1, size(eigenvalue)
-      call add_result(frequencies, 'craig_bampton_frequency_'//text(i), sqrt(max(eigenvalue(i), 0.0_wp))/turn)
+      call add_result(frequencies, 'craig_bampton_frequency_'//text(i), hertz(eigenvalue(i)))
     end do
     call log%line('Craig-Bampton: '//text(size(kinds))//' kinds of super-element with '//text(modes_kept)// &
                   ' modes each, written to /craig_bampton')
@@ -256,7 +221,7 @@ contains
     PetscErrorCode :: ierr
     integer :: found
 
-    associate (component => self%component, modes => self%result%modes, shift => self%result%shift)
+    associate (component => self%component, modes => self%modes, shift => self%shift)
       call build_part(scene, self%plan, component, error)
       if (allocated(error)) return
       call assemble_mass(component, mass, error)
@@ -265,7 +230,7 @@ contains
       call free_motions(component, mass, motions)
       call lowest_modes(component%stiffness, mass, shift, scene%modes%count, modes, motions)
       call destroy_modes(motions)
-      call sharpen_modes(component, mass, rigid*shift, modes, self%result%lost, self%result%left, error)
+      call sharpen_modes(component, mass, rigid*shift, modes, self%lost, self%left, error)
       PetscCallA(MatDestroy(mass, ierr))
       if (allocated(error)) return
       found = size(modes%eigenvalue)
@@ -275,33 +240,19 @@ contains
         self%reason%at = found
         call context%log%tell(self%reason%words())
       end if
-      allocate (self%result%arrays(0), self%result%reduced(0))
+      allocate (self%arrays(0), self%reduced(0))
       if (scene%modes%part == part_strip) then
-        call reduce_strip(component, scene%modes%substructure_modes, found, shift, context%log, self%result%arrays, &
-                          self%result%reduced, error)
+        call reduce_strip(component, scene%modes%substructure_modes, found, shift, context%log, self%arrays, &
+                          self%reduced, error)
       end if
     end associate
   end subroutine solve_modes
-
-  !> Writes the result files.
-  !>
-  !> Fails when one cannot be written.
-  subroutine write_study(self, scene, context, summary, error)
-    class(modes_study_type), target, intent(inout) :: self !! the study
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(run_context_type), intent(in) :: context !! of the run
-    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-
-    self%result%converged = self%converged
-    call write_modes(scene, context, self%component, self%result, summary, error)
-  end subroutine write_study
 
   !> Frees what the solvers hold.
   subroutine discard_modes(self)
     class(modes_study_type), intent(inout) :: self !! the study
 
-    call destroy_modes(self%result%modes)
+    call destroy_modes(self%modes)
     call destroy_foil_structure(self%component)
   end subroutine discard_modes
 

@@ -19,14 +19,13 @@ module gfb_strip_study
   use gfb_newton, only: newton_type, newton_report_type, forget_factors, visit_counts, newton_settings_type, create_newton, &
                         destroy_newton
   use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
-  use gfb_case_file, only: history_row_type, case_array_type, add_arrays
+  use gfb_case_file, only: history_row_type, case_array_type
   use gfb_contact_record, only: record_contacts, visit_contact_record, contact_arrays
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header, answer_quantities, cost_quantities, strip_run_type, &
-                               visit_run, strip_companions, show_companions, companion_arrays
+                               visit_run, strip_companions, show_companions, add_companions
   use gfb_restart, only: save_restart, read_restart, end_reading
   use gfb_reasons, only: reason_type, reason_load_step
   use gfb_run_context, only: run_context_type
-  use gfb_walk, only: walk_type, take_walk
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_petsc_session, only: rank_count
@@ -41,47 +40,41 @@ module gfb_strip_study
   use gfb_strip_builder, only: build_strip
   use gfb_foil_plan, only: plan_foil
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_study, only: study_type
+  use gfb_study, only: study_type, run_points
   implicit none (type)
   private
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a balance of forces, relative
 
+  real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
+  real(wp), parameter :: lost_digits = 1.0e-6_wp !! round-off of deflections that is worth a warning
+
   !> The strip, its solver, and what was recorded. Keep it where it is.
-  type, extends(walk_type) :: load_steps_type
+  type, extends(study_type), public :: strip_study_type
+    private
+    type(foil_plan_type) :: plan
     type(scene_type) :: scene
     type(run_context_type) :: context
     type(strip_system_type) :: strip
     type(newton_type) :: newton
     type(strip_run_type) :: run
-    type(load_path_type), private :: path
-    type(strip_recorder_type), private :: recorder
-    integer, private :: before(2) = 0 !! iterations and factorizations before the present step
+    type(load_path_type) :: path
+    type(strip_recorder_type) :: recorder
+    integer :: before(2) = 0 !! iterations and factorizations before the present step
   contains
+    procedure :: prepare => prepare_strip
+    procedure :: solve => solve_strip
     procedure :: reach => reach_step
     procedure :: record_point => record_step
     procedure :: save_point => save_step
     procedure :: save_stopped
+    procedure :: write => write_study
+    procedure :: left_out => strip_left_out
+    procedure :: discard => discard_strip
     procedure, private :: save
     procedure, private :: restore
     procedure, private :: visit
     procedure, private :: explain
-  end type load_steps_type
-
-  real(wp), parameter :: large_deflection = 0.25_wp !! of the bump height
-  real(wp), parameter :: lost_digits = 1.0e-6_wp !! round-off of deflections that is worth a warning
-
-  !> The strip, and what was found of it.
-  type, extends(study_type), public :: strip_study_type
-    private
-    type(foil_plan_type) :: plan
-    type(load_steps_type) :: steps
-  contains
-    procedure :: prepare => prepare_strip
-    procedure :: solve => solve_strip
-    procedure :: write => write_study
-    procedure :: left_out => strip_left_out
-    procedure :: discard => discard_strip
   end type strip_study_type
 
 contains
@@ -89,33 +82,34 @@ contains
   !> All load steps, after strip and solver have been made.
   !>
   !> Fails when a restart file cannot be read.
-  subroutine load_and_unload(steps, reason, error)
-    class(load_steps_type), target, intent(inout) :: steps !! with strip and solver made
-    type(reason_type), intent(out) :: reason !! why a step has no answer
+  subroutine load_and_unload(self, error)
+    class(strip_study_type), target, intent(inout) :: self !! with strip and solver made
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(reason_type) :: reason
     character(len=:), allocatable :: lifted
     integer :: last
 
-    associate (scene => steps%scene, log => steps%context%log, run => steps%run)
+    associate (scene => self%scene, log => self%context%log, run => self%run)
       last = scene%strip_load%steps_up + scene%strip_load%steps_down
       allocate (run%history(0))
-      call start_recorder(steps%strip, scene%bump_foil%bumps, steps%recorder)
-      call create_load_path(steps%strip, steps%path)
-      run%full = steps%recorder%last
-      run%last = steps%recorder%last
-      if (steps%context%restart%goes_on) then
-        call steps%restore(last, error)
+      call start_recorder(self%strip, scene%bump_foil%bumps, self%recorder)
+      call create_load_path(self%strip, self%path)
+      run%full = self%recorder%last
+      run%last = self%recorder%last
+      if (self%context%restart%goes_on) then
+        call self%restore(last, error)
         if (allocated(error)) return
       end if
       call show_step_header(log)
       lifted = what_lifts(scene)
       if (lifted /= '' .and. run%steps == 0) then
-        call steps%explain(1, lifted, reason)
+        call self%explain(1, lifted, reason)
       else
-        call take_walk(steps, run%steps + 1, last, reason)
+        call run_points(self, run%steps + 1, last, reason, error)
       end if
+      self%reason = reason
       run%converged = .not. reason%is_given()
-      associate (path => steps%path)
+      associate (path => self%path)
         if (path%at_round_off > 0) then
           call log%line(text(path%at_round_off)//' steps ended at round-off, where Newton''s moved by up to '// &
                         text(path%round_off, 2)//' of the deflection')
@@ -125,15 +119,16 @@ contains
         end if
       end associate
     end associate
-    call destroy_load_path(steps%path)
-    call destroy_recorder(steps%recorder)
+    call destroy_load_path(self%path)
+    call destroy_recorder(self%recorder)
   end subroutine load_and_unload
 
   !> Brings the strip to the load of a step.
-  subroutine reach_step(self, point, reason)
-    class(load_steps_type), target, intent(inout) :: self !! the load steps
+  subroutine reach_step(self, point, reason, error)
+    class(strip_study_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point             !! number of the step
     type(reason_type), intent(out) :: reason !! why there is no answer
+    type(error_type), allocatable, intent(out) :: error !! none
     type(newton_report_type) :: report
 
     self%before = [self%newton%iterations, self%newton%factorizations]
@@ -145,7 +140,7 @@ contains
 
   !> Records a step's answer, from which the next one starts.
   subroutine record_step(self, point)
-    class(load_steps_type), target, intent(inout) :: self !! the load steps
+    class(strip_study_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
     type(history_row_type) :: row
     integer :: iterations, factorizations
@@ -167,7 +162,7 @@ contains
 
   !> Writes the restart file, where one is due.
   subroutine save_step(self, point)
-    class(load_steps_type), target, intent(inout) :: self !! the load steps
+    class(strip_study_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
 
     if (self%context%restart%is_due(point)) call self%save()
@@ -175,7 +170,7 @@ contains
 
   !> Writes the restart file of load steps that are stopped after one of them.
   subroutine save_stopped(self, point)
-    class(load_steps_type), target, intent(inout) :: self !! the load steps
+    class(strip_study_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the last one that has an answer
 
     if (point < 1 .or. .not. self%context%restart%may_be_written()) return
@@ -186,7 +181,7 @@ contains
 
   !> Writes the restart file after a step; where files are asked for the solver loses its factors.
   subroutine save(self)
-    class(load_steps_type), intent(inout) :: self !! the load steps
+    class(strip_study_type), intent(inout) :: self !! the load steps
     type(archive_type) :: archive(1)
 
     if (self%context%restart%every > 0) call forget_factors(self%newton)
@@ -199,7 +194,7 @@ contains
   !>
   !> Fails when the file is damaged.
   subroutine restore(self, steps, error)
-    class(load_steps_type), intent(inout) :: self !! the load steps, as they begin
+    class(strip_study_type), intent(inout) :: self !! the load steps, as they begin
     integer, intent(in) :: steps !! that there will be
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(archive_type) :: archive
@@ -215,7 +210,7 @@ contains
 
   !> Saves or restores strip, counters, and all that was recorded.
   subroutine visit(self, archive)
-    class(load_steps_type), intent(inout) :: self !! the load steps
+    class(strip_study_type), intent(inout) :: self !! the load steps
     type(archive_type), intent(inout) :: archive !! that saves or restores
 
     call visit_strip(archive, self%strip, self%path)
@@ -227,7 +222,7 @@ contains
 
   !> Says why a step has no answer.
   subroutine explain(self, step, detail, reason)
-    class(load_steps_type), intent(in) :: self !! the load steps
+    class(strip_study_type), intent(in) :: self !! the load steps
     integer, intent(in) :: step !! number of the step
     character(len=*), intent(in) :: detail !! what hinders
     type(reason_type), intent(out) :: reason !! why there is none
@@ -300,32 +295,6 @@ contains
     end associate
   end function what_lifts
 
-  !> Shows the answer and writes all files.
-  !>
-  !> Fails when one cannot be written.
-  subroutine write_strip(scene, context, steps, more, summary, error)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    type(run_context_type), intent(in) :: context !! of the run
-    type(load_steps_type), intent(inout) :: steps !! that were taken
-    type(quantity_type), intent(in) :: more(:) !! for the summary
-    type(quantity_type), allocatable, intent(out) :: summary(:) !! all of it
-    type(error_type), allocatable, intent(out) :: error !! why it failed
-    logical :: plates
-
-    plates = scene%strip_load%kind == load_plates
-    associate (run => steps%run)
-      call add_quantity(summary, answer_quantities(run%full, run%last, plates, run%converged))
-      call add_quantity(summary, more)
-      call add_quantity(summary, cost_quantities(steps%strip, steps%newton, context%start_time))
-      run%companions = strip_companions(scene, run%full%force)
-      call show_closing_block(context%log, run, plates)
-      call warn(context%log, scene, run%full)
-      call show_contact_notes(context%log, scene%contact, run%full%contact, max(run%full%travel, maxval(run%full%deflection)))
-      if (run%full%factor > run%last%factor) call show_loop_note(context%log, scene%contact, run%full%contact%slip)
-    end associate
-    call write_files(scene, context, steps, summary, error)
-  end subroutine write_strip
-
   !> Says where an answer is not what it seems.
   subroutine warn(log, scene, answer)
     type(run_log_type), intent(in) :: log
@@ -348,38 +317,6 @@ contains
                        'the foil is so thin that the last digits of its stretching stiffness are a part of its bending stiffness')
     end if
   end subroutine warn
-
-  !> Writes all files.
-  !>
-  !> Fails when one cannot be written.
-  subroutine write_files(scene, context, steps, summary, error)
-    type(scene_type), intent(in) :: scene
-    type(run_context_type), intent(in) :: context
-    type(load_steps_type), intent(in) :: steps
-    type(quantity_type), intent(in) :: summary(:)
-    type(error_type), allocatable, intent(out) :: error
-
-    type(result_grid_type) :: grid
-    type(case_array_type), allocatable :: arrays(:)
-    real(wp), allocatable :: moved(:, :)
-    Vec :: solution
-    PetscErrorCode :: ierr
-
-    associate (strip => steps%strip, run => steps%run)
-      allocate (moved(node_unknowns, size(strip%foil%part%mesh_node)))
-      call strip%foil_solution(solution)
-      call strip%foil%displacements(solution, moved)
-      PetscCallA(VecDestroy(solution, ierr))
-      call create_foil_grid(strip%foil, 'bump_foil', grid)
-      call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
-      call add_contacts(strip%contacts, strip%foil, grid)
-      call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
-      arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
-      call add_arrays(arrays, companion_arrays(run%companions))
-      call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
-                            arrays, [grid], context%csv, context%log, error)
-    end associate
-  end subroutine write_files
 
   !> The answer in the units an engineer reads.
   subroutine show_closing_block(log, run, plates)
@@ -416,9 +353,9 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    self%steps%scene = scene
-    self%steps%context = context
-    associate (strip => self%steps%strip, newton => self%steps%newton, run => self%steps%run, solver => scene%solver)
+    self%scene = scene
+    self%context = context
+    associate (strip => self%strip, newton => self%newton, run => self%run, solver => scene%solver)
       call enter_stage('set-up')
       call build_strip(scene, self%plan, strip, error)
       call leave_stage()
@@ -429,7 +366,7 @@ contains
       call create_newton(newton, strip, 'strip_', &
                          newton_settings_type(solver%residual_tolerance, solver%step_tolerance, &
                                               solver%maximum_iterations), context%log)
-      call load_and_unload(self%steps, self%reason, error)
+      call load_and_unload(self, error)
       if (allocated(error)) return
       self%converged = run%converged
       self%unknowns = strip%unknowns
@@ -439,7 +376,7 @@ contains
     end associate
   end subroutine solve_strip
 
-  !> Writes the result files.
+  !> Shows the answer and writes the result files.
   !>
   !> Fails when one cannot be written.
   subroutine write_study(self, scene, context, summary, error)
@@ -448,12 +385,39 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(result_grid_type) :: grid
+    type(case_array_type), allocatable :: arrays(:)
+    real(wp), allocatable :: moved(:, :)
+    logical :: plates
+    Vec :: solution
+    PetscErrorCode :: ierr
 
-    self%steps%run%converged = self%converged
-    self%steps%newton%iterations = self%iterations
-    self%steps%newton%factorizations = self%factorizations
-    if (.not. allocated(self%more)) allocate (self%more(0))
-    call write_strip(scene, context, self%steps, self%more, summary, error)
+    plates = scene%strip_load%kind == load_plates
+    self%newton%iterations = self%iterations
+    self%newton%factorizations = self%factorizations
+    associate (strip => self%strip, run => self%run)
+      run%converged = self%converged
+      call add_quantity(summary, answer_quantities(run%full, run%last, plates, run%converged))
+      if (allocated(self%more)) call add_quantity(summary, self%more)
+      call add_quantity(summary, cost_quantities(strip, self%newton, context%start_time))
+      run%companions = strip_companions(scene, run%full%force)
+      call show_closing_block(context%log, run, plates)
+      call warn(context%log, scene, run%full)
+      call show_contact_notes(context%log, scene%contact, run%full%contact, max(run%full%travel, maxval(run%full%deflection)))
+      if (run%full%factor > run%last%factor) call show_loop_note(context%log, scene%contact, run%full%contact%slip)
+      allocate (moved(node_unknowns, size(strip%foil%part%mesh_node)))
+      call strip%foil_solution(solution)
+      call strip%foil%displacements(solution, moved)
+      PetscCallA(VecDestroy(solution, ierr))
+      call create_foil_grid(strip%foil, 'bump_foil', grid)
+      call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
+      call add_contacts(strip%contacts, strip%foil, grid)
+      call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
+      arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
+      call add_companions(run%companions, arrays)
+      call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
+                            arrays, [grid], context%csv, context%log, error)
+    end associate
   end subroutine write_study
 
   !> What the model leaves out, and why.
@@ -472,7 +436,7 @@ contains
   subroutine discard_strip(self)
     class(strip_study_type), intent(inout) :: self !! the study
 
-    call destroy_newton(self%steps%newton)
-    call destroy_strip_system(self%steps%strip)
+    call destroy_newton(self%newton)
+    call destroy_strip_system(self%strip)
   end subroutine discard_strip
 end module gfb_strip_study

@@ -10,33 +10,32 @@ module gfb_divided_bearing
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_archive, only: archive_type
-  use gfb_quantity, only: quantity_type
-  use gfb_result_names, only: compared_names, result_unit
-  use gfb_result_phrases, only: with_stretches
-  use gfb_result_table, only: name_length
-  use gfb_results, only: add_result
+  use gfb_quantity, only: quantity_type, place_of, number_in
+  use gfb_result_names, only: compared_names, result_unit, add_result
+  use gfb_result_table, only: with_stretches, name_length
   use gfb_scene, only: scene_type
   use gfb_case_file, only: history_row_type, case_array_type, visit_rows, visit_arrays
   use gfb_grid_series, only: grid_series_type, join_series, visit_series, cut_series
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, visit_dynamics
   use gfb_tilt_response, only: tilt_axis
   use gfb_bearing_record, only: sweep_name, sweep_unit
-  use gfb_reasons, only: reason_type, reason_failed
+  use gfb_reasons, only: reason_type, reason_failed, status_unconverged
   use gfb_errors, only: error_type
   use gfb_division, only: block_ends
   use gfb_run_log, only: run_log_type
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
-  use gfb_bearing_writing, only: record_arrays, write_coefficients, bearing_result_type, write_bearing
+  use gfb_bearing_writing, only: record_arrays, bearing_result_type, write_bearing
   use gfb_restart, only: drop_restart
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type
   use gfb_bearing_study, only: bearing_study_type
+  use gfb_sweep_study, only: sweep_study_type
   use gfb_pool, only: pool_type, group_log_path, end_log
   implicit none (type)
   private
-  public :: visit_block, merge_histories, number_of, merge_frequencies, run_divided_bearing
+  public :: visit_block, merge_histories, merge_frequencies, run_divided_bearing
 
   !> Two paths to one answer differ by less, over the clearance [1].
   real(wp), parameter :: same_answer = 1.0e-5_wp
@@ -61,7 +60,6 @@ module gfb_divided_bearing
   end type bearing_block_type
 
   integer, parameter :: search = 13 !! frequencies that take as long as the search for the critical mass
-  integer, parameter :: status_unconverged = 2
 
 contains
 
@@ -132,12 +130,10 @@ contains
     type(history_row_type), intent(inout) :: row
     character(len=*), intent(in) :: name
     integer, intent(in) :: number
-    integer :: i
+    integer :: place
 
-    do i = 1, size(row%quantity)
-      if (row%quantity(i)%name /= name) cycle
-      row%quantity(i)%number = row%quantity(i)%number + real(number, wp)
-    end do
+    place = place_of(name, row%quantity)
+    if (place > 0) row%quantity(place)%number = row%quantity(place)%number + real(number, wp)
   end subroutine add_to
 
   !> Measures a row's secant stiffness from the torque without tilt that the sweep's first point
@@ -161,32 +157,19 @@ contains
       if (torque == 0) cycle
       new = first%quantity(i)
       ! The torque without tilt stands in the first row's secant, or is the first row's torque.
-      tilt = number_of(first, 'tilt_'//axes(axis))
-      untilted = number_of(first, 'torque_'//axes(torque))
+      tilt = number_in(first%quantity, 'tilt_'//axes(axis))
+      untilted = number_in(first%quantity, 'torque_'//axes(torque))
       if (abs(tilt) > 0.0_wp) untilted = untilted - tilt*new%number
-      tilt = number_of(row, 'tilt_'//axes(axis))
+      tilt = number_in(row%quantity, 'tilt_'//axes(axis))
       if (abs(tilt) > 0.0_wp) then
-        new%number = (number_of(row, 'torque_'//axes(torque)) - untilted)/tilt
+        new%number = (number_in(row%quantity, 'torque_'//axes(torque)) - untilted)/tilt
       else
-        new%number = number_of(row, 'angular_stiffness_'//axes(torque)//axes(axis))
+        new%number = number_in(row%quantity, 'angular_stiffness_'//axes(torque)//axes(axis))
       end if
       kept = [kept, new]
     end do
     call move_alloc(kept, row%quantity)
   end subroutine match_secants
-
-  !> A row's number of a name; zero where it has none.
-  pure function number_of(row, name) result(number)
-    type(history_row_type), intent(in) :: row !! of a history
-    character(len=*), intent(in) :: name !! of the number
-    real(wp) :: number
-    integer :: i
-
-    number = 0.0_wp
-    do i = 1, size(row%quantity)
-      if (row%quantity(i)%name == name) number = row%quantity(i)%number
-    end do
-  end function number_of
 
   !> The contacts of all points in the sweep's order.
   subroutine merge_arrays(blocks, arrays)
@@ -304,8 +287,8 @@ contains
     end if
     compared = compared_names()
     do i = 1, size(compared)
-      one = number_of(before%next(1), trim(compared(i)))
-      other = number_of(behind%row(1), trim(compared(i)))
+      one = number_in(before%next(1)%quantity, trim(compared(i)))
+      other = number_in(behind%row(1)%quantity, trim(compared(i)))
       difference = abs(other - one)
       if (result_unit(trim(compared(i))) == 'm') difference = difference/scene%bearing%clearance
       if (difference <= same_answer) cycle
@@ -332,7 +315,7 @@ contains
     type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
     type(pool_type), target, intent(inout) :: pool !! whose groups compute
     integer, intent(out) :: status !! exit status of the program
-    type(bearing_study_type), allocatable, target :: study
+    class(bearing_study_type), allocatable, target :: study
     type(run_context_type) :: own
     type(bearing_block_type), allocatable :: mine
     type(bearing_block_type), allocatable :: blocks(:)
@@ -340,7 +323,12 @@ contains
     real(wp) :: memory(1)
     integer :: writer, ends(2)
 
-    allocate (study, mine)
+    if (scene%sweep%present) then
+      allocate (sweep_study_type :: study)
+    else
+      allocate (bearing_study_type :: study)
+    end if
+    allocate (mine)
     call show_division(scene, context, pool)
     ends = ends_of(scene, pool%groups, pool%group)
     pool%total = pool%groups
@@ -428,7 +416,7 @@ contains
     type(pool_type), intent(inout) :: pool
     integer, intent(in) :: ends(2) !! of the block
     type(run_context_type), intent(inout) :: context !! of this group
-    type(bearing_study_type), target, intent(inout) :: study
+    class(bearing_study_type), target, intent(inout) :: study
     type(bearing_block_type), intent(inout) :: mine
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: own
@@ -464,7 +452,7 @@ contains
 
   !> What a study has found of a block.
   subroutine take_block(study, points, block)
-    type(bearing_study_type), intent(in) :: study
+    class(bearing_study_type), intent(in) :: study
     integer, intent(in) :: points !! of the block, where it is one of a sweep
     type(bearing_block_type), intent(inout) :: block
     integer :: found
@@ -472,17 +460,17 @@ contains
 
     block%count = [study%iterations, study%factorizations, study%factorizations_finest]
     whole = study%converged
-    associate (sweep => study%sweep)
-      block%dynamics = sweep%record%dynamics
-      block%first_slope = sweep%record%tilted%first_slope
-      if (sweep%scene%sweep%present) then
-        found = min(size(sweep%record%history), points)
+    associate (solution => study%solution)
+      block%dynamics = solution%record%dynamics
+      block%first_slope = solution%record%tilted%first_slope
+      if (solution%scene%sweep%present) then
+        found = min(size(solution%record%history), points)
         whole = found == points
-        block%row = sweep%record%history(:found)
-        block%next = sweep%record%history(found + 1:)
-        block%contacts = record_arrays(sweep%scene, sweep%bearing, sweep%record, found)
+        block%row = solution%record%history(:found)
+        block%next = solution%record%history(found + 1:)
+        block%contacts = record_arrays(solution%scene, solution%bearing, solution%record, found)
         if (allocated(block%dynamics%point)) block%dynamics%point = block%dynamics%point(:found)
-        block%series = sweep%record%series
+        block%series = solution%record%series
         call cut_series(block%series, found)
       end if
     end associate
@@ -548,7 +536,7 @@ contains
     type(run_context_type), intent(in) :: context
     type(pool_type), intent(in) :: pool
     real(wp), intent(in) :: memory !! of all ranks [B]
-    type(bearing_study_type), target, intent(inout) :: study
+    class(bearing_study_type), target, intent(inout) :: study
     type(bearing_block_type), intent(in) :: blocks(:)
     integer, intent(inout) :: status
     type(run_context_type) :: terminal
@@ -562,14 +550,12 @@ contains
     call terminal%take_case(scene%name, error)
     if (.not. allocated(error)) then
       result%converged = all(blocks%status == 0)
-      result%upwind = study%plan%upwind
-      result%peclet = study%plan%peclet
-      result%cells = study%plan%circumferential
+      result%plan = study%plan
       result%cost = cost_type(study%unknowns, sum(blocks%count(1)), sum(blocks%count(2)), sum(blocks%count(3)), &
                               wall_time() - pool%begun, memory)
       result%ranks = pool%ranks
       result%origin = pool%origin(context)
-      associate (record => study%sweep%record)
+      associate (record => study%solution%record)
         if (scene%sweep%present) then
           call add_origin(scene, pool%groups, blocks, result%origin)
           call merge_arrays(blocks, result%contacts)
@@ -580,10 +566,9 @@ contains
         else
           call add_result(result%origin, 'groups', pool%groups)
           if (result%converged) call merge_frequencies(blocks, record%dynamics%point(1))
-          result%contacts = record_arrays(scene, study%sweep%bearing, record, size(record%history))
+          result%contacts = record_arrays(scene, study%solution%bearing, record, size(record%history))
         end if
-        call write_bearing(scene, terminal, study%sweep, result, summary, error)
-        if (.not. allocated(error)) call write_coefficients(record, scene, terminal, error)
+        call write_bearing(scene, terminal, study%solution, result, summary, error)
       end associate
     end if
     call terminal%give_back()

@@ -10,7 +10,8 @@ module gfb_divided_sample
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: wall_time
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_reasons, only: status_unconverged
+  use gfb_result_names, only: add_result
   use gfb_run_context, only: run_context_type
   use gfb_sample, only: sample_type, write_sample
   use gfb_scene, only: scene_type
@@ -20,7 +21,6 @@ module gfb_divided_sample
   public :: run_divided_sample
 
   integer, parameter :: writer = 1 !! the group that writes
-  integer, parameter :: status_unconverged = 2
 
 contains
 

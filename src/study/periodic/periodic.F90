@@ -15,7 +15,7 @@ module gfb_periodic
                           find_onset, fixed_parameter
   use gfb_orbit_table, only: orbit_type, extent_of, leading, orbit_table_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_newton, only: newton_type
   use gfb_moving_friction, only: begin_rubbing

@@ -10,15 +10,12 @@ module gfb_sample
   use gfb_kinds, only: wp
   use gfb_bearing_record, only: analysis_name
   use gfb_bearing_summary, only: cost_type, cost_quantities
-  use gfb_case_file, only: case_array_type, history_row_type, add_arrays, fill_array, &
-                           history_values
+  use gfb_case_file, only: case_array_type, history_row_type, add_array, history_values
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type, add_quantity, quantity_word
-  use gfb_result_names, only: asked_names, result_unit
+  use gfb_result_names, only: asked_names, result_unit, add_result
   use gfb_result_set, only: result_grid_type, write_result_set
-  use gfb_result_phrases, only: all_members, seed_and_reason
-  use gfb_result_table, only: name_length
-  use gfb_results, only: add_result
+  use gfb_result_table, only: all_members, seed_and_reason, name_length
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_sample_case, only: percent_of
@@ -28,7 +25,7 @@ module gfb_sample
   use gfb_text, only: text
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: rank_count, stop_is_asked, sum_over_ranks, wall_time
-  use gfb_reasons, only: reason_failed, reason_stopped
+  use gfb_reasons, only: reason_failed, reason_stopped, status_unconverged
   use gfb_study_rules, only: sample_member
   use gfb_signals, only: stop_words
   use gfb_study, only: study_type
@@ -42,7 +39,7 @@ module gfb_sample
     'maximum_pressure', 'stiffness_xx', 'stiffness_yy', 'loading_stiffness', 'maximum_force', &
     'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
 
-  integer, parameter :: status_unconverged = 2
+  character(len=*), parameter :: group = '/sample/' !! of the result file
 
   !> The members and what they found.
   type, extends(study_type), public :: sample_type
@@ -187,7 +184,8 @@ contains
     integer :: i
 
     allocate (arrays(0))
-    call add_array('quantiles', '1', 'parts of the members below the quantiles', quantiles, arrays)
+    call add_array(arrays, group//'quantiles', '1', 'parts of the members below the quantiles', &
+                   reshape(quantiles, [size(quantiles), 1]))
     names = asked_names()
     do i = 1, size(names)
       if (any(given == names(i))) cycle
@@ -232,27 +230,18 @@ contains
       levels(i) = quantile_of(numbers, quantiles(i))
       call add_result(summary, name//'_q'//two_digits(percent_of(quantiles(i))), levels(i))
     end do
-    call add_array(name//'/mean', unit, 'mean over the members', [mean], arrays)
-    call add_array(name//'/deviation', unit, 'standard deviation of the members', [deviation], &
-                   arrays)
-    call add_array(name//'/quantiles', unit, 'quantiles of the members', levels, arrays)
+    call add_array(arrays, group//name//'/mean', unit, 'mean over the members', &
+                   reshape([mean], [1, 1]))
+    call add_array(arrays, group//name//'/deviation', unit, 'standard deviation of the members', &
+                   reshape([deviation], [1, 1]))
+    call add_array(arrays, group//name//'/quantiles', unit, 'quantiles of the members', &
+                   reshape(levels, [size(levels), 1]))
     if (all(shown /= name)) return
     i = size(quantiles)
     call log%line(name//': mean '//text(mean, 5)//' '//unit//', deviation '//text(deviation, 3)// &
                   ', '//text(percent_of(quantiles(1)))//' % below '//text(levels(1), 5)//', '// &
                   text(percent_of(quantiles(i)))//' % below '//text(levels(i), 5))
   end subroutine add_result_statistics
-
-  !> A row of numbers in the file's group of the sample.
-  subroutine add_array(name, unit, meaning, values, arrays)
-    character(len=*), intent(in) :: name, unit, meaning
-    real(wp), intent(in) :: values(:)
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(case_array_type) :: one(1)
-
-    call fill_array('/sample/'//name, unit, meaning, reshape(values, [size(values), 1]), one(1))
-    call add_arrays(arrays, one)
-  end subroutine add_array
 
   !> A number below a hundred with two digits.
   pure function two_digits(number) result(words)

@@ -26,7 +26,7 @@ module gfb_transient
   use gfb_foil_grid, only: add_foil_grids
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
-  use gfb_results, only: add_result
+  use gfb_result_names, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_text, only: text
   use gfb_march_state, only: largest_way
