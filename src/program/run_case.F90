@@ -12,7 +12,7 @@ module gfb_run_case
   use gfb_command_line, only: command_line_type
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
-  use gfb_reduction_choice, only: choose_reduction
+  use gfb_foil_plan, only: choose_reduction
   use gfb_studies, only: run_scene
   use gfb_check_scene, only: check_scene
   implicit none (type)

@@ -25,7 +25,7 @@ module gfb_run_groups
   use gfb_scene_reading, only: read_scene
   use gfb_command_line, only: command_line_type
   use gfb_check_scene, only: check_scene
-  use gfb_reduction_choice, only: choose_reduction
+  use gfb_foil_plan, only: choose_reduction
   use gfb_divided_sample, only: run_divided_sample
   use gfb_sample, only: sample_type
   use gfb_studies, only: create_study, run_scene

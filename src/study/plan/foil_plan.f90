@@ -4,10 +4,13 @@ module gfb_foil_plan
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_strip
-  use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan
+  use gfb_scene_case, only: analysis_strip, analysis_modes
+  use gfb_scene_rules, only: is_symmetric
+  use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan, reduction_none, &
+                            reduction_auto, foil_shell
   use gfb_modes_case, only: part_words, part_strip
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ
+  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ, &
+                                sizes_mirror
   use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_rules, only: strips_mirror
   use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
@@ -16,9 +19,36 @@ module gfb_foil_plan
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
   private
-  public :: plan_foil, count_bumps, has_friction, show_strips, strips_mirror
+  public :: plan_foil, choose_reduction, count_bumps, has_friction, show_strips, strips_mirror
 
 contains
+
+  !> Replaces `reduction = 'auto'` by what costs less in most scenes, with the reason in words: the
+  !> lines of half a width are short enough to be condensed, those of a whole one are not.
+  subroutine choose_reduction(scene)
+    type(scene_type), intent(inout) :: scene !! gets its reduction, if it asks for a choice
+    logical :: half
+
+    if (scene%model%reduction /= reduction_auto) return
+    scene%model%reduction = reduction_guyan
+    if (scene%model%foil /= foil_shell .or. scene%general%analysis == analysis_modes) return
+    half = scene%model%half_width == half_width_yes
+    if (scene%model%half_width == half_width_auto) then
+      half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
+      if (scene%general%analysis /= analysis_strip) then
+        half = half .and. is_symmetric(scene%operation, scene%sweep)
+      end if
+    end if
+    if (scene%solver%linear_solver == linear_solver_iterative) then
+      scene%model%reduction = reduction_none
+      scene%model%reduction_reason = "all unknowns, because linear_solver is 'iterative'"
+    else if (half) then
+      scene%model%reduction_reason = 'condensed, because half the width is solved'
+    else
+      scene%model%reduction = reduction_none
+      scene%model%reduction_reason = 'all unknowns, because the whole width is solved'
+    end if
+  end subroutine choose_reduction
 
   !> Chooses width and reduction, and tells the log why.
   subroutine plan_foil(scene, log, plan)
