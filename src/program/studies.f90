@@ -17,7 +17,7 @@ module gfb_studies
   use gfb_sample, only: sample_type
   use gfb_bearing_study, only: bearing_study_type
   use gfb_sweep_study, only: sweep_study_type
-  use gfb_motion_study, only: motion_study_type
+  use gfb_motion_study, only: transient_study_type, periodic_study_type
   use gfb_branches_study, only: branches_study_type
   use gfb_strip_study, only: strip_study_type
   use gfb_modes_study, only: modes_study_type
@@ -46,8 +46,10 @@ contains
       allocate (modes_study_type :: study)
     else if (branches) then
       allocate (branches_study_type :: study)
-    else if (scene%transient%present .or. scene%periodic%present) then
-      allocate (motion_study_type :: study)
+    else if (scene%transient%present) then
+      allocate (transient_study_type :: study)
+    else if (scene%periodic%present) then
+      allocate (periodic_study_type :: study)
     else if (scene%sweep%present) then
       allocate (sweep_study_type :: study)
     else

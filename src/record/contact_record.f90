@@ -4,7 +4,7 @@ module gfb_contact_record
   use gfb_archive, only: archive_type
   use gfb_natural_order, only: visit_field
   use gfb_petsc_session, only: fetch_entries, largest_number
-  use gfb_case_file, only: case_array_type, add_array, add_arrays
+  use gfb_case_file, only: case_array_type, add_array
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_bump_contacts, only: contact_sleeve, contact_top, normal_line_force
@@ -13,7 +13,7 @@ module gfb_contact_record
   use gfb_pad_contacts, only: pad_contacts
   implicit none (type, external)
   private
-  public :: record_contacts, contact_arrays, record_foil_contacts, foil_contact_arrays, &
+  public :: record_contacts, add_contact_arrays, record_foil_contacts, add_foil_contacts, &
             visit_contact_record
 
   !> of a contact: force and friction along x and z, slip, state
@@ -36,22 +36,21 @@ contains
     call record_contacts(pad_contacts(bearing), point, points, record)
   end subroutine record_foil_contacts
 
-  !> The contacts of all pads' foils at all points; none where they have none.
-  function foil_contact_arrays(bearing, record, points) result(arrays)
+  !> Adds the contacts of all pads' foils at all points; none where they have none.
+  subroutine add_foil_contacts(bearing, record, points, arrays)
     type(bearing_system_type), intent(in) :: bearing !! whose contacts were recorded
     type(contact_record_type), intent(in) :: record !! of all points
     integer, intent(in) :: points !! recorded
-    type(case_array_type), allocatable :: arrays(:)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
     type(foil_surface_type), allocatable :: surface(:)
     integer :: i
 
-    allocate (arrays(0))
     surface = bearing%pad(1)%foil%surfaces()
     do i = 1, size(surface)
       if (.not. surface(i)%has_contacts) cycle
-      call add_arrays(arrays, contact_arrays(pad_contacts(bearing), surface(i), record, points))
+      call add_contact_arrays(pad_contacts(bearing), surface(i), record, points, arrays)
     end do
-  end function foil_contact_arrays
+  end subroutine add_foil_contacts
 
   !> Adds the present step.
   subroutine record_contacts(contacts, step, steps, record)
@@ -108,19 +107,18 @@ contains
     end do
   end subroutine visit_contact_record
 
-  !> Everything about the contacts, on the first rank's behalf.
-  function contact_arrays(contacts, slaves, record, steps) result(arrays)
+  !> Adds everything about the contacts, on the first rank's behalf.
+  subroutine add_contact_arrays(contacts, slaves, record, steps, arrays)
     type(contact_set_type), intent(in) :: contacts !! that were recorded, each of one node
     class(foil_surface_type), intent(in) :: slaves !! the surface they are nodes of
     type(contact_record_type), intent(in) :: record !! of all steps
     integer, intent(in) :: steps !! recorded
-    type(case_array_type), allocatable :: arrays(:)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
 
-    allocate (arrays(0))
     if (.not. allocated(record%value)) return
     call add_surface(contacts, slaves, record, steps, contact_sleeve, '/contact/sleeve', arrays)
     call add_surface(contacts, slaves, record, steps, contact_top, '/contact/top', arrays)
-  end function contact_arrays
+  end subroutine add_contact_arrays
 
   !> Adds the arrays of a surface that has contacts, the whole width also where one half was solved;
   !> a column a node, a row a step.

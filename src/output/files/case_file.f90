@@ -11,7 +11,7 @@ module gfb_case_file
   implicit none (type, external)
   private
   public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
-            add_array, add_arrays, history_csv, history_values, visit_rows, visit_arrays
+            add_array, history_csv, history_values, visit_rows, visit_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -78,35 +78,29 @@ contains
     if (present(by_step)) array%by_step = by_step
   end subroutine fill_array
 
-  !> Puts arrays at the end of a list; an array constructor would not free all that it copies.
-  subroutine add_arrays(list, more)
-    type(case_array_type), allocatable, intent(inout) :: list(:) !! gets them behind its own
-    type(case_array_type), intent(in) :: more(:) !! to be added
-    type(case_array_type), allocatable :: grown(:)
-    integer :: i
-
-    allocate (grown(size(list) + size(more)))
-    do i = 1, size(list)
-      grown(i) = list(i)
-    end do
-    do i = 1, size(more)
-      grown(size(list) + i) = more(i)
-    end do
-    call move_alloc(grown, list)
-  end subroutine add_arrays
-
-  !> Puts an array at the end of a list.
+  !> Puts an array at the end of a list; an array constructor would not free all that it copies.
   subroutine add_array(list, path, unit, meaning, values, by_step, order)
     type(case_array_type), allocatable, intent(inout) :: list(:) !! gets it behind its own
     character(len=*), intent(in) :: path, unit, meaning !! where it goes; of the numbers; a sentence
     real(wp), intent(in) :: values(:, :) !! (columns, rows) of the file, in `unit` [SI]
     logical, intent(in), optional :: by_step !! a row is a load step or sweep point
     integer, intent(in), optional :: order !! a row is a square matrix of that order, or several
-    type(case_array_type) :: one(1)
+    type(case_array_type), allocatable :: grown(:)
+    integer :: i
 
-    call fill_array(path, unit, meaning, values, one(1), by_step)
-    if (present(order)) one%order = order
-    call add_arrays(list, one)
+    allocate (grown(size(list) + 1))
+    do i = 1, size(list)
+      call move_alloc(list(i)%path, grown(i)%path)
+      call move_alloc(list(i)%unit, grown(i)%unit)
+      call move_alloc(list(i)%meaning, grown(i)%meaning)
+      call move_alloc(list(i)%values, grown(i)%values)
+      grown(i)%by_step = list(i)%by_step
+      grown(i)%rows = list(i)%rows
+      grown(i)%order = list(i)%order
+    end do
+    call fill_array(path, unit, meaning, values, grown(size(grown)), by_step)
+    if (present(order)) grown(size(grown))%order = order
+    call move_alloc(grown, list)
   end subroutine add_array
 
   !> One dataset an array, in groups one or two levels deep.

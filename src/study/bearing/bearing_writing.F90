@@ -10,7 +10,7 @@ module gfb_bearing_writing
   use gfb_sweep_case, only: sweep_keys
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit, analysis_name, add_row
   use gfb_case_file, only: case_array_type, history_row_type, history_values
-  use gfb_contact_record, only: foil_contact_arrays
+  use gfb_contact_record, only: add_foil_contacts
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamics_record, only: add_dynamics_arrays, dynamics_table
   use gfb_text_file, only: write_text_file
@@ -90,7 +90,8 @@ contains
     integer, intent(in) :: points !! of it, from the first
     type(case_array_type), allocatable :: arrays(:)
 
-    arrays = foil_contact_arrays(bearing, record%contacts, points)
+    allocate (arrays(0))
+    call add_foil_contacts(bearing, record%contacts, points, arrays)
     call add_dynamics_arrays(record%dynamics, scene%sweep%present, points, arrays)
   end function record_arrays
 

@@ -18,7 +18,8 @@ module gfb_branches_study
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_grid, only: add_foil_grids
-  use gfb_contact_record, only: foil_contact_arrays
+  use gfb_case_file, only: case_array_type
+  use gfb_contact_record, only: add_foil_contacts
   use gfb_run_context, only: run_context_type
   use gfb_answer_judgement, only: judge_answer
   use gfb_mesh_plan, only: bearing_plan_type
@@ -69,6 +70,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
     type(bearing_record_type) :: record
+    type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
     integer, allocatable :: order(:)
 
@@ -84,8 +86,10 @@ contains
                       bearing%unknowns, newton%iterations, newton%factorizations, &
                       newton%factorizations - newton%factorizations_before, &
                       wall_time() - context%start_time, peak_memory())))
-    call write_result_set(scene, context%folder, .true., context%origin(), summary, record%history, &
-                          foil_contact_arrays(bearing, record%contacts, size(record%history)), grids, context%csv, context%log, error)
+    allocate (arrays(0))
+    call add_foil_contacts(bearing, record%contacts, size(record%history), arrays)
+    call write_result_set(scene, context%folder, .true., context%origin(), summary, record%history, arrays, grids, context%csv, &
+                          context%log, error)
   end subroutine write_branches
 
   !> A row and the surfaces of every equilibrium.

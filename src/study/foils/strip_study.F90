@@ -20,7 +20,7 @@ module gfb_strip_study
                         destroy_newton
   use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
   use gfb_case_file, only: history_row_type, case_array_type
-  use gfb_contact_record, only: record_contacts, visit_contact_record, contact_arrays
+  use gfb_contact_record, only: record_contacts, visit_contact_record, add_contact_arrays
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header, answer_quantities, cost_quantities, strip_run_type, &
                                visit_run, strip_companions, show_companions, add_companions
   use gfb_restart, only: save_restart, read_restart, end_reading
@@ -413,7 +413,8 @@ contains
       call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
       call add_contacts(strip%contacts, strip%foil, grid)
       call add_stress(strip%foil, shell_stresses(strip%foil, moved), grid)
-      arrays = contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps)
+      allocate (arrays(0))
+      call add_contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps, arrays)
       call add_companions(run%companions, arrays)
       call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
                             arrays, [grid], context%csv, context%log, error)

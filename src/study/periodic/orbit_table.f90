@@ -1,7 +1,7 @@
 !> What is kept of orbits that close: a line an orbit, the orbit itself, and its multipliers.
 module gfb_orbit_table
   use gfb_kinds, only: wp
-  use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private
   public :: extent_of
@@ -39,7 +39,7 @@ module gfb_orbit_table
     type(orbit_type), allocatable :: orbit(:)
   contains
     procedure :: add => add_orbit
-    procedure :: arrays => orbit_arrays
+    procedure :: add_arrays => add_orbit_arrays
   end type orbit_table_type
 
 contains
@@ -81,54 +81,35 @@ contains
     self%orbit = [self%orbit, orbit]
   end subroutine add_orbit
 
-  !> The arrays of the result file.
-  function orbit_arrays(self) result(arrays)
+  !> Adds the arrays of the result file.
+  subroutine add_orbit_arrays(self, arrays)
     class(orbit_table_type), intent(in) :: self !! the orbits
-    type(case_array_type), allocatable :: arrays(:)
-    type(case_array_type) :: one(1)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     real(wp), allocatable :: rows(:, :)
     integer :: i, k
     character(len=1), parameter :: axis(2) = ['x', 'y']
 
-    allocate (arrays(0))
     if (.not. allocated(self%orbit)) return
-    associate (many => size(self%orbit), steps => size(self%orbit(size(self%orbit))%place, 2))
-      allocate (rows(columns, many))
-      do k = 1, many
-        rows(:, k) = self%orbit(k)%value
-      end do
+    associate (orbit => self%orbit, many => size(self%orbit))
+      rows = reshape([(orbit(k)%value, k=1, many)], [columns, many])
       do i = 1, columns
-        call fill_array('/periodic/'//trim(names(i)), trim(units(i)), trim(meanings(i)), &
-          rows(i:i, :), one(1))
-        call add_arrays(arrays, one)
+        call add_array(arrays, '/periodic/'//trim(names(i)), trim(units(i)), trim(meanings(i)), &
+                       rows(i:i, :))
       end do
-      deallocate (rows)
-      allocate (rows(leading, many))
-      do k = 1, many
-        rows(:, k) = real(self%orbit(k)%multiplier)
-      end do
-      call fill_array('/periodic/multipliers_real', '1', &
-        'largest Floquet multipliers, real part', rows, one(1))
-      call add_arrays(arrays, one)
-      do k = 1, many
-        rows(:, k) = aimag(self%orbit(k)%multiplier)
-      end do
-      call fill_array('/periodic/multipliers_imaginary', '1', &
-                    'largest Floquet multipliers, imaginary part', rows, &
-        one(1))
-      call add_arrays(arrays, one)
-      deallocate (rows)
-      allocate (rows(steps, many))
+      call add_array(arrays, '/periodic/multipliers_real', '1', &
+                     'largest Floquet multipliers, real part', &
+                     reshape([(real(orbit(k)%multiplier), k=1, many)], [leading, many]))
+      call add_array(arrays, '/periodic/multipliers_imaginary', '1', &
+                     'largest Floquet multipliers, imaginary part', &
+                     reshape([(aimag(orbit(k)%multiplier), k=1, many)], [leading, many]))
       do i = 1, 2
-        do k = 1, many
-          rows(:, k) = self%orbit(k)%place(i, :)
-        end do
-        call fill_array('/periodic/eccentricity_'//axis(i), 'm', &
-                        'e_'//axis(i)//' over a period, in equal steps of time', rows, one(1))
-        call add_arrays(arrays, one)
+        call add_array(arrays, '/periodic/eccentricity_'//axis(i), 'm', &
+                       'e_'//axis(i)//' over a period, in equal steps of time', &
+                       reshape([(orbit(k)%place(i, :), k=1, many)], &
+                               [size(orbit(many)%place, 2), many]))
       end do
     end associate
-  end function orbit_arrays
+  end subroutine add_orbit_arrays
 
   !> Smallest and largest value of equal steps over a period, on parabolas through three of them.
   pure function extent_of(value) result(extent)

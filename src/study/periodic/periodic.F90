@@ -19,7 +19,7 @@ module gfb_periodic
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_newton, only: newton_type
   use gfb_moving_friction, only: begin_rubbing
-  use gfb_case_file, only: case_array_type, add_arrays
+  use gfb_case_file, only: case_array_type
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
   use gfb_run_context, only: run_context_type
   implicit none (type)
@@ -549,6 +549,6 @@ contains
   subroutine add_periodic_arrays(self, arrays)
     class(periodic_type), intent(in) :: self !! the orbits
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get a dataset a name
-    call add_arrays(arrays, self%table%arrays())
+    call self%table%add_arrays(arrays)
   end subroutine add_periodic_arrays
 end module gfb_periodic

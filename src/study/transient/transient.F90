@@ -8,7 +8,7 @@ module gfb_transient
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march, visit_past, rebuild_past
   use gfb_newton, only: newton_type, newton_report_type, forget_factors
-  use gfb_case_file, only: case_array_type, fill_array, add_arrays
+  use gfb_case_file, only: case_array_type, add_array
   use gfb_spectra, only: spectra_type, spectra_of, points_a_turn
   use gfb_orbit_record, only: orbit_record_type, plane_motion, tilt_motion
   use gfb_scene, only: scene_type
@@ -83,7 +83,7 @@ module gfb_transient
   contains
     procedure :: add => add_line
     procedure :: see => see_step
-    procedure :: arrays => history_arrays
+    procedure :: add_arrays => add_history
     procedure :: lacks_spectrum
     procedure :: visit => visit_history
   end type transient_history_type
@@ -183,27 +183,23 @@ contains
     gas = sum_over_ranks(gas)
   end function gas_balance
 
-  !> The arrays of the result file, a dataset a name.
-  function history_arrays(self) result(arrays)
+  !> Adds the arrays of the result file, a dataset a name.
+  subroutine add_history(self, arrays)
     class(transient_history_type), intent(in) :: self !! the lines
-    type(case_array_type), allocatable :: arrays(:)
-    type(case_array_type) :: one(1)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     integer :: i
 
-    allocate (arrays(0))
     do i = 1, size(self%values, 1)
-      call fill_array('/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines), one(1))
-      call add_arrays(arrays, one)
+      call add_array(arrays, '/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines))
     end do
     call add_spectra(self, arrays)
-  end function history_arrays
+  end subroutine add_history
 
   !> Adds the spectra of the shaft's motion, a row a window of some turns; none where there are less than two turns, or less
   !> than two lines a turn.
   subroutine add_spectra(self, arrays)
     class(transient_history_type), intent(in) :: self
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    type(case_array_type) :: one(1)
     type(spectra_type) :: spectra
     character(len=:), allocatable :: place
     integer, allocatable :: column(:)
@@ -213,18 +209,14 @@ contains
     if (self%tilts) column = journal_columns
     spectra = spectra_of(self%values(1, :self%lines), self%values(2, :self%lines), self%values(column, :self%lines))
     if (size(spectra%time) == 0) return
-    call fill_array('/spectrum/time', 's', 'in the middle of the window', reshape(spectra%time, [1, size(spectra%time)]), one(1))
-    call add_arrays(arrays, one)
-    call fill_array('/spectrum/speed', 'rad/s', 'mean speed of the shaft in the window', &
-                    reshape(spectra%speed, [1, size(spectra%speed)]), one(1))
-    call add_arrays(arrays, one)
-    call fill_array('/spectrum/frequency', 'Hz', 'of the lines: window by line', spectra%frequency, one(1))
-    call add_arrays(arrays, one)
+    call add_array(arrays, '/spectrum/time', 's', 'in the middle of the window', reshape(spectra%time, [1, size(spectra%time)]))
+    call add_array(arrays, '/spectrum/speed', 'rad/s', 'mean speed of the shaft in the window', &
+                   reshape(spectra%speed, [1, size(spectra%speed)]))
+    call add_array(arrays, '/spectrum/frequency', 'Hz', 'of the lines: window by line', spectra%frequency)
     do i = 1, size(column)
       place = trim(names(column(i)))
-      call fill_array('/spectrum/amplitude'//place(len('eccentricity') + 1:), 'm', 'amplitude of '//place//': window by line', &
-                      spectra%amplitude(:, :, i), one(1))
-      call add_arrays(arrays, one)
+      call add_array(arrays, '/spectrum/amplitude'//place(len('eccentricity') + 1:), 'm', 'amplitude of '//place//': window by line', &
+                     spectra%amplitude(:, :, i))
     end do
   end subroutine add_spectra
 
@@ -652,6 +644,6 @@ contains
   subroutine add_transient_arrays(self, arrays)
     class(transient_type), intent(in) :: self !! its way
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get a dataset a name
-    call add_arrays(arrays, self%history%arrays())
+    call self%history%add_arrays(arrays)
   end subroutine add_transient_arrays
 end module gfb_transient
