@@ -316,14 +316,16 @@ contains
     end if
     found = .false.
     if (secants%used .and. system%settled) then
-      call take_whole(line, system, snes, x, f, y, trial, trial_residual, found, ierr)
+      call go_along_path(line, system, snes, path, 0, x, f, y, trial, trial_residual, found, ierr) ! of one piece: the whole step
       CHKERRQ(ierr)
     end if
     if (.not. found .and. solver%fresh .and. .not. system%slow_change .and. line%steps > line%straight) then
       call bend_step(snes, system, x, y, path, ierr)
       CHKERRQ(ierr)
-      call go_along_path(line, system, snes, path, x, f, y, trial, trial_residual, found, ierr)
-      CHKERRQ(ierr)
+      if (path%changes > 0 .and. path%reached >= least_reached) then
+        call go_along_path(line, system, snes, path, path_halvings, x, f, y, trial, trial_residual, found, ierr)
+        CHKERRQ(ierr)
+      end if
     end if
     if (.not. found) then
       call find_length(line, snes, solver%fresh .or. system%slow_change, x, y, trial, trial_residual, found, ierr)
@@ -351,34 +353,6 @@ contains
     call destroy_bent_step(path)
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine take_step
-
-  !> Takes a whole step where contacts that follow it leave a residual that is small enough: one residual does.
-  subroutine take_whole(line, system, snes, x, f, y, trial, trial_residual, found, ierr)
-    type(line_search_type), intent(inout) :: line
-    class(nonlinear_system_type), target, intent(inout) :: system
-    SNES, intent(in) :: snes
-    Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
-    Vec, intent(in) :: trial, trial_residual !! are overwritten
-    logical, intent(out) :: found            !! else all is as it was, but for the trial
-    PetscErrorCode, intent(out) :: ierr
-    PetscReal :: after
-    logical :: moved
-
-    PetscCall(VecWAXPY(trial, -1.0_wp, y, x, ierr))
-    call system%settle(trial, moved)
-    PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
-    PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
-    found = .false.
-    if (after <= huge(1.0_wp)) found = after <= (1.0_wp - sufficient)*maxval(line%past) .or. line%step <= stagnation
-    if (found) then
-      line%impossible = .false.
-      line%blocked = 0
-      PetscCall(VecCopy(trial, x, ierr))
-      PetscCall(VecCopy(trial_residual, f, ierr))
-    else
-      call system%settle(x, moved)
-    end if
-  end subroutine take_whole
 
   !> Error that is left after a step at most: a thousand times what it is if steps go on to shrink as the last two have.
   pure function remaining_error(line) result(error)
@@ -413,13 +387,14 @@ contains
     line%impossible = .true.
   end subroutine measure_step
 
-  !> Takes the end of a bent step as the new state, or what of its path can be evaluated and has a
+  !> Takes the end of a step's path as the new state, or what of it can be evaluated and has a
   !> residual that is small enough. Contacts are where they are at each trial.
-  subroutine go_along_path(line, system, snes, path, x, f, y, trial, trial_residual, found, ierr)
+  subroutine go_along_path(line, system, snes, path, most, x, f, y, trial, trial_residual, found, ierr)
     type(line_search_type), intent(inout) :: line
     class(nonlinear_system_type), target, intent(inout) :: system
     SNES, intent(in) :: snes
-    type(bent_step_type), intent(in) :: path
+    type(bent_step_type), intent(in) :: path !! of one piece where the step is straight
+    integer, intent(in) :: most              !! halvings; 0: a small step is taken as it is
     Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
     Vec, intent(in) :: trial, trial_residual !! are overwritten
     logical, intent(out) :: found            !! else all is as it was, but for the trial
@@ -428,17 +403,14 @@ contains
     integer :: halving
     logical :: moved
 
-    ierr = 0
-    found = .false.
-    if (path%changes == 0 .or. path%reached < least_reached) return
-    do halving = 0, path_halvings
+    do halving = 0, most
       line%length = 0.5_wp**halving
       call state_on_path(path, line%length*path%length, x, y, trial, ierr)
       CHKERRQ(ierr)
       call system%settle(trial, moved)
       PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
       PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
-      if (after <= huge(1.0_wp)) found = after <= (1.0_wp - sufficient*line%length)*maxval(line%past)
+      found = is_small_enough(line, after, most == 0)
       if (found) exit
     end do
     if (found) then
@@ -452,6 +424,18 @@ contains
       call system%settle(x, moved)
     end if
   end subroutine go_along_path
+
+  !> Whether a trial's residual is, at the present length of the step. Near the end round-off makes residuals jump: a small
+  !> full step is taken as it is.
+  pure function is_small_enough(line, residual, full) result(is)
+    type(line_search_type), intent(in) :: line
+    real(wp), intent(in) :: residual !! norm, scaled; not a number where the trial could not be evaluated [1]
+    logical, intent(in) :: full      !! the step is not shortened
+    logical :: is
+
+    is = residual <= huge(1.0_wp)
+    if (is) is = residual <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. (line%step <= stagnation .and. full)
+  end function is_small_enough
 
   !> Halves a step until it can be evaluated and its residual is small enough.
   subroutine find_length(line, snes, may_halve, x, y, trial, trial_residual, found, ierr)
@@ -475,9 +459,7 @@ contains
       PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
       if (after <= huge(1.0_wp)) then ! neither infinite nor NaN
         line%impossible = .false.
-        ! Near the end round-off makes residuals jump: a small full step is taken as it is.
-        found = after <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. &
-          (line%step <= stagnation .and. halving == 0)
+        found = is_small_enough(line, after, halving == 0)
       else
         left = .true.
       end if

@@ -33,7 +33,6 @@ module gfb_linear_solver
   integer, parameter :: least_krylov = 5              !! new factors never pay before
   real(wp), parameter :: krylov_share = 0.1_wp        !! they pay after this share of flops over entries of theirs
   real(wp), parameter :: krylov_tolerance = 1.0e-3_wp !! of the preconditioned residual, relative
-  real(wp), parameter :: hopeless_krylov = 1.0e10_wp  !! growth of that residual that ends a solve
 
   !> What the present factors have cost so far.
   type :: lagged_factors_type
@@ -49,7 +48,7 @@ module gfb_linear_solver
   !> iterations can reach then.
   real(wp), parameter :: true_tolerance = 1.0e-3_wp
   integer, parameter :: slower = 2                 !! growth of the iterations after which a new coarse level pays
-  real(wp), parameter :: hopeless = 1.0e10_wp      !! growth of it that ends a solve
+  real(wp), parameter :: hopeless = 1.0e10_wp      !! growth of the residual that ends a solve
 
   !> What the present coarse level has cost so far.
   type :: coarse_level_type
@@ -87,7 +86,7 @@ contains
 
     PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
     PetscCallA(KSPGMRESSetRestart(linear, int(longest_krylov, pint), ierr))
-    PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, hopeless_krylov, int(longest_krylov, pint), ierr))
+    PetscCallA(KSPSetTolerances(linear, krylov_tolerance, 0.0_wp, hopeless, int(longest_krylov, pint), ierr))
   end subroutine use_lagged_factors
 
   !> Whether GMRES converged with the present factors, and whether they serve it further.

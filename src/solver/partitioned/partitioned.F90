@@ -36,7 +36,6 @@ module gfb_partitioned
   private
   public :: create_side, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
 
-  real(wp), parameter :: gas_share = 1.0_wp !! of the gas in the gap that is kept as the foil moves [1]
   real(wp), parameter :: room = 1.0e3_wp !! clearance while the film is not asked, over its own [1]
 
   !> One side; keep it and the bearing where they are.
@@ -193,7 +192,7 @@ contains
         do node = 1, size(pad%mesh%mesh_node)
           source = foil%source(node) - foil%first
           if (.not. pad%mesh%owned(node) .or. source < 1) cycle
-          rate = -gas_share*unknown(pad%first + node)/gap(pad%first_node + node)*foil%rate(node)* &
+          rate = -unknown(pad%first + node)/gap(pad%first_node + node)*foil%rate(node)* &
             foil%unknown_scale(source)/film%ambient_pressure
           if (film%fixed(node)) rate = 0.0_wp
           row = int(self%number(pad%first + node), pint)
