@@ -12,7 +12,7 @@ module gfb_bearing_restart
   use gfb_pad_contacts, only: pad_contacts
   use gfb_newton, only: newton_type, forget_factors, visit_counts
   use gfb_arc, only: create_arc, visit_arc
-  use gfb_continuation, only: fold_way_type, visit_way
+  use gfb_continuation, only: fold_path_type, visit_fold_path
   use gfb_grid_series, only: forget_numbers
   use gfb_petsc_session, only: this_rank, wall_time
   use gfb_contact_record, only: visit_contact_record
@@ -33,7 +33,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at the point's answer
     type(newton_type), intent(inout) :: newton !! its solver; loses its factors
     type(bearing_record_type), intent(inout) :: record !! of the points so far
-    type(fold_way_type), intent(inout), optional :: branch !! along a branch that is followed round its folds
+    type(fold_path_type), intent(inout), optional :: branch !! along a branch that is followed round its folds
     type(archive_type) :: archive(2)
 
     if (restart%every > 0) then
@@ -44,7 +44,7 @@ contains
     call visit_answer_and_record(archive(1), bearing, newton, record)
     if (present(branch)) then
       archive(2)%name = 'branch'
-      call visit_way(archive(2), branch)
+      call visit_fold_path(archive(2), branch)
       call visit_arc(archive(2), branch%arc)
     end if
     call save_restart(scene, restart, log, point, wall_time() - record%begun, archive)
@@ -111,14 +111,14 @@ contains
     type(operating_point_type), intent(in) :: last !! of the sweep
     type(bearing_system_type), target, intent(inout) :: bearing !! as `restore_bearing` left it; put at the branch's last answer
     type(newton_type), intent(in) :: newton !! of the bearing: its settings
-    type(fold_way_type), target, intent(inout) :: branch !! out: the branch as the file has it
+    type(fold_path_type), target, intent(inout) :: branch !! out: the branch as the file has it
     logical, intent(out) :: there !! the branch had been begun
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(archive_type) :: archive
 
     call read_restart(restart, 'branch', archive, error, there)
     if (allocated(error) .or. .not. there) return
-    call visit_way(archive, branch)
+    call visit_fold_path(archive, branch)
     bearing%point = branch%first
     call create_arc(bearing, newton, last, branch%arc)
     call visit_arc(archive, branch%arc)

@@ -78,7 +78,7 @@ module gfb_newton
     integer :: enlargements = 0   !! of the factors' workspace, since its creation
     SNES, private :: snes
     Vec, private :: residual
-    logical, private :: created = .false.
+    logical :: created = .false.
     class(nonlinear_system_type), pointer, private :: system => null()
     type(linear_solver_type), private :: linear
     type(line_search_type), private :: line  !! of the present solve

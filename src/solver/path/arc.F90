@@ -45,7 +45,7 @@ module gfb_arc
   real(wp), parameter :: least_start = 5.0e-4_wp   !! to which a step after a very short one is lengthened
   real(wp), parameter :: cut = 0.3_wp              !! of a step that failed
   real(wp), parameter :: lambda_weight = 1.0e-2_wp  !! of the parameter in the measure [1]
-  integer, parameter :: hasty_iterations = 12      !! more are not given to a step
+  integer, parameter :: max_iterations = 12        !! more are not given to a step
   real(wp), parameter :: sharp_fold = 1.0e-4_wp    !! change of the parameter about a fold that is passed [1]
   integer, parameter :: most_retreats = 6          !! before one, for shorter steps
 
@@ -255,7 +255,7 @@ contains
       PetscCallA(VecCopy(start, arc%path%base, ierr))
     end if
     PetscCallA(VecDestroy(start, ierr))
-    arc%newton%settings%maximum_iterations = hasty_iterations
+    arc%newton%settings%maximum_iterations = max_iterations
   end subroutine turn_corner
 
   !> Whether a step round a corner is not a leap to another branch.
@@ -276,7 +276,7 @@ contains
     arc%bearing => bearing
     call create_bordered_system(bearing, last, arc%path)
     call create_newton(arc%newton, arc%path, 'bearing_', newton%settings, newton%log)
-    arc%newton%settings%maximum_iterations = min(hasty_iterations, newton%settings%maximum_iterations)
+    arc%newton%settings%maximum_iterations = min(max_iterations, newton%settings%maximum_iterations)
     PetscCallA(VecDuplicate(arc%path%state, arc%tangent, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%work, ierr))
     PetscCallA(VecDuplicate(arc%path%state, arc%coming, ierr))

@@ -15,28 +15,28 @@ module gfb_continuation
   use gfb_bearing_directions, only: edge_direction
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
   use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
-  use gfb_ending, only: path_reached, path_touches, path_closes, path_folds, path_empties, path_lost
+  use gfb_ending, only: path_reached, path_touches, path_closes, path_folds, path_empties, path_lost, path_settings_type, &
+                        path_report_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_path_report, only: path_settings_type, path_report_type
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent, &
                          steps_given_up
   implicit none (type)
   private
-  public :: visit_way, look_beyond, follow_path, path_settings_type, path_report_type
+  public :: visit_fold_path, look_beyond, follow_path, path_settings_type, path_report_type
 
   !> The path along the branch. Keep it where it is.
-  type, public :: fold_way_type
+  type, public :: fold_path_type
     type(arc_type) :: arc
     type(operating_point_type) :: first, last !! of the sweep
     real(wp), allocatable :: lambda(:)        !! of the sweep's values between them [1]
     integer :: kept = 1                       !! value whose answer was kept last
     real(wp) :: kept_heading = 1.0_wp         !! and in which sense it was passed
-  end type fold_way_type
+  end type fold_path_type
 
   integer, parameter :: branch_lost = 0    !! nothing was found
-  integer, parameter, public :: branch_goes_on = 1 !! answers there are beyond
+  integer, parameter, public :: branch_continues = 1 !! answers there are beyond
   integer, parameter, public :: branch_folds = 2   !! the point turns back
 
   real(wp), parameter :: first_move = 1.0e-3_wp    !! of the edge, over the clearance [1]
@@ -47,13 +47,13 @@ module gfb_continuation
   integer, parameter :: most_smooth_moves = 600    !! without contacts, where moves cost next to nothing
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
 
-  integer, parameter :: hasty_iterations = 20        !! of a step that can be cut
+  integer, parameter :: max_iterations = 20          !! of a step that can be cut
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
   integer, parameter :: closing_steps = 40           !! more, where the gap is closing
   integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
   integer, parameter :: straight_before_leap = 3     !! Newton steps, before they are bent
   real(wp), parameter :: leaps(3) = [0.002_wp, 0.02_wp, 0.1_wp] !! of the path that is left [1]
-  real(wp), parameter :: closing_gap = 0.01_wp       !! a gap this small ends paths, over the clearance [1]
+  real(wp), parameter, public :: closing_gap = 0.01_wp       !! a gap this small ends paths, over the clearance [1]
   real(wp), parameter :: empty = 1.0e-3_wp           !! a pressure that is nothing, over the ambient one [1]
 
   !> A bearing on its way to an operating point; the parameter is the share of the path.
@@ -83,15 +83,15 @@ module gfb_continuation
 contains
 
   !> Saves or restores all but the arc; the sweep knows its last point and its values.
-  pure subroutine visit_way(archive, branch)
+  pure subroutine visit_fold_path(archive, branch)
     type(archive_type), intent(inout) :: archive !! that saves or restores
-    type(fold_way_type), intent(inout) :: branch !! written where the archive restores
+    type(fold_path_type), intent(inout) :: branch !! written where the archive restores
 
     call archive%part('first')
     call visit_point(archive, branch%first)
     call archive%visit('kept', branch%kept)
     call archive%visit('kept_heading', branch%kept_heading)
-  end subroutine visit_way
+  end subroutine visit_fold_path
 
   !> Moves the free edge on from an answer, or all of it, until the point is `wanted` ahead on the path, or turns
   !> back. On return the bearing is at the answer that lies farthest ahead.
@@ -174,7 +174,7 @@ contains
       else if (lambda > ahead) then
         ahead = lambda
         PetscCallA(VecCopy(path%state, farthest, ierr))
-        if (ahead >= wanted) outcome = branch_goes_on
+        if (ahead >= wanted) outcome = branch_continues
         if (solved%iterations <= easy_iterations) move = 2.0_wp*move
       else
         if (change <= closest_change) outcome = branch_folds
@@ -379,7 +379,7 @@ contains
     left = 1.0_wp - path%at
     call look_beyond(path%bearing, path%newton, path%target, path%before, path%at_before >= 0.0_wp, &
                      min(1.0_wp, 2.0_wp*path%smallest/left), outcome, ahead)
-    goes_on = outcome == branch_goes_on
+    goes_on = outcome == branch_continues
     path%folds = outcome == branch_folds
     if (ahead > 0.0_wp) then
       call path%accept(path%at)
@@ -443,7 +443,7 @@ contains
     straight = newton%settings%straight_steps
     newton%settings%straight_steps = min(straight, settings%straight_steps)
     allowed = newton%settings%maximum_iterations
-    if (may_be_cut) newton%settings%maximum_iterations = min(allowed, hasty_iterations)
+    if (may_be_cut) newton%settings%maximum_iterations = min(allowed, max_iterations)
     call solve_newton(newton, solved)
     newton%settings%maximum_iterations = allowed
     newton%settings%straight_steps = straight

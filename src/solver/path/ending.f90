@@ -1,7 +1,9 @@
-!> How a path of states ends: one of seven ways. What is said of each is written here alone.
+!> How far a path of states leads, and how it ends: one of seven ways. What is said of each is
+!> written here alone.
 module gfb_ending
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_operating_point, only: operating_point_type
   use gfb_work_bound, only: gave_up_words
   implicit none (type, external)
   private
@@ -16,7 +18,7 @@ module gfb_ending
   integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
   integer, parameter, public :: ending_stopped = 6    !! before anything was shown
 
-  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+  real(wp), parameter, public :: micrometres = 1.0e6_wp !! in a metre
 
   !> An ending.
   type, public :: ending_type
@@ -27,6 +29,33 @@ module gfb_ending
     procedure :: add_words
     procedure :: has_cause
   end type ending_type
+
+  !> Limits of a path.
+  type, public :: path_settings_type
+    integer :: maximum_steps = 200
+    real(wp) :: smallest_step = 1.0e-4_wp !! share of the path [1]
+    real(wp) :: touch_down_gap = 0.0_wp   !! a smaller gap ends the path [m]
+    logical :: look_for_folds = .true.    !! beyond the end of a path
+    integer :: most_cuts = huge(1)        !! of steps, after one that succeeded
+    !> Of any scaled unknown, where the branch is lost; farther off lies another one [1].
+    real(wp) :: longest_leap = 0.05_wp
+    integer :: straight_steps = huge(1)   !! Newton's, before they are bent at contacts
+  end type path_settings_type
+
+  !> How far a path led.
+  type, public :: path_report_type
+    type(ending_type) :: ending
+    type(operating_point_type) :: reached     !! the last point with an answer
+    real(wp) :: fraction = 0.0_wp             !! of the path that was gone [1]
+    integer :: steps = 0
+    integer :: cuts = 0                       !! steps that had to be shortened
+    logical :: shaft_fixed = .false.          !! the shaft was still fixed
+    logical :: of_smaller = .false.           !! the ending is a smaller mesh's, not shown here
+  contains
+    procedure :: converged
+    procedure :: has_cause => report_has_cause
+    procedure :: reason
+  end type path_report_type
 
 contains
 
@@ -150,4 +179,23 @@ contains
     type(ending_type) :: ending
     ending = ending_of(ending_lost, last)
   end function path_lost
+
+  !> Whether the path led to the point that was asked for.
+  elemental logical function converged(self)
+    class(path_report_type), intent(in) :: self !! of a path
+    converged = self%ending%kind == ending_reached
+  end function converged
+
+  !> Whether it ended for a cause in the bearing, rather than in Newton's method.
+  elemental logical function report_has_cause(self)
+    class(path_report_type), intent(in) :: self !! of a path
+    report_has_cause = self%ending%has_cause()
+  end function report_has_cause
+
+  !> What is said of its end.
+  pure function reason(self) result(words)
+    class(path_report_type), intent(in) :: self !! of a path
+    character(len=:), allocatable :: words
+    words = self%ending%words()
+  end function reason
 end module gfb_ending

@@ -6,37 +6,181 @@
 !> foil of shells lift first. To find those equilibria too whose edge is lifted all along, a fictitious
 !> string keeps the edge straight, and is released where the force is zero.
 module gfb_branch_search
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_petsc_session, only: any_rank
+  use gfb_ending, only: micrometres
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_lift, edge_words
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_petsc_session, only: any_rank
+  use gfb_bearing_directions, only: edge_lift, edge_words
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_arc, only: arc_type, end_arc, begin_arc, advance_arc
   use gfb_kept_state, only: kept_state_type
-  use gfb_start_problem, only: start_problem_type, with_fixed_edges, settings_with_fixed_edge
+  use gfb_start_problem, only: start_problem_type, with_fixed_edges, settings_with_fixed_edge, first_step
+  use gfb_edge_start, only: same_height
   use gfb_start_position, only: solve_at
-  use gfb_branch_list, only: branch_search_type, take_branch, destroy_branches
   implicit none (type)
   private
-  public :: find_branches, seek_branch
+  public :: take_branch, destroy_branches, lifts_of_pads, find_branches, seek_branch
 
-  real(wp), parameter :: first_step = 0.25_wp   !! of a path with edges fixed, to their heights [1]
+  real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
+  real(wp), parameter :: same_lifts = 1.0e-10_wp !! of midplane and ends, that are not told apart [m]
+
+  !> An equilibrium.
+  type :: branch_type
+    Vec :: state                 !! scaled
+    type(bearing_answer_type) :: answer
+    integer :: pulled_pad = 0 !! whose edge led there; 0: none
+  end type branch_type
+
+  !> What is looked for, and what was found; the first is where the search began.
+  type, public :: branch_search_type
+    logical :: given(2) = .false.    !! lifts asked for at the midplane, at the bearing's ends
+    real(wp), allocatable :: wanted(:, :) !! (2, pads) them [m]
+    integer :: pulled_pad = 0        !! whose edge is pulled now; 0: none
+    real(wp) :: close_enough = 0.0_wp !! to them [m]
+    real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
+    type(branch_type), allocatable :: branch(:)
+  contains
+    procedure :: wanted_of
+    procedure :: nearest_branch
+    procedure :: is_found
+    procedure :: collect
+  end type branch_search_type
+
   integer, parameter :: most_steps = 600        !! along one curve
   integer, parameter :: most_starts = 8         !! equilibria of several pads that edges are pulled from
   integer, parameter :: steps_a_line = 100      !! of progress
   integer, parameter :: most_release_steps = 200 !! of the string, a decade
   integer, parameter :: decades = 4             !! of its tension, before it is none
-  real(wp), parameter :: pull_share = 1.0e-2_wp !! unit of the force, over the bearing's size of a force [1]
-  real(wp), parameter :: tension_share = 1.0e-2_wp !! of the string, over that size times width over clearance [1]
+  real(wp), parameter :: pull_share = 1.0e-2_wp !! force and string's tension, the latter over width over clearance, over the size of a force [1]
   real(wp), parameter :: release_range = 0.35_wp   !! change of the mean lift when a string is released, over the clearance [1]
-  real(wp), parameter :: same_lift = 0.01_wp   !! a lift this near to the one asked for is it, over the clearance [1]
   real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and change of the lift [1]
-  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
 contains
+
+  !> Keeps the bearing's present answer unless it is known.
+  subroutine collect(self, bearing, newton)
+    class(branch_search_type), intent(inout) :: self !! the search
+    type(bearing_system_type), intent(in) :: bearing !! in equilibrium
+    type(newton_type), intent(in) :: newton          !! its solver, whose log tells of a new one
+    type(branch_type) :: new
+    real(wp) :: difference
+    Vec :: work
+    integer :: i
+    logical :: known
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(self%branch)) allocate (self%branch(0))
+    PetscCallA(VecDuplicate(bearing%state, work, ierr))
+    known = .false.
+    do i = 1, size(self%branch)
+      PetscCallA(VecWAXPY(work, -1.0_wp, self%branch(i)%state, bearing%state, ierr))
+      PetscCallA(VecNorm(work, NORM_INFINITY, difference, ierr))
+      known = known .or. difference < same_state
+    end do
+    if (known) then
+      PetscCallA(VecDestroy(work, ierr))
+      return
+    end if
+    PetscCallA(VecCopy(bearing%state, work, ierr))
+    new%state = work
+    new%answer = bearing_answer(bearing)
+    new%pulled_pad = self%pulled_pad
+    self%branch = [self%branch, new]
+    associate (answer => new%answer, clearance => bearing%pad(1)%film%clearance)
+      call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
+                           text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
+                           '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
+                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)'//lifts_of_pads(answer%pad_lift))
+    end associate
+  end subroutine collect
+
+  !> Lifts of the leading edges of several pads [um], at the midplane, and at the ends where they differ; nothing of one.
+  pure function lifts_of_pads(lift) result(words)
+    real(wp), intent(in) :: lift(:, :) !! (2, pads) [m]
+    character(len=:), allocatable :: words
+    integer :: pad
+
+    words = ''
+    if (size(lift, 2) == 1) return
+    words = ', by pads'
+    do pad = 1, size(lift, 2)
+      words = words//' '//text(lift(1, pad)*micrometres, 4)
+      if (abs(lift(2, pad) - lift(1, pad)) > same_lifts) words = words//' ('//text(lift(2, pad)*micrometres, 4)//')'
+    end do
+    words = words//' um'
+  end function lifts_of_pads
+
+  !> Two lifts [um].
+  pure function lifts(value) result(words)
+    real(wp), intent(in) :: value(2) !! [m]
+    character(len=:), allocatable :: words
+    words = '('//text(value(1)*micrometres, 3)//', '//text(value(2)*micrometres, 3)//')'
+  end function lifts
+
+  !> Mean lift of a pad's leading edge that is asked for [m].
+  pure function wanted_of(self, pad) result(mean)
+    class(branch_search_type), intent(in) :: self !! the search
+    integer, intent(in) :: pad !! its number
+    real(wp) :: mean
+    mean = sum(self%wanted(:, pad), mask=self%given)/real(count(self%given), wp)
+  end function wanted_of
+
+  !> The equilibrium whose leading edge is lifted most nearly as asked for.
+  pure function nearest_branch(self) result(number)
+    class(branch_search_type), intent(in) :: self !! the search
+    integer :: number
+    integer :: i
+
+    number = minloc([(distance(self, i), i=1, size(self%branch))], 1)
+  end function nearest_branch
+
+  !> Whether one that was asked for has been found.
+  pure function is_found(self) result(found)
+    class(branch_search_type), intent(in) :: self !! the search
+    logical :: found
+
+    found = .false.
+    if (.not. allocated(self%branch)) return
+    if (any(self%given)) found = distance(self, self%nearest_branch()) <= self%close_enough
+  end function is_found
+
+  !> How far an equilibrium's lifts are from those asked for [m].
+  pure function distance(search, number)
+    type(branch_search_type), intent(in) :: search
+    integer, intent(in) :: number
+    real(wp) :: distance
+    distance = maxval(abs(search%branch(number)%answer%pad_lift - search%wanted), &
+                      mask=spread(search%given, 2, size(search%wanted, 2)))
+  end function distance
+
+  !> Puts the bearing on a branch.
+  subroutine take_branch(bearing, point, branch)
+    type(bearing_system_type), intent(inout) :: bearing !! is put on the branch
+    type(operating_point_type), intent(in) :: point !! of the branches
+    type(branch_type), intent(in) :: branch         !! one that was found on this bearing
+
+    bearing%point = point
+    bearing%shaft_fixed = .false. ! as a search that has failed may have left it
+    call bearing%return_to(branch%state)
+  end subroutine take_branch
+
+  !> Frees what PETSc holds.
+  subroutine destroy_branches(search)
+    type(branch_search_type), intent(inout) :: search !! is empty then
+    integer :: i
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(search%branch)) return
+    do i = 1, size(search%branch)
+      PetscCallA(VecDestroy(search%branch(i)%state, ierr))
+    end do
+    deallocate (search%branch)
+  end subroutine destroy_branches
 
   !> Goes over to the equilibrium whose leading edge is lifted as asked for.
   subroutine seek_branch(midplane, ends, problem)
@@ -54,7 +198,7 @@ contains
       allocate (search%wanted(2, size(bearing%pad)), source=0.0_wp)
       if (search%given(1)) search%wanted(1, :) = [(midplane(min(pad, size(midplane))), pad=1, size(bearing%pad))]
       if (search%given(2)) search%wanted(2, :) = [(ends(min(pad, size(ends))), pad=1, size(bearing%pad))]
-      search%close_enough = same_lift*clearance
+      search%close_enough = same_height*clearance
       lift = [(edge_lift(bearing, pad), pad=1, size(bearing%pad))]
       mean = [(search%wanted_of(pad), pad=1, size(bearing%pad))]
       search%lifts = [min(minval(lift), minval(mean)), max(maxval(lift), maxval(mean))]
@@ -145,7 +289,7 @@ contains
     if (any_rank(bearing%pad(pad)%edge%pairs() > 0)) then
       call newton%log%line('from equilibrium '//text(from)//', '//edge//' kept straight and pulled:')
       straight = free
-      straight%edge_tension(pad) = tension_share*bearing%force_scale()* &
+      straight%edge_tension(pad) = pull_share*bearing%force_scale()* &
         (maxval(bearing%pad(pad)%whole%row_axial) - minval(bearing%pad(pad)%whole%row_axial))/bearing%pad(pad)%film%clearance
       settings%look_for_folds = .false.
       call follow_path(bearing, newton, straight, 1.0_wp, settings, report)

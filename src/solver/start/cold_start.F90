@@ -28,7 +28,7 @@ module gfb_cold_start
   use gfb_model_case, only: foil_rigid
   implicit none (type)
   private
-  public :: start_bearing, restart_bearing, start_partitioned
+  public :: start_bearing, start_partitioned
 
   integer, parameter :: most_meshes = 24 !! each has half the elements of the next one at least, or lies between two
 
@@ -46,7 +46,8 @@ module gfb_cold_start
 contains
 
   !> Builds a scene's equations and finds their answer at an operating point, on smaller meshes first. Where the answer of one
-  !> with few rows does not lead to the next, one with half the rows is put in between.
+  !> with few rows does not lead to the next, one with half the rows is put in between. A bearing that there is already is built
+  !> anew, and what was spent on it counts.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -62,9 +63,11 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
     type(mesh_type), allocatable, target :: mesh(:) ! the scene's is the first
     integer, allocatable :: left(:) ! numbers of the meshes that are still to be searched, the next one last
-    integer :: last, meshes, spent(3)
+    integer :: last, meshes, spent(3), spent_before(3)
     logical :: between, smaller
 
+    spent_before = 0
+    if (newton%created) call drop_bearing(bearing, newton, spent_before)
     allocate (mesh(most_meshes))
     mesh(1)%scene = scene
     mesh(1)%plan = plan
@@ -109,7 +112,7 @@ contains
     end do
     call mesh(1)%anchor%destroy()
     spent(3) = spent(2)
-    call count_spent(newton, spent)
+    call count_spent(newton, spent + spent_before)
     report = mesh(1)%report
     if (report%ending%kind == ending_lost .and. bearing%floats) call report%ending%add_words(lost_words(report, target), '')
   end subroutine start_bearing
@@ -140,27 +143,6 @@ contains
       words = 'lost: '
     end if
   end function lost_words
-
-  !> `start_bearing` where there is a bearing already, whose way has ended: it is built anew, and what was spent on it counts.
-  !>
-  !> Fails when the mesh cannot be cut.
-  subroutine restart_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), target, intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan          !! its meshes
-    type(operating_point_type), intent(in) :: target     !! where the answer is asked for
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
-    type(bearing_system_type), target, intent(inout) :: bearing !! in: the one before; out: built anew
-    type(newton_type), target, intent(inout) :: newton          !! its solver
-    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
-    type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    integer :: spent(3)
-
-    call drop_bearing(bearing, newton, spent)
-    call start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    call count_spent(newton, spent)
-  end subroutine restart_bearing
 
   !> Searches one mesh for the answer, from that of the mesh before or from nothing.
   subroutine search_mesh(mesh, target, path_settings, log, before, has_smaller, between)

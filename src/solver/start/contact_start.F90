@@ -14,9 +14,9 @@ module gfb_contact_start
   use gfb_bearing_system, only: bearing_system_type
   use gfb_pad_contacts, only: set_hardness, set_adhesion
   use gfb_newton, only: newton_type, newton_settings_type, newton_report_type, solve_newton
-  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path, closing_gap
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, against_load, before, trial_settings
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, before, trial_settings, usual_eccentricity
   use gfb_kept_state, only: kept_state_type
   use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
   implicit none (type)
@@ -25,7 +25,7 @@ module gfb_contact_start
 
   !> Releases contacts while the foil is pressed most: before the shaft is released where the load is larger than
   !> the film's force under the fixed shaft.
-  type(soft_contacts_type), parameter, public :: usual_contacts = soft_contacts_type(by_load, 0.5_wp, 1.5_wp, 1.0_wp)
+  type(soft_contacts_type), parameter, public :: usual_contacts = soft_contacts_type(by_load, usual_eccentricity, 1.5_wp, 1.0_wp)
 
   real(wp), parameter :: first_hard_step = 0.1_wp   !! of the rest of a path, with contacts of full stiffness [1]
 
@@ -34,7 +34,6 @@ module gfb_contact_start
   real(wp), parameter :: shortest_decades = 0.05_wp    !! of a step, before it is given up [1]
   real(wp), parameter :: enough = 4.0_wp             !! decades of the release that are all where steps do not grow
   integer, parameter :: most_soft_cuts = 2           !! of a path with soft contacts that has begun
-  real(wp), parameter :: thin = 0.01_wp              !! gap at which a path with soft contacts ends, over the clearance [1]
   real(wp), parameter :: least_adhesion = -8.0_wp    !! decades of the stiffness against opening at which it is none [1]
 
   !> Contacts on their way from soft two-way ones to the scene's, at one point; the parameter is in decades.
@@ -87,7 +86,7 @@ contains
 
     soft = settings
     soft%look_for_folds = .false. ! they would be those of soft contacts
-    soft%touch_down_gap = max(settings%touch_down_gap, thin*bearing%pad(1)%film%clearance) ! from where hard ones go on
+    soft%touch_down_gap = max(settings%touch_down_gap, closing_gap*bearing%pad(1)%film%clearance) ! from where hard ones go on
     soft%most_cuts = most_soft_cuts
     wanted = newton%settings
     newton%settings%straight_steps = rough%straight_steps
@@ -98,10 +97,7 @@ contains
     call set_adhesion(bearing, 1.0_wp)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
-    early = contacts%release == before
-    if (contacts%release == by_load .or. contacts%release == against_load) then
-      early = norm2(target%load) > norm2(force(1:2)) .eqv. contacts%release == by_load
-    end if
+    early = contacts%release == before .or. (contacts%release == by_load .and. norm2(target%load) > norm2(force(1:2)))
     if (report%converged() .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     if (report%converged() .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
     if (.not. early .and. (report%converged() .or. .not. report%shaft_fixed)) then

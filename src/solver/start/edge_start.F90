@@ -5,53 +5,46 @@
 !> hides what equilibria there are from Newton's method. With the edge fixed at a height the rest has
 !> an answer, and the force that holds it there tells more: where it changes its sense from one height
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
-!>
-!> The height at which the top foil's free edge stays by itself, from where it is fixed; of several pads each has one, and
-!> they are released one after the other.
-!>
-!> The force that fixes the edge is followed from height to height. Where it changes its sense the edge needs none, and is
-!> released; where it never does below the shaft the edge is drawn up everywhere, and stays nowhere.
+!> Edges of several pads are released one after the other.
 module gfb_edge_start
-  use gfb_kinds, only: wp
-  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold
+  use gfb_kinds, only: wp, most_pads
+  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold, micrometres
   use gfb_petsc_session, only: any_rank
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_directions, only: edge_lift, edge_room, edge_force, edge_words
-  use gfb_newton, only: newton_type, newton_settings_type
+  use gfb_newton, only: newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at, guess_position
   use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, trial_settings, &
-                               with_fixed_edges
+                               with_fixed_edges, first_step, shortest_trial
   use gfb_kept_state, only: kept_state_type
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
   public :: try_free_edge
 
-  real(wp), parameter, public :: resting = 0.02_wp       !! highest edge that rests, over the clearance [1]
+  !> Highest edge that rests, over the clearance: higher accepts edges that the film lifts, lower looks for others in vain. As
+  !> much an edge is lowered by at a time, and room for as much above it is none [1].
+  real(wp), parameter, public :: resting = 0.02_wp
   real(wp), parameter :: low_edge = -0.2_wp      !! height of an edge that lies on its bumps, over the clearance [1]
   real(wp), parameter :: lowest = -0.5_wp !! where the film still presses it down, the same [1]
-  real(wp), parameter :: lower_step = 0.02_wp    !! of the edge on its way down there, the same [1]
-  real(wp), parameter :: firm = 10.0_wp          !! times the largest force so far: the bumps push the edge back [1]
-  real(wp), parameter :: next_height = 0.1_wp    !! from the one before, the same [1]
+  real(wp), parameter :: max_force_ratio = 10.0_wp !! times the largest force so far: the bumps push the edge back [1]
+  !> From a height to the next, the same: longer steps miss an edge that stays between two, shorter ones are more of them [1]
+  real(wp), parameter, public :: next_height = 0.1_wp
   integer, parameter :: near_heights = 6         !! from which on they lie twice as far apart
   real(wp), parameter :: near_shaft = 0.5_wp     !! room above the edge that ends the search, the same [1]
-  real(wp), parameter :: least_room = 0.02_wp    !! room above it that ends it in any case, the same [1]
   integer, parameter :: long_rise = 4            !! of forces in succession, that shows enough where the shaft then touches down
   integer, parameter :: most_heights = 20
   integer, parameter :: few_straight = 3         !! Newton steps with the edge fixed, before they are bent
   real(wp), parameter :: rough_residual = 1.0e-4_wp, rough_step = 1.0e-3_wp !! tolerances of forces that fix the edge [1]
   integer, parameter :: more_straight = 8        !! of them when it is released
-  real(wp), parameter :: same_height = 0.01_wp   !! difference that does not matter, over the clearance [1]
-  integer, parameter :: hasty_iterations = 25    !! to release it
+  real(wp), parameter, public :: same_height = 0.01_wp !! difference that does not matter, over the clearance [1]
+  integer, parameter :: max_iterations = 25      !! to release it
   integer, parameter :: most_trials = 16         !! to find where the edge needs no force
   real(wp), parameter :: least_fall = 0.5_wp     !! of the force from release to release [1]
-  real(wp), parameter :: least_share = 0.02_wp   !! of the way between two heights, from either [1]
-  real(wp), parameter :: micrometres = 1.0e6_wp  !! in a metre
 
-  real(wp), parameter :: first_step = 0.25_wp    !! of a path to the load [1]
   character(len=*), parameter :: held = ', with the free edge of the top foil fixed at its height at rest'
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
 
@@ -95,23 +88,21 @@ contains
 
     do pad = 1, size(problem%bearing%pad)
       if (.not. edge_force(problem%bearing, pad) > 0.0_wp) cycle
-      free = problem%bearing%point
-      free%edge_hold(pad) = 0.0_wp
-      free%edge_height(pad) = 0.0_wp
+      free = without_holds(problem%bearing%point, pad, pad)
       call release(problem, free, problem%newton%settings, [lowest, resting]*clearance_of(problem%bearing), report)
     end do
   end subroutine release_pressed
 
-  !> The target with a pad's edge released, and the others as they are.
-  pure function released(problem, pad) result(target)
-    type(start_problem_type), intent(in) :: problem
-    integer, intent(in) :: pad !! its number
-    type(operating_point_type) :: target
+  !> A point with the edges of some pads released, and the others as they are.
+  pure function without_holds(point, first, last) result(free)
+    type(operating_point_type), intent(in) :: point
+    integer, intent(in) :: first, last !! numbers of the pads
+    type(operating_point_type) :: free
 
-    target = with_same_edges(problem)
-    target%edge_hold(pad) = 0.0_wp
-    target%edge_height(pad) = 0.0_wp
-  end function released
+    free = point
+    free%edge_hold(first:last) = 0.0_wp
+    free%edge_height(first:last) = 0.0_wp
+  end function without_holds
 
   !> At the target: releases the edge of a pad where it stays by itself.
   subroutine release_edge(problem, pad, report, ends)
@@ -126,7 +117,7 @@ contains
     ! It moves the way the film presses it.
     drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     highest = merge(resting, 0.0_wp, drawn_up)
-    call release(problem, released(problem, pad), problem%newton%settings, &
+    call release(problem, without_holds(with_same_edges(problem), pad, pad), problem%newton%settings, &
                  [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
     if (.not. report%converged()) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
@@ -168,27 +159,23 @@ contains
     type(newton_settings_type), intent(in) :: wanted !! at the target
     logical, intent(out) :: lower !! at the lowest height it is still to be lifted
     type(path_report_type), intent(inout) :: report
-    type(operating_point_type) :: next
     real(wp) :: force, force_before, height_before, largest
 
     lower = .false.
     associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
       force = edge_force(bearing, pad)
       largest = abs(force)
-      call note_height(problem%newton, bearing, pad, force)
+      call note_height(problem, pad, force)
       do
         height_before = bearing%point%edge_height(pad)
         force_before = force
-        next = bearing%point
-        next%edge_height(pad) = height_before - merge(2.0_wp, 1.0_wp, height_before < low_edge*clearance)*lower_step*clearance
-        call follow_path(bearing, problem%newton, next, 1.0_wp, settings, report)
-        force = edge_force(bearing, pad)
-        call note_height(problem%newton, bearing, pad, force)
+        call move_edge(problem, pad, settings, height_before - merge(2.0_wp, 1.0_wp, height_before < low_edge*clearance)* &
+                       resting*clearance, force, report)
         if (force_before > 0.0_wp .and. .not. force > 0.0_wp) then
           call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
           return
         end if
-        if (.not. report%converged() .or. force < -firm*largest .or. &
+        if (.not. report%converged() .or. force < -max_force_ratio*largest .or. &
             bearing%point%edge_height(pad) < merge(lowest, low_edge, force > 0.0_wp)*clearance) exit
         largest = max(largest, force)
       end do
@@ -210,12 +197,11 @@ contains
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! it stays nowhere
     type(kept_state_type) :: nearest !! where the edge needs the least force
-    type(operating_point_type) :: next
     real(wp) :: force, force_before, height_before, least, room, step
     integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
 
     ends = .false.
-    associate (bearing => problem%bearing, newton => problem%newton, clearance => clearance_of(problem%bearing))
+    associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
       force = edge_force(bearing, pad)
       least = abs(force)
       call nearest%keep(bearing)
@@ -225,12 +211,8 @@ contains
         step = merge(1.0_wp, 2.0_wp, number <= near_heights)*next_height*clearance
         height_before = bearing%point%edge_height(pad)
         force_before = force
-        next = bearing%point
-        next%edge_height(pad) = height_before + min(step, 0.5_wp*room)
-        call follow_path(bearing, newton, next, 1.0_wp, settings, report)
-        force = edge_force(bearing, pad)
+        call move_edge(problem, pad, settings, height_before + min(step, 0.5_wp*room), force, report)
         room = edge_room(bearing, pad)
-        call note_height(newton, bearing, pad, force)
         if (force > 0.0_wp) then
           call release_between(problem, pad, settings, wanted, height_before, force_before, force, report)
           call nearest%destroy()
@@ -243,7 +225,7 @@ contains
         end if
         if (.not. report%converged()) exit
         ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
-        if (room < near_shaft*clearance .and. (force <= force_before .or. room < least_room*clearance)) exit
+        if (room < near_shaft*clearance .and. (force <= force_before .or. room < resting*clearance)) exit
       end do
       ends = report%converged() .and. room < near_shaft*clearance .or. report%ending%kind == ending_touch_down .and. rising >= long_rise
       if (ends) then
@@ -270,8 +252,7 @@ contains
     real(wp), intent(in) :: height_before !! of the edge, on the other side [m]
     real(wp), intent(in) :: force_before, force_here !! that fix it there and here [N]
     type(path_report_type), intent(inout) :: report
-    type(operating_point_type) :: next
-    real(wp) :: height(2), force(2), force_next, tried, share
+    real(wp) :: height(2), height_next, force(2), force_next, tried, share
     integer :: trial, side, side_before
 
     height = [height_before, problem%bearing%point%edge_height(pad)]
@@ -279,22 +260,19 @@ contains
     tried = minval(abs(force))
     side_before = 0
     do trial = 1, most_trials
-      next = problem%bearing%point
       share = force(1)/(force(1) - force(2))
-      next%edge_height(pad) = height(1) + (height(2) - height(1))*max(least_share, min(1.0_wp - least_share, share))
-      call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
+      height_next = height(1) + (height(2) - height(1))*max(shortest_trial, min(1.0_wp - shortest_trial, share))
+      call move_edge(problem, pad, settings, height_next, force_next, report)
       if (.not. report%converged()) exit
-      force_next = edge_force(problem%bearing, pad)
-      call note_height(problem%newton, problem%bearing, pad, force_next)
       side = merge(1, 2, (force_next > 0.0_wp) .eqv. (force(1) > 0.0_wp))
       if (side == side_before) force(3 - side) = 0.5_wp*force(3 - side)
       side_before = side
-      height(side) = next%edge_height(pad)
+      height(side) = height_next
       force(side) = force_next
       report%ending = path_lost(report%reason())
       if (abs(force_next) > least_fall*tried) cycle
       tried = abs(force_next)
-      call release(problem, released(problem, pad), wanted, height, report)
+      call release(problem, without_holds(with_same_edges(problem), pad, pad), wanted, height, report)
       if (report%converged()) exit
     end do
   end subroutine release_between
@@ -314,7 +292,7 @@ contains
     rough = problem%newton%settings
     problem%newton%settings = wanted
     problem%newton%settings%straight_steps = more_straight
-    problem%newton%settings%maximum_iterations = min(hasty_iterations, wanted%maximum_iterations)
+    problem%newton%settings%maximum_iterations = min(max_iterations, wanted%maximum_iterations)
     call fixed%keep(problem%bearing)
     call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
     if (report%converged()) then
@@ -341,15 +319,31 @@ contains
     settings%step_tolerance = max(settings%step_tolerance, rough_step)
   end subroutine be_rough
 
+  !> Fixes the edge at another height, and tells the force that it takes.
+  subroutine move_edge(problem, pad, settings, height, force, report)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! whose edge it is
+    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
+    real(wp), intent(in) :: height !! [m]
+    real(wp), intent(out) :: force !! that fixes it where the path has ended [N]
+    type(path_report_type), intent(out) :: report !! of the path there
+    type(operating_point_type) :: next
+
+    next = problem%bearing%point
+    next%edge_height(pad) = height
+    call follow_path(problem%bearing, problem%newton, next, 1.0_wp, settings, report)
+    force = edge_force(problem%bearing, pad)
+    call note_height(problem, pad, force)
+  end subroutine move_edge
+
   !> Tells a height and its force.
-  subroutine note_height(newton, bearing, pad, force)
-    type(newton_type), intent(in) :: newton
-    type(bearing_system_type), intent(in) :: bearing
+  subroutine note_height(problem, pad, force)
+    type(start_problem_type), intent(in) :: problem
     integer, intent(in) :: pad
     real(wp), intent(in) :: force
 
-    call newton%log%detail(edge_words(bearing, pad)//': fixed at '//text(bearing%point%edge_height(pad)*micrometres, 4)// &
-                           ' um by '//text(force, 4)//' N')
+    call problem%newton%log%detail(edge_words(problem%bearing, pad)//': fixed at '// &
+                                   text(problem%bearing%point%edge_height(pad)*micrometres, 4)//' um by '//text(force, 4)//' N')
   end subroutine note_height
 
   !> Fixes the edge where it rests while contacts are released, and seeks from there the height where it stays by
@@ -381,8 +375,8 @@ contains
     if (report%converged() .and. number > 1) report%ending = path_lost('')
     if (.not. report%converged()) then
       call fixed%keep(problem%bearing)
-      call go_on_released(problem, report, ends)
-      if (.not. (report%converged() .or. ends)) call go_on_fixed(problem, settings, fixed, report, ends)
+      call continue_released(problem, report, ends)
+      if (.not. (report%converged() .or. ends)) call continue_fixed(problem, settings, fixed, report, ends)
       call fixed%destroy()
     end if
     if (report%converged() .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
@@ -419,26 +413,24 @@ contains
   end function edge_bends
 
   !> Short of the target: releases the edge there, and follows the branch.
-  subroutine go_on_released(problem, report, ends)
+  subroutine continue_released(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! the shaft touches down
     type(operating_point_type) :: free
 
     ends = .false.
-    free = problem%bearing%point
-    free%edge_hold = 0.0_wp
-    free%edge_height = 0.0_wp
+    free = without_holds(problem%bearing%point, 1, most_pads)
     call release(problem, free, problem%newton%settings, &
                  [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
     if (.not. report%converged()) return
     call problem%anchor%keep(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
     ends = report%has_cause()
-  end subroutine go_on_released
+  end subroutine continue_released
 
   !> The branch with the edge released does not lead to the target: goes on with the edge fixed, which cannot fold by it.
-  subroutine go_on_fixed(problem, settings, fixed, report, ends)
+  subroutine continue_fixed(problem, settings, fixed, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
     type(kept_state_type), intent(in) :: fixed !! state with the edge fixed, short of the target
@@ -471,7 +463,7 @@ contains
       call release_short_of_load(problem, report, ends)
     end if
     call last%destroy()
-  end subroutine go_on_fixed
+  end subroutine continue_fixed
 
   !> No step leads to the target with the edge fixed: where it is fixed now, seeks the height where it stays by itself, and
   !> follows the branch from there.
@@ -485,9 +477,7 @@ contains
     real(wp) :: share
 
     target = problem%target
-    problem%target = report%reached
-    problem%target%edge_hold = 0.0_wp
-    problem%target%edge_height = 0.0_wp
+    problem%target = without_holds(report%reached, 1, most_pads)
     call last%keep(problem%bearing)
     share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
     call release_edges(problem, short, ends)

@@ -13,15 +13,14 @@ module gfb_interference_start
   use gfb_continuation, only: path_report_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_given_up
-  use gfb_start_problem, only: start_problem_type
+  use gfb_start_problem, only: start_problem_type, first_step
   use gfb_kept_state, only: kept_state_type
   implicit none (type)
   private
-  public :: press, set_interference
+  public :: close_interference, set_interference
 
-  real(wp), parameter :: first_step = 0.25_wp     !! of the interference, over all of it [1]
   real(wp), parameter :: smallest_step = 0.005_wp !! before it is given up [1]
-  integer, parameter :: hasty_iterations = 20     !! of a step
+  integer, parameter :: max_iterations = 20       !! of a step
   real(wp), parameter :: growth = 1.5_wp          !! of a step that succeeded [1]
 
   !> A bearing whose shaft grows to its size; the parameter is the share of the interference.
@@ -41,7 +40,7 @@ module gfb_interference_start
 contains
 
   !> From an answer without interference to that with all of it, at the same operating point; a step that fails is halved.
-  subroutine press(problem, interference, report)
+  subroutine close_interference(problem, interference, report)
     type(start_problem_type), intent(inout) :: problem !! at an answer without interference
     real(wp), intent(in) :: interference !! asked for [m]
     type(path_report_type), intent(inout) :: report !! of success, which becomes one of failure where a step is too small
@@ -55,7 +54,7 @@ contains
     path%whole = interference
     call path%saved%keep(problem%bearing)
     allowed = problem%newton%settings%maximum_iterations
-    problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
+    problem%newton%settings%maximum_iterations = min(max_iterations, allowed)
     call follow_steps(path, step_rules_type(first_step=first_step, smallest_step=smallest_step, growth=growth, &
                                             cuts_the_trial=.true.), ending)
     problem%newton%settings%maximum_iterations = allowed
@@ -70,7 +69,7 @@ contains
     else
       report%ending = path_lost('no step leads beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
     end if
-  end subroutine press
+  end subroutine close_interference
 
   !> A share of the interference: Newton's method from the last answer.
   subroutine try_interference(self, trial, may_be_cut, converged, iterations)

@@ -12,19 +12,17 @@ module gfb_rigid_start
   use gfb_film_load, only: film_forces
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of
+  use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of, usual_eccentricity
   use gfb_kept_state, only: kept_state_type
-  use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at
+  use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, room_at_rest
   implicit none (type)
   private
   public :: try_from_rest, try_laid_down
 
-  real(wp), parameter :: eccentricity = 0.5_wp  !! where none is given, over the free clearance [1]
-  integer, parameter :: hasty_iterations = 10   !! of the load at once, which takes 4 to 9 where it helps
+  integer, parameter :: max_iterations = 10     !! of the load at once, which takes 4 to 9 where it helps
   integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
   real(wp), parameter :: aside = 0.25_wp*acos(-1.0_wp) !! attitude of a shaft that does not lie where the load presses it [rad]
   real(wp), parameter :: behind_load = 0.1_wp   !! attitude of a shaft that is laid down; heavy loads leave 0 to 6 degrees [rad]
-  real(wp), parameter :: first_depth = 0.75_wp  !! eccentricity to begin with, over the clearance [1]
   real(wp), parameter :: deeper = 1.3_wp        !! over the one before [1]
   integer, parameter :: most_depths = 24        !! to 400 times the clearance
   real(wp), parameter :: coarse_peclet = 5.0_wp !! of a cell that is too large for Galerkin [1]
@@ -37,7 +35,7 @@ contains
     type(path_report_type), intent(out) :: report !! how it ended
 
     associate (bearing => problem%bearing, newton => problem%newton)
-      call guess_position(bearing, problem%scene, problem%target, eccentricity)
+      call guess_position(bearing, problem%scene, problem%target, usual_eccentricity)
       if (bearing%floats .and. problem%target%speed > 0.0_wp) then
         call try_directly(bearing, newton, problem%target, problem%settings, report)
         if (report%converged()) return
@@ -71,7 +69,7 @@ contains
       position = bearing%eccentricity()
       if (-dot_product(position, load) > cos(aside)*norm2(position)*norm2(load)) return
       direction = atan2(load(2), load(1)) + behind_load
-      call place_shaft(bearing, -first_depth*clearance_of(bearing)*[cos(direction), sin(direction)])
+      call place_shaft(bearing, -room_at_rest*clearance_of(bearing)*[cos(direction), sin(direction)])
       call find_position(bearing, newton, problem%target, downwards, report)
       if (.not. report%converged()) return
       do depth = 1, most_depths
@@ -97,7 +95,6 @@ contains
     type(path_report_type), intent(out) :: report
     type(kept_state_type) :: start
     real(wp) :: unknown(bearing%local_size()), position(2)
-    integer :: allowed
 
     call newton%log%detail('the load at once, from ambient pressure')
     call start%keep(bearing)
@@ -106,10 +103,7 @@ contains
     call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
     unknown(bearing%first_shaft + 1:) = position
     call bearing%set_unknowns(unknown)
-    allowed = newton%settings%maximum_iterations
-    newton%settings%maximum_iterations = min(hasty_iterations, allowed)
-    call solve_at(bearing, newton, target, .false., settings, report)
-    newton%settings%maximum_iterations = allowed
+    call solve_at(bearing, newton, target, .false., settings, report, max_iterations)
     if (.not. report%converged()) call start%put_back(bearing)
     call start%destroy()
   end subroutine try_directly

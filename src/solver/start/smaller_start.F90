@@ -17,7 +17,7 @@ module gfb_smaller_start
   use gfb_foil_builder, only: plate_stations
   use gfb_ending, only: path_lost
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, trial_settings
+  use gfb_start_problem, only: start_problem_type, trial_settings, first_step
   use gfb_start_position, only: solve_at
   use gfb_answer_transfer, only: transfer_answer
   use gfb_bearing_directions, only: edge_force
@@ -29,8 +29,7 @@ module gfb_smaller_start
   integer, parameter :: least_axial = 4            !! of half the width, at least
   integer, parameter :: least_of_pitch = 3         !! of a bump's pitch, at least
 
-  real(wp), parameter :: first_step = 0.25_wp !! of a path to the load [1]
-  integer, parameter :: hasty_iterations = 16 !! where a mesh in between may help; 6 to 10 where none is needed
+  integer, parameter :: max_iterations = 16 !! where a mesh in between may help; 6 to 10 where none is needed
 
 contains
 
@@ -159,13 +158,10 @@ contains
   subroutine try_smaller_answer(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(path_report_type), intent(out) :: report !! how it ended
-    integer :: allowed
 
     call transfer_answer(problem%smaller, problem%bearing)
-    allowed = problem%newton%settings%maximum_iterations
-    if (problem%carried_only) problem%newton%settings%maximum_iterations = min(hasty_iterations, allowed)
-    call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report)
-    problem%newton%settings%maximum_iterations = allowed
+    call solve_at(problem%bearing, problem%newton, problem%target, .false., problem%settings, report, &
+                  merge(max_iterations, problem%newton%settings%maximum_iterations, problem%carried_only))
     problem%from_smaller = report%converged()
   end subroutine try_smaller_answer
 

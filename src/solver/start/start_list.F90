@@ -8,15 +8,15 @@ module gfb_start_list
   use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings, usual_eccentricity
   use gfb_kept_state, only: kept_state_type
   use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
   use gfb_rigid_start, only: try_from_rest, try_laid_down
   use gfb_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
-  use gfb_edge_start, only: resting, try_free_edge
-  use gfb_interference_start, only: press, set_interference
+  use gfb_edge_start, only: resting, next_height, try_free_edge
+  use gfb_interference_start, only: close_interference, set_interference
   implicit none (type)
   private
   public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed
@@ -29,17 +29,26 @@ module gfb_start_list
   integer, parameter, public :: start_edge_fixed = 6
   integer, parameter, public :: start_released_early = 7
   integer, parameter, public :: start_released_late = 8
-  integer, parameter, public :: start_light = 9
+  integer, parameter, public :: start_lighter_load = 9
   integer, parameter, public :: start_near_foil = 10
+  character(len=*), parameter :: names(*) = [character(len=64) :: &
+                                             "the smaller system's answer", &
+                                             "the end of the smaller system's search", &
+                                             "the fixed shaft from rest to speed", &
+                                             "the shaft laid on its foil under the load", &
+                                             "soft contacts of several pads, released early under a load", &
+                                             "the free edge fixed where it rests", &
+                                             "soft contacts, released early under a load", &
+                                             "soft contacts, released after the shaft in growing steps", &
+                                             "the free edge fixed where it rests, under a tenth of the load", &
+                                             "soft contacts, released before the shaft near the foil"]
 
   !> Newton's, after which no other start begins: more find a few more answers, and every refusal pays for them
   integer, parameter :: most_iterations = 800
-  !> Edge of a pad that is no other branch, over the clearance: higher accepts lifted edges, lower asks twice [1]
-  real(wp), parameter :: hardly_lifted = 0.1_wp
   !> Load of the last start, over the one asked for: less finds more branches, and the way from there costs more steps [1]
-  real(wp), parameter :: light_share = 0.1_wp
+  real(wp), parameter :: load_share = 0.1_wp
 
-  type(soft_contacts_type), parameter :: late = soft_contacts_type(after, 0.5_wp, 1.5_wp, 2.0_wp)
+  type(soft_contacts_type), parameter :: late = soft_contacts_type(after, usual_eccentricity, 1.5_wp, 2.0_wp)
   type(soft_contacts_type), parameter :: near_the_foil = soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp)
 
   !> The last state of the start that came nearest to an answer.
@@ -98,30 +107,7 @@ contains
     integer, intent(in) :: start !! of the list
     character(len=:), allocatable :: name
 
-    select case (start)
-    case (start_smaller_answer)
-      name = "the smaller system's answer"
-    case (start_smaller_end)
-      name = "the end of the smaller system's search"
-    case (start_from_rest)
-      name = 'the fixed shaft from rest to speed'
-    case (start_laid_down)
-      name = 'the shaft laid on its foil under the load'
-    case (start_several_pads)
-      name = 'soft contacts of several pads, released early under a load'
-    case (start_edge_fixed)
-      name = 'the free edge fixed where it rests'
-    case (start_released_early)
-      name = 'soft contacts, released early under a load'
-    case (start_released_late)
-      name = 'soft contacts, released after the shaft in growing steps'
-    case (start_light)
-      name = 'the free edge fixed where it rests, under a tenth of the load'
-    case (start_near_foil)
-      name = 'soft contacts, released before the shaft near the foil'
-    case default
-      error stop 'a start without a name'
-    end select
+    name = trim(names(start))
   end function start_name
 
   !> Tries to bring the problem's bearing to its target.
@@ -171,7 +157,7 @@ contains
     call problem%newton%log%detail('without interference of assembly:')
     call set_interference(problem%bearing, 0.0_wp)
     call try_starts(problem, report)
-    if (report%converged()) call press(problem, interference, report)
+    if (report%converged()) call close_interference(problem, interference, report)
     call set_interference(problem%bearing, interference)
   end subroutine start_pressed
 
@@ -215,13 +201,13 @@ contains
     end if
     call nearest%kept%destroy()
     if (report%converged() .or. stopped) return
-    ends = suits_light(problem, report)
-    if (ends) call try_light(problem, report)
+    ends = suits_lighter_load(problem, report)
+    if (ends) call try_lighter_load(problem, report)
   end subroutine try_starts
 
   !> Whether a start under a lighter load may find another branch: not where the film draws the edge to the shaft, and not where a
   !> smaller system has been searched so.
-  function suits_light(problem, report) result(suits)
+  function suits_lighter_load(problem, report) result(suits)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the starts before
     logical :: suits
@@ -229,11 +215,11 @@ contains
     suits = problem%bearing%floats .and. problem%bearing%pad(1)%foil%has_contacts() .and. .not. &
       (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
     if (suits) suits = has_free_edge(problem%bearing)
-  end function suits_light
+  end function suits_lighter_load
 
   !> With the free edge fixed under a lighter load, and from there to the load: the branch on which the shaft came under the load
   !> may end where another goes on. What was known stands where that does not lead to an answer.
-  subroutine try_light(problem, report)
+  subroutine try_lighter_load(problem, report)
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report !! in: of the starts before; replaced by that of an answer
     type(start_problem_type) :: easier
@@ -242,15 +228,15 @@ contains
     logical :: ends
 
     call problem%newton%log%line('no answer from there ('//report%reason()//'); the last start:')
-    call problem%newton%log%stage('start: '//start_name(start_light))
+    call problem%newton%log%stage('start: '//start_name(start_lighter_load))
     call refused%keep(problem%bearing)
     easier = problem
     easier%anchor = kept_state_type()
-    easier%target%load = light_share*problem%target%load
+    easier%target%load = load_share*problem%target%load
     call try_free_edge(easier, light, ends)
     call easier%anchor%destroy()
     if (light%converged()) then
-      call follow_path(problem%bearing, problem%newton, problem%target, light_share, trial_settings(problem%settings), light)
+      call follow_path(problem%bearing, problem%newton, problem%target, load_share, trial_settings(problem%settings), light)
     end if
     if (light%converged()) then
       report = light
@@ -258,7 +244,7 @@ contains
       call refused%put_back(problem%bearing)
     end if
     call refused%destroy()
-  end subroutine try_light
+  end subroutine try_lighter_load
 
   !> Whether a start that fails leaves a state without a fixed edge on this system.
   pure function leaves_a_state(start) result(leaves)
@@ -307,7 +293,7 @@ contains
 
     call try_soft_contacts(problem, usual_contacts, report, ends)
     rest = edges_rest(problem, report, resting)
-    if (.not. rest) rest = edges_rest(problem, report, hardly_lifted)
+    if (.not. rest) rest = edges_rest(problem, report, next_height)
     if (rest) rest = may_be_stable(problem)
     if (rest .or. .not. (report%converged() .or. ends)) return
     call first%keep(problem%bearing)

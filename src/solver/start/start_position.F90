@@ -17,23 +17,28 @@ module gfb_start_position
   public :: guess_position, place_shaft, find_position, release_shaft, solve_at
 
   real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
-  real(wp), parameter :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
+  real(wp), parameter, public :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
 
 contains
 
   !> Newton's method at a point, as a path of one step.
-  subroutine solve_at(bearing, newton, target, fixed, settings, report)
+  subroutine solve_at(bearing, newton, target, fixed, settings, report, most)
     type(bearing_system_type), intent(inout) :: bearing !! the bearing, in its present state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
     logical, intent(in) :: fixed !! the shaft is fixed at the point's position
     type(path_settings_type), intent(in) :: settings !! limits
     type(path_report_type), intent(out) :: report !! of a path of one step
+    integer, intent(in), optional :: most !! iterations; the settings' by default
     type(newton_report_type) :: solved
+    integer :: allowed
 
     bearing%point = target
     bearing%shaft_fixed = fixed
+    allowed = newton%settings%maximum_iterations
+    if (present(most)) newton%settings%maximum_iterations = min(most, allowed)
     call solve_newton(newton, solved)
+    newton%settings%maximum_iterations = allowed
     report%ending = path_lost(solved%reason)
     if (solved%converged) then
       if (fixed .or. .not. bearing%floats) then

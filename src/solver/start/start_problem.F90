@@ -7,18 +7,22 @@ module gfb_start_problem
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, forget_factors, destroy_newton
   use gfb_kept_state, only: kept_state_type
-  use gfb_path_report, only: path_settings_type, path_report_type
+  use gfb_ending, only: path_settings_type, path_report_type
   implicit none (type)
   private
   public :: with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
   public :: trial_settings, drop_bearing, count_spent
 
-  integer, parameter, public :: by_load = 1      !! before the shaft where the load is larger than the film's force, else after
-  integer, parameter, public :: against_load = 2 !! the reverse
-  integer, parameter, public :: after = 3        !! after the shaft
-  integer, parameter, public :: before = 4       !! before it
+  integer, parameter, public :: by_load = 1 !! before the shaft where the load is larger than the film's force, else after
+  integer, parameter, public :: after = 2   !! after the shaft
+  integer, parameter, public :: before = 3  !! before it
 
-  real(wp), parameter :: shortest_trial = 0.02_wp !! step of a path of such a start [1]
+  !> Step of a path of a start, over all of it: longer ones are given up, shorter ones tried once more [1]
+  real(wp), parameter, public :: first_step = 0.25_wp
+  !> The same, before it is given up: smaller wins next to nothing, and every refusal pays for it [1]
+  real(wp), parameter, public :: shortest_trial = 0.02_wp
+  !> Eccentricity to begin with where none is given, over the free clearance: less has the film carry less, more meets the foil [1]
+  real(wp), parameter, public :: usual_eccentricity = 0.5_wp
   real(wp), parameter :: hold_share = 100.0_wp   !! stiffness of the spring that fixes it, times clearance over a force [1]
   integer, parameter :: most_steps = 20           !! of it
   integer, parameter :: straight_steps = 8        !! Newton's, of one of its steps, before they are bent

@@ -19,7 +19,7 @@ module gfb_bearing_solution
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_cold_start, only: start_bearing, restart_bearing, start_partitioned
+  use gfb_cold_start, only: start_bearing, start_partitioned
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: save_bearing, restore_bearing
@@ -243,8 +243,8 @@ contains
     scene = self%here
     scene%operation = operation_at(scene%operation, scene%sweep, point)
     call self%bound%begin(scene%solver%maximum_factorizations)
-    call restart_bearing(scene, self%plan, operating_point(scene%operation), self%tolerances, self%path, &
-                         self%context%log, self%bearing, self%newton, report, error)
+    call start_bearing(scene, self%plan, operating_point(scene%operation), self%tolerances, self%path, &
+                       self%context%log, self%bearing, self%newton, report, error)
     if (.not. allocated(error)) call self%end_search(report)
   end subroutine start_anew
 

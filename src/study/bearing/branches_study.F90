@@ -12,7 +12,7 @@ module gfb_branches_study
   use gfb_bearing_system, only: bearing_system_type
   use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, destroy_newton
-  use gfb_branch_list, only: branch_search_type, take_branch, lifts_of_pads, destroy_branches
+  use gfb_branch_search, only: branch_search_type, take_branch, lifts_of_pads, destroy_branches, find_branches
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -27,7 +27,6 @@ module gfb_branches_study
   use gfb_cold_start, only: start_bearing
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: soft_starts_of, start_name, try_start
-  use gfb_branch_search, only: find_branches
   use gfb_bearing_plan, only: plan_bearing
   use gfb_reasons, only: reason_no_equilibrium
   use gfb_study, only: study_type

@@ -12,7 +12,7 @@ module gfb_folds
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: point_between
   use gfb_newton, only: newton_report_type, solve_newton
-  use gfb_continuation, only: path_report_type, fold_way_type
+  use gfb_continuation, only: path_report_type, fold_path_type
   use gfb_arc, only: end_arc, begin_arc, advance_arc
   use gfb_bearing_restart, only: save_bearing, restore_branch
   use gfb_bearing_record, only: sweep_name, sweep_unit
@@ -35,7 +35,7 @@ contains
     type(bearing_solution_type), target, intent(inout) :: sweep !! left at the last answer
     type(reason_type), intent(out) :: reason !! why the branch does not lead on
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(fold_way_type), allocatable, target :: branch
+    type(fold_path_type), allocatable, target :: branch
     type(path_report_type) :: report
     integer :: kept
     logical :: ended, stops, due
@@ -73,7 +73,7 @@ contains
   !> Fails when that file is damaged.
   subroutine begin_branch(sweep, branch, error)
     type(bearing_solution_type), target, intent(inout) :: sweep
-    type(fold_way_type), target, intent(inout) :: branch
+    type(fold_path_type), target, intent(inout) :: branch
     type(error_type), allocatable, intent(out) :: error
     logical :: begun
 
@@ -96,7 +96,7 @@ contains
   !> One step along the branch, with what it has passed.
   subroutine take_step(sweep, branch, report, ended)
     type(bearing_solution_type), target, intent(inout) :: sweep
-    type(fold_way_type), target, intent(inout) :: branch
+    type(fold_path_type), target, intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(inout) :: ended
     real(wp) :: gap
@@ -126,7 +126,7 @@ contains
   !> their range.
   subroutine record_values(sweep, branch, report, ended)
     type(bearing_solution_type), target, intent(inout) :: sweep
-    type(fold_way_type), intent(inout) :: branch
+    type(fold_path_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ended
     logical :: found
@@ -157,7 +157,7 @@ contains
   subroutine record_value(sweep, number, branch, report, found)
     type(bearing_solution_type), target, intent(inout) :: sweep
     integer, intent(in) :: number !! of the value
-    type(fold_way_type), intent(inout) :: branch
+    type(fold_path_type), intent(inout) :: branch
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: found
     type(newton_report_type) :: solved
@@ -182,7 +182,7 @@ contains
   !> Records the answer at which the parameter turns back.
   subroutine record_fold(sweep, branch)
     type(bearing_solution_type), target, intent(inout) :: sweep
-    type(fold_way_type), intent(inout) :: branch
+    type(fold_path_type), intent(inout) :: branch
     real(wp) :: fold
 
     call branch%arc%to_turn()

@@ -4,7 +4,7 @@
 module gfb_key_path
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_reached, path_touches, path_lost
+  use gfb_ending, only: path_reached, path_touches, path_lost, path_settings_type, path_report_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_petsc_session, only: any_rank
@@ -19,7 +19,6 @@ module gfb_key_path
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
   use gfb_start_problem, only: drop_bearing
   use gfb_answer_transfer, only: transfer_answer
-  use gfb_path_report, only: path_settings_type, path_report_type
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent
   use gfb_run_log, only: run_log_type
   implicit none (type)
