@@ -18,7 +18,7 @@ module gfb_branch_search
   use gfb_bearing_directions, only: edge_lift, edge_words
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_arc, only: arc_type, end_arc, begin_arc, advance_arc
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_start_problem, only: start_problem_type, with_fixed_edges, settings_with_fixed_edge, first_step
   use gfb_edge_start, only: same_height
   use gfb_start_position, only: solve_at
@@ -56,7 +56,9 @@ module gfb_branch_search
   integer, parameter :: steps_a_line = 100      !! of progress
   integer, parameter :: most_release_steps = 200 !! of the string, a decade
   integer, parameter :: decades = 4             !! of its tension, before it is none
-  real(wp), parameter :: pull_share = 1.0e-2_wp !! force and string's tension, the latter over width over clearance, over the size of a force [1]
+  !> Unit of the force, and tension of the string over width over clearance, over the bearing's size of a force: a higher tension
+  !> keeps the edge straighter, and takes longer to release [1]
+  real(wp), parameter :: pull_share = 1.0e-2_wp
   real(wp), parameter :: release_range = 0.35_wp   !! change of the mean lift when a string is released, over the clearance [1]
   real(wp), parameter :: lift_margin = 0.25_wp !! that is looked at beyond, over clearance and change of the lift [1]
 
@@ -188,7 +190,7 @@ contains
     real(wp), intent(in) :: midplane(:), ends(:)
     type(start_problem_type), intent(inout) :: problem !! in equilibrium; that may be another one after
     type(branch_search_type) :: search
-    type(kept_state_type) :: start
+    type(saved_state_type) :: start
     real(wp) :: lift(size(problem%bearing%pad)), mean(size(problem%bearing%pad))
     integer :: pad
     logical :: there
@@ -204,11 +206,11 @@ contains
       search%lifts = [min(minval(lift), minval(mean)), max(maxval(lift), maxval(mean))]
       search%lifts = search%lifts + lift_margin*(clearance + search%lifts(2) - search%lifts(1))*[-1.0_wp, 1.0_wp]
       if (size(bearing%pad) > 1) then
-        call start%keep(bearing)
+        call start%save(bearing)
         call raise_edges(problem, mean, there)
         if (there) call search%collect(bearing, problem%newton)
         if (there) there = search%is_found()
-        if (.not. there) call start%put_back(bearing)
+        if (.not. there) call start%restore(bearing)
         call start%destroy()
       end if
       if (.not. search%is_found()) call find_branches(bearing, problem%newton, search)
@@ -310,15 +312,15 @@ contains
     type(operating_point_type), intent(in) :: point, free !! where the curve begins; without a string
     integer, intent(in) :: pad !! whose edge
     type(branch_search_type), intent(inout) :: search
-    type(kept_state_type) :: start
+    type(saved_state_type) :: start
     real(wp) :: sense
 
     sense = sign(1.0_wp, 0.5_wp*sum(search%lifts) - edge_lift(bearing, pad))
     if (any(search%given) .and. size(bearing%pad) > 1) sense = sign(1.0_wp, search%wanted_of(pad) - edge_lift(bearing, pad))
-    call start%keep(bearing)
+    call start%save(bearing)
     call pull_edge(bearing, newton, point, free, pad, sense, search)
     if (.not. any(search%given)) then
-      call start%put_back(bearing)
+      call start%restore(bearing)
       call pull_edge(bearing, newton, point, free, pad, -sense, search)
     end if
     call start%destroy()

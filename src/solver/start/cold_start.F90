@@ -19,7 +19,7 @@ module gfb_cold_start
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_start_list, only: start_pressed
   use gfb_branch_search, only: seek_branch
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
@@ -40,7 +40,7 @@ module gfb_cold_start
     type(newton_type), pointer :: newton => null()
     type(path_report_type) :: report !! of its search
     logical :: divided = .false.     !! another one has been put between it and the one before
-    type(kept_state_type) :: anchor  !! a state to show a refusal from on the next mesh, too
+    type(saved_state_type) :: anchor  !! a state to show a refusal from on the next mesh, too
   end type mesh_type
 
 contains
@@ -167,12 +167,10 @@ contains
     if (has_smaller) helped = before%report%converged()
     ! After a mesh in between has failed there is none to begin from; a film alone is cheap, and has answers that its coarse mesh lacks.
     problem%refused = has_smaller .and. .not. (helped .or. mesh%divided) .and. has_contacts
-    if (has_smaller) then
-      if (helped) problem%smaller => before%bearing
-    end if
+    if (helped) problem%smaller => before%bearing
     if (problem%refused) then
       problem%refusal = before%report
-      if (before%anchor%created) call before%anchor%put_back(before%bearing)
+      if (before%anchor%created) call before%anchor%restore(before%bearing)
       if (before%anchor%created .or. .not. before%report%shaft_fixed) problem%smaller => before%bearing
     end if
     if (helped) problem%carried_only = lies_between(mesh%plan, before%plan) .and. .not. mesh%divided

@@ -17,7 +17,7 @@ module gfb_contact_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path, closing_gap
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, before, trial_settings, usual_eccentricity
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
   implicit none (type)
   private
@@ -43,7 +43,7 @@ module gfb_contact_start
     integer :: change = releasing
     real(wp) :: last = 0.0_wp          !! decades where they are the scene's
     type(newton_report_type) :: solved !! of the last trial
-    type(kept_state_type) :: saved     !! the last answer
+    type(saved_state_type) :: saved     !! the last answer
   contains
     procedure :: try => try_decades
     procedure :: accept => accept_decades
@@ -143,7 +143,7 @@ contains
     rules%smallest_step = shortest_decades
     rules%growth = contacts%growth
     if (change == releasing .and. contacts%growth <= 1.0_wp) rules%leap_from = enough
-    call path%saved%keep(bearing)
+    call path%saved%save(bearing)
     call follow_steps(path, rules, ending)
     call path%saved%destroy()
     if (present(arrived)) arrived = ending == steps_arrived
@@ -172,13 +172,13 @@ contains
   subroutine accept_decades(self, trial)
     class(contact_path_type), intent(inout) :: self !! the path
     real(wp), intent(in) :: trial !! decades
-    call self%saved%keep(self%bearing)
+    call self%saved%save(self%bearing)
   end subroutine accept_decades
 
   !> Goes back to the last answer.
   subroutine restore_contacts(self)
     class(contact_path_type), intent(inout) :: self !! the path
-    call self%saved%put_back(self%bearing)
+    call self%saved%restore(self%bearing)
   end subroutine restore_contacts
 
   !> Contacts between soft two-way ones and the scene's, so many decades from where they began.

@@ -19,7 +19,7 @@ module gfb_edge_start
   use gfb_start_position, only: solve_at, guess_position
   use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, trial_settings, &
                                with_fixed_edges, first_step, shortest_trial
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
@@ -132,7 +132,7 @@ contains
     logical, intent(out) :: ends !! it stays nowhere
     type(path_settings_type) :: settings
     type(newton_settings_type) :: wanted
-    type(kept_state_type) :: at_rest
+    type(saved_state_type) :: at_rest
     logical :: drawn_up, lower
 
     settings = path
@@ -141,10 +141,10 @@ contains
     call be_rough(problem%newton%settings)
     ends = .false.
     drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
-    call at_rest%keep(problem%bearing)
+    call at_rest%save(problem%bearing)
     call seek_below(problem, pad, settings, wanted, lower, report)
     if (drawn_up .and. .not. (lower .or. report%converged())) then
-      call at_rest%put_back(problem%bearing)
+      call at_rest%restore(problem%bearing)
       call seek_above(problem, pad, settings, wanted, report, ends)
     end if
     call at_rest%destroy()
@@ -196,7 +196,7 @@ contains
     type(newton_settings_type), intent(in) :: wanted !! at the target
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! it stays nowhere
-    type(kept_state_type) :: nearest !! where the edge needs the least force
+    type(saved_state_type) :: nearest !! where the edge needs the least force
     real(wp) :: force, force_before, height_before, least, room, step
     integer :: number, rising !! rising: heights in succession, at each of which the edge is drawn up more
 
@@ -204,7 +204,7 @@ contains
     associate (bearing => problem%bearing, clearance => clearance_of(problem%bearing))
       force = edge_force(bearing, pad)
       least = abs(force)
-      call nearest%keep(bearing)
+      call nearest%save(bearing)
       room = edge_room(bearing, pad)
       rising = 0
       do number = 1, most_heights
@@ -221,7 +221,7 @@ contains
         rising = merge(rising + 1, 0, force < force_before)
         if (abs(force) < least) then
           least = abs(force)
-          call nearest%keep(bearing)
+          call nearest%save(bearing)
         end if
         if (.not. report%converged()) exit
         ! Near the shaft it ends, unless the force still falls: it may vanish before the edge meets the shaft.
@@ -230,8 +230,8 @@ contains
       ends = report%converged() .and. room < near_shaft*clearance .or. report%ending%kind == ending_touch_down .and. rising >= long_rise
       if (ends) then
         report%ending = path_is_drawn(edge_words(bearing, pad), number + 1, bearing%point%edge_height(pad), room, least)
-        call nearest%put_back(bearing)
-        call problem%anchor%keep(bearing)
+        call nearest%restore(bearing)
+        call problem%anchor%save(bearing)
         report%shaft_fixed = .false.
       else
         if (report%converged()) report%ending = path_lost(report%reason())
@@ -285,7 +285,7 @@ contains
     real(wp), intent(in) :: between(2) !! heights where they should stay [m]
     type(path_report_type), intent(inout) :: report !! how it ended
     type(newton_settings_type) :: rough
-    type(kept_state_type) :: fixed
+    type(saved_state_type) :: fixed
     real(wp) :: lift, slack
     integer :: pad
 
@@ -293,7 +293,7 @@ contains
     problem%newton%settings = wanted
     problem%newton%settings%straight_steps = more_straight
     problem%newton%settings%maximum_iterations = min(max_iterations, wanted%maximum_iterations)
-    call fixed%keep(problem%bearing)
+    call fixed%save(problem%bearing)
     call solve_at(problem%bearing, problem%newton, free, .false., problem%settings, report)
     if (report%converged()) then
       slack = same_height*clearance_of(problem%bearing)
@@ -305,7 +305,7 @@ contains
         exit
       end do
     end if
-    if (.not. report%converged()) call fixed%put_back(problem%bearing)
+    if (.not. report%converged()) call fixed%restore(problem%bearing)
     call fixed%destroy()
     problem%newton%settings = rough
   end subroutine release
@@ -358,7 +358,7 @@ contains
     logical, intent(out) :: ends !! there is no answer
     type(path_settings_type) :: settings
     type(operating_point_type) :: easier
-    type(kept_state_type) :: fixed
+    type(saved_state_type) :: fixed
     logical :: bends
     integer :: number
 
@@ -374,7 +374,7 @@ contains
     if (report%shaft_fixed) return
     if (report%converged() .and. number > 1) report%ending = path_lost('')
     if (.not. report%converged()) then
-      call fixed%keep(problem%bearing)
+      call fixed%save(problem%bearing)
       call continue_released(problem, report, ends)
       if (.not. (report%converged() .or. ends)) call continue_fixed(problem, settings, fixed, report, ends)
       call fixed%destroy()
@@ -401,7 +401,7 @@ contains
       report = bent
       ends = .false.
     else
-      call problem%anchor%put_back(problem%bearing)
+      call problem%anchor%restore(problem%bearing)
     end if
   end subroutine try_with_bent_edge
 
@@ -424,7 +424,7 @@ contains
     call release(problem, free, problem%newton%settings, &
                  [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
     if (.not. report%converged()) return
-    call problem%anchor%keep(problem%bearing)
+    call problem%anchor%save(problem%bearing)
     call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
     ends = report%has_cause()
   end subroutine continue_released
@@ -433,19 +433,19 @@ contains
   subroutine continue_fixed(problem, settings, fixed, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
-    type(kept_state_type), intent(in) :: fixed !! state with the edge fixed, short of the target
+    type(saved_state_type), intent(in) :: fixed !! state with the edge fixed, short of the target
     type(path_report_type), intent(inout) :: report
     logical, intent(out) :: ends !! neither leads there
     type(path_report_type) :: released
-    type(kept_state_type) :: last
+    type(saved_state_type) :: last
     logical :: sunk
 
     released = report
-    call last%keep(problem%bearing)
-    call fixed%put_back(problem%bearing)
+    call last%save(problem%bearing)
+    call fixed%restore(problem%bearing)
     call follow_path(problem%bearing, problem%newton, with_fixed_edges(problem), first_step, settings, report)
     if (size(problem%bearing%pad) > 1 .and. .not. report%converged()) then
-      call fixed%put_back(problem%bearing)
+      call fixed%restore(problem%bearing)
       call release_pressed(problem)
       call follow_path(problem%bearing, problem%newton, with_same_edges(problem), first_step, &
                        trial_settings(problem%settings), report)
@@ -456,7 +456,7 @@ contains
     ends = .not. report%converged() .and. (report%has_cause() .and. .not. sunk .or. released%ending%kind == ending_fold)
     if (ends .and. released%ending%kind == ending_fold) then
       report = released
-      call last%put_back(problem%bearing)
+      call last%restore(problem%bearing)
     else if (ends) then
       call report%ending%add_words('', held)
     else if (.not. report%converged()) then
@@ -473,17 +473,17 @@ contains
     logical, intent(out) :: ends !! the edge stays nowhere, or the branch ends
     type(operating_point_type) :: target
     type(path_report_type) :: short
-    type(kept_state_type) :: last
+    type(saved_state_type) :: last
     real(wp) :: share
 
     target = problem%target
     problem%target = without_holds(report%reached, 1, most_pads)
-    call last%keep(problem%bearing)
+    call last%save(problem%bearing)
     share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
     call release_edges(problem, short, ends)
     problem%target = target
     if (short%converged()) then
-      call problem%anchor%keep(problem%bearing)
+      call problem%anchor%save(problem%bearing)
       call follow_path(problem%bearing, problem%newton, target, first_step, trial_settings(problem%settings), report)
       ends = report%has_cause()
     else if (ends) then
@@ -491,7 +491,7 @@ contains
       call report%ending%add_words('', ', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
                                    'no step leads on with the edge fixed')
     else
-      call last%put_back(problem%bearing)
+      call last%restore(problem%bearing)
       call report%ending%add_words('', held//', where the film presses it down')
     end if
     call last%destroy()

@@ -14,7 +14,7 @@ module gfb_interference_start
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_given_up
   use gfb_start_problem, only: start_problem_type, first_step
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   implicit none (type)
   private
   public :: close_interference, set_interference
@@ -29,7 +29,7 @@ module gfb_interference_start
     type(newton_type), pointer :: newton => null() !! its solver
     real(wp) :: whole = 0.0_wp         !! interference [m]
     type(newton_report_type) :: solved !! of the last trial
-    type(kept_state_type) :: saved     !! the last answer
+    type(saved_state_type) :: saved     !! the last answer
   contains
     procedure :: try => try_interference
     procedure :: accept => accept_interference
@@ -52,7 +52,7 @@ contains
     path%bearing => problem%bearing
     path%newton => problem%newton
     path%whole = interference
-    call path%saved%keep(problem%bearing)
+    call path%saved%save(problem%bearing)
     allowed = problem%newton%settings%maximum_iterations
     problem%newton%settings%maximum_iterations = min(max_iterations, allowed)
     call follow_steps(path, step_rules_type(first_step=first_step, smallest_step=smallest_step, growth=growth, &
@@ -90,14 +90,14 @@ contains
   subroutine accept_interference(self, trial)
     class(interference_path_type), intent(inout) :: self !! the path
     real(wp), intent(in) :: trial !! share [1]
-    call self%saved%keep(self%bearing)
+    call self%saved%save(self%bearing)
   end subroutine accept_interference
 
   !> Goes back to the last answer.
   subroutine restore_interference(self)
     class(interference_path_type), intent(inout) :: self !! the path
 
-    call self%saved%put_back(self%bearing)
+    call self%saved%restore(self%bearing)
     call set_interference(self%bearing, self%at*self%whole)
   end subroutine restore_interference
 

@@ -13,7 +13,7 @@ module gfb_rigid_start
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of, usual_eccentricity
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, room_at_rest
   implicit none (type)
   private
@@ -93,18 +93,18 @@ contains
     type(operating_point_type), intent(in) :: target
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
-    type(kept_state_type) :: start
+    type(saved_state_type) :: start
     real(wp) :: unknown(bearing%local_size()), position(2)
 
     call newton%log%detail('the load at once, from ambient pressure')
-    call start%keep(bearing)
+    call start%save(bearing)
     position = bearing%eccentricity()
     unknown = 0.0_wp
     call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
     unknown(bearing%first_shaft + 1:) = position
     call bearing%set_unknowns(unknown)
     call solve_at(bearing, newton, target, .false., settings, report, max_iterations)
-    if (.not. report%converged()) call start%put_back(bearing)
+    if (.not. report%converged()) call start%restore(bearing)
     call start%destroy()
   end subroutine try_directly
 
@@ -118,26 +118,26 @@ contains
     type(path_report_type), intent(out) :: report
     type(path_settings_type) :: quick
     type(path_report_type) :: other
-    type(kept_state_type) :: start, failed
+    type(saved_state_type) :: start, failed
     real(wp) :: position(2), peclet
 
     position = bearing%eccentricity()
-    call start%keep(bearing)
+    call start%save(bearing)
     quick = settings
     if (.not. bearing%pad(1)%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
     call find_position(bearing, newton, target, quick, report)
     if (.not. (report%converged() .or. bearing%pad(1)%film%flow%upwind)) then
-      call failed%keep(bearing)
-      call start%put_back(bearing)
+      call failed%save(bearing)
+      call start%restore(bearing)
       call find_by_upwinding(bearing, newton, target, position, settings, peclet, other)
       if (other%converged()) then
         report = other
       else if (peclet > coarse_peclet) then
         report%ending = path_lost("Galerkin's pressure oscillates and empties the film, as the cell Peclet number is "// &
                                   text(peclet, 3)//": film_scheme = 'supg' has an answer, or use a finer mesh")
-        call failed%put_back(bearing)
+        call failed%restore(bearing)
       else
-        call start%put_back(bearing)
+        call start%restore(bearing)
         call find_position(bearing, newton, target, settings, report)
       end if
     end if

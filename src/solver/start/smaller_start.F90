@@ -177,7 +177,7 @@ contains
     call solve_at(problem%bearing, problem%newton, problem%smaller%point, .false., problem%settings, report)
     ends = report%converged()
     if (.not. ends) return
-    call problem%anchor%keep(problem%bearing)
+    call problem%anchor%save(problem%bearing)
     if (any(problem%bearing%point%edge_hold > 0.0_wp)) then
       ends = any([(edge_force(problem%bearing, pad), pad=1, size(problem%bearing%pad))] < 0.0_wp)
       report%ending = path_lost(problem%refusal%reason())

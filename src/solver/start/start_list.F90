@@ -9,7 +9,7 @@ module gfb_start_list
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings, usual_eccentricity
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
   use gfb_rigid_start, only: try_from_rest, try_laid_down
@@ -55,7 +55,7 @@ module gfb_start_list
   type :: nearest_type
     logical :: known = .false.
     type(path_report_type) :: report
-    type(kept_state_type) :: kept
+    type(saved_state_type) :: kept
   end type nearest_type
 
 contains
@@ -197,7 +197,7 @@ contains
     end do
     if (.not. (report%converged() .or. ends) .and. nearest%known) then
       report = nearest%report
-      call nearest%kept%put_back(problem%bearing)
+      call nearest%kept%restore(problem%bearing)
     end if
     call nearest%kept%destroy()
     if (report%converged() .or. stopped) return
@@ -224,14 +224,14 @@ contains
     type(path_report_type), intent(inout) :: report !! in: of the starts before; replaced by that of an answer
     type(start_problem_type) :: easier
     type(path_report_type) :: light
-    type(kept_state_type) :: refused
+    type(saved_state_type) :: refused
     logical :: ends
 
     call problem%newton%log%line('no answer from there ('//report%reason()//'); the last start:')
     call problem%newton%log%stage('start: '//start_name(start_lighter_load))
-    call refused%keep(problem%bearing)
+    call refused%save(problem%bearing)
     easier = problem
-    easier%anchor = kept_state_type()
+    easier%anchor = saved_state_type()
     easier%target%load = load_share*problem%target%load
     call try_free_edge(easier, light, ends)
     call easier%anchor%destroy()
@@ -241,7 +241,7 @@ contains
     if (light%converged()) then
       report = light
     else
-      call refused%put_back(problem%bearing)
+      call refused%restore(problem%bearing)
     end if
     call refused%destroy()
   end subroutine try_lighter_load
@@ -265,7 +265,7 @@ contains
     end if
     nearest%known = .true.
     nearest%report = report
-    call nearest%kept%keep(problem%bearing)
+    call nearest%kept%save(problem%bearing)
     nearest%kept%shaft_fixed = report%shaft_fixed .and. problem%bearing%floats
   end subroutine keep_nearest
 
@@ -286,7 +286,7 @@ contains
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(out) :: report
     logical, intent(out) :: ends
-    type(kept_state_type) :: first
+    type(saved_state_type) :: first
     type(path_report_type) :: other
     logical :: other_ends, rest
     integer :: trial
@@ -296,7 +296,7 @@ contains
     if (.not. rest) rest = edges_rest(problem, report, next_height)
     if (rest) rest = may_be_stable(problem)
     if (rest .or. .not. (report%converged() .or. ends)) return
-    call first%keep(problem%bearing)
+    call first%save(problem%bearing)
     do trial = 1, 2
       call problem%newton%log%detail('an equilibrium whose edges rest:')
       if (trial == 1) call try_free_edge(problem, other, other_ends)
@@ -306,9 +306,9 @@ contains
       report = other
       ends = other_ends
       if (rest) exit
-      call first%keep(problem%bearing)
+      call first%save(problem%bearing)
     end do
-    if (.not. rest) call first%put_back(problem%bearing)
+    if (.not. rest) call first%restore(problem%bearing)
     call first%destroy()
   end subroutine try_several_edges
 

@@ -6,7 +6,7 @@ module gfb_start_problem
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, forget_factors, destroy_newton
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_ending, only: path_settings_type, path_report_type
   implicit none (type)
   private
@@ -47,7 +47,7 @@ module gfb_start_problem
     type(path_report_type) :: refusal    !! how, where it was refused
     logical :: carried_only = .false.    !! no start but Newton's method from the smaller system's answer
     logical :: may_give_up = .false.     !! the start has longer least steps than the scene, and fewer of them
-    type(kept_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
+    type(saved_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
   end type start_problem_type
 

@@ -5,7 +5,7 @@ module gfb_last_answer
   use petscvec
   use gfb_bearing_system, only: bearing_system_type
   use gfb_contact_point, only: contact_point_type
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_newton, only: newton_type
   implicit none (type)
   private
@@ -14,7 +14,7 @@ module gfb_last_answer
   type, public :: last_answer_type
     logical :: known = .false.
     integer, private :: counts(3) = 0 !! of the solver
-    type(kept_state_type), private :: state
+    type(saved_state_type), private :: state
     type(contact_point_type), allocatable, private :: contact(:) !! of this rank
   contains
     procedure :: save
@@ -32,7 +32,7 @@ contains
     integer :: i
 
     self%known = .true.
-    call self%state%keep(bearing)
+    call self%state%save(bearing)
     self%contact = [(bearing%pad(i)%foil%contacts%point, i=1, size(bearing%pad))]
     self%counts = [newton%iterations, newton%factorizations, newton%factorizations_before]
   end subroutine save
@@ -44,7 +44,7 @@ contains
     type(newton_type), intent(inout) :: newton !! its solver; gets the counts it had
     integer :: contacts, i
 
-    call self%state%put_back(bearing)
+    call self%state%restore(bearing)
     contacts = size(self%contact)/size(bearing%pad)
     do i = 1, size(bearing%pad)
       bearing%pad(i)%foil%contacts%point = self%contact((i - 1)*contacts + 1:i*contacts)

@@ -16,7 +16,7 @@ module gfb_limit_search
   use gfb_signals, only: stop_agreed
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_kept_state, only: kept_state_type
+  use gfb_saved_state, only: saved_state_type
   use gfb_root_bracket, only: root_bracket_type
   implicit none (type, external)
   private
@@ -61,7 +61,7 @@ module gfb_limit_search
   !> Two values on both sides of the limit, and the last answer on its near side.
   type :: sides_type
     type(root_bracket_type) :: bracket !! the bearing is at its `high`
-    type(kept_state_type) :: within    !! with reserve; not created where none was met
+    type(saved_state_type) :: within    !! with reserve; not created where none was met
   end type sides_type
 
 contains
@@ -314,7 +314,7 @@ contains
     if (limit%is_of_film() .and. starts_within) settings%touch_down_gap = limit%smallest_gap
     do step = 1, merge(most_steps, most_steps_back, starts_within)
       call newton%log%detail('limit: '//limit%words(bearing))
-      if (.not. left < 0.0_wp) call sides%within%keep(bearing)
+      if (.not. left < 0.0_wp) call sides%within%save(bearing)
       sides%bracket%low = value
       sides%bracket%at_low = left
       next = limit%next_value(value, left)
@@ -337,7 +337,7 @@ contains
     subroutine look()
       value = limit%value_at(bearing%point)
       left = limit%reserve(bearing)
-      if (.not. left < 0.0_wp) call sides%within%keep(bearing)
+      if (.not. left < 0.0_wp) call sides%within%save(bearing)
       sides%bracket%high = value
       sides%bracket%at_high = left
       passed = left*first <= 0.0_wp
@@ -363,7 +363,7 @@ contains
       trial = sides%bracket%trial()
       call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
       left = limit%reserve(bearing)
-      if (.not. left < 0.0_wp) call sides%within%keep(bearing)
+      if (.not. left < 0.0_wp) call sides%within%save(bearing)
       if (.not. report%converged()) return
       call newton%log%detail('limit: '//limit%words(bearing))
       if (abs(trial - last) <= tolerance*abs(trial)) return
@@ -386,7 +386,7 @@ contains
 
     left = limit%reserve(bearing)
     reached = abs(left) <= at_limit
-    if (.not. reached .and. left < 0.0_wp) call sides%within%put_back(bearing)
+    if (.not. reached .and. left < 0.0_wp) call sides%within%restore(bearing)
     found = limit%results(bearing%point, reached)
     if (reached) then
       call log%line(limit%words(bearing))
