@@ -93,10 +93,10 @@ contains
     end if
     call add_result(list, 'force_x', answer%force(1), by)
     call add_result(list, 'force_y', answer%force(2), by)
-    call add_result(list, 'torque_x', answer%force(3), by)
-    call add_result(list, 'torque_y', answer%force(4), by)
-    call add_result(list, 'torque_x_without_suction', answer%force_without_suction(3))
-    call add_result(list, 'torque_y_without_suction', answer%force_without_suction(4))
+    call add_result(list, 'torque_x', answer%force(4), by)
+    call add_result(list, 'torque_y', answer%force(5), by)
+    call add_result(list, 'torque_x_without_suction', answer%force_without_suction(4))
+    call add_result(list, 'torque_y_without_suction', answer%force_without_suction(5))
     call add_result(list, 'friction_torque', answer%friction_torque, braking)
   end subroutine add_loads
 
@@ -186,9 +186,9 @@ contains
                   ' deg, to the thinnest film, -e, at '// &
                   text(direction_of(-answer%eccentricity), 4)//' deg, positive with the rotation')
     call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
-    call log%line(who//' torque      '//pair(answer%force(3:4), 'N m', 1.0_wp)// &
+    call log%line(who//' torque      '//pair(answer%force(4:5), 'N m', 1.0_wp)// &
                   '   without suction '// &
-                  pair(answer%force_without_suction(3:4), 'N m', 1.0_wp))
+                  pair(answer%force_without_suction(4:5), 'N m', 1.0_wp))
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                   '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
                   ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))

@@ -8,7 +8,7 @@ module gfb_dynamics_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_text, only: exact_text
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private
@@ -33,9 +33,9 @@ module gfb_dynamics_record
     '1: a circle with the speed, -1: a circle against it, 0: to and fro', &
     'share of the foil''s strain and kinetic energy, against rotor and film']
 
-  character(len=*), parameter :: names(shaft_coordinates) = [character(len=4) :: 'x', 'y', &
+  character(len=*), parameter :: names(journal_motions) = [character(len=4) :: 'x', 'y', &
                                                              'phix', 'phiy']
-  integer, parameter :: entries = shaft_coordinates**2 !! of a matrix
+  integer, parameter :: entries = journal_motions**2 !! of a matrix
   character(len=*), parameter :: order = &
     'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
   !> Stiffness and damping.
@@ -69,7 +69,7 @@ contains
   pure function stiffness_of(point, i) result(stiffness)
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: stiffness(shaft_coordinates, shaft_coordinates)
+    real(wp) :: stiffness(journal_motions, journal_motions)
 
     stiffness = real(point%coefficient(:, :, i), wp)
   end function stiffness_of
@@ -78,7 +78,7 @@ contains
   pure function damping_of(point, i) result(damping)
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: damping(shaft_coordinates, shaft_coordinates)
+    real(wp) :: damping(journal_motions, journal_motions)
 
     damping = aimag(point%coefficient(:, :, i))/point%frequency(i)
   end function damping_of
@@ -99,7 +99,7 @@ contains
     type(dynamics_point_type), intent(in) :: point
     integer, intent(in) :: part !! 1 or 2
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: error(shaft_coordinates, shaft_coordinates)
+    real(wp) :: error(journal_motions, journal_motions)
     integer :: first
 
     first = ((part - 1)*size(point%frequency) + i - 1)*entries
@@ -108,7 +108,7 @@ contains
 
   !> The entries of a matrix, row by row.
   pure function by_rows(matrix) result(list)
-    real(wp), intent(in) :: matrix(shaft_coordinates, shaft_coordinates)
+    real(wp), intent(in) :: matrix(journal_motions, journal_motions)
     real(wp) :: list(entries)
     list = reshape(transpose(matrix), [entries])
   end function by_rows
@@ -148,10 +148,10 @@ contains
     call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
                    'real part of K + i omega C'//axes//'film force (x, y) or torque that '// &
                    'brings the shaft back, over its displacement or rotation', stiffness, sweeps, &
-                   shaft_coordinates)
+                   journal_motions)
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &
                    'imaginary part of K + i omega C over omega'//axes// &
-                   'the same over velocity or angular velocity', damping, sweeps, shaft_coordinates)
+                   'the same over velocity or angular velocity', damping, sweeps, journal_motions)
     if (allocated(record%point(1)%error)) call add_error_arrays(record%point(1), arrays)
     call add_mode_arrays(record, sweeps, points, arrays)
     if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)
@@ -169,7 +169,7 @@ contains
                        'error of every entry, estimated from nested meshes, absolute, ['//order// &
                        'of '//trim(kinds(part)), &
                        reshape([(by_rows(error_of(point, part, i)), i=1, n)], [entries, n]), &
-                       order=shaft_coordinates)
+                       order=journal_motions)
       end associate
     end do
   end subroutine add_error_arrays
@@ -198,9 +198,9 @@ contains
                      'amplitude of the shaft, along x or along y', &
                      reshape(point%amplitude, [1, amplitudes]))
       call add_array(arrays, '/dynamics/stiffness_at_amplitude', 'N/m; N m/m', &
-                     'as stiffness'//at_amplitude, stiffness, .true., shaft_coordinates)
+                     'as stiffness'//at_amplitude, stiffness, .true., journal_motions)
       call add_array(arrays, '/dynamics/damping_at_amplitude', 'N s/m; N m s/m', &
-                     'as damping'//at_amplitude, damping, .true., shaft_coordinates)
+                     'as damping'//at_amplitude, damping, .true., journal_motions)
       call add_array(arrays, '/dynamics/friction_loss_at_amplitude', 'J', 'energy that '// &
                      'contacts lose in a cycle; a row a frequency: shaft along x, y with the '// &
                      'first amplitude, x, y with the second, ...', &
@@ -276,8 +276,8 @@ contains
     integer :: row, column
 
     words = ''
-    do row = 1, shaft_coordinates
-      do column = 1, shaft_coordinates
+    do row = 1, journal_motions
+      do column = 1, journal_motions
         words = words//','//letter//trim(names(row))//trim(names(column))//ending
       end do
     end do
@@ -333,6 +333,6 @@ contains
     call archive%visit_sized('mode', point%mode)
     if (archive%saves .or. archive%failed) return
     point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &
-                                [shaft_coordinates, shaft_coordinates, size(parts, 2)])
+                                [journal_motions, journal_motions, size(parts, 2)])
   end subroutine visit_point
 end module gfb_dynamics_record

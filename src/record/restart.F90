@@ -43,7 +43,7 @@ module gfb_restart
     procedure :: tell
   end type restart_type
 
-  integer, parameter :: format = 2 !! of the file; the first one had none to say
+  integer, parameter :: format = 3 !! of the file; the first one had none to say
   real(wp), parameter :: between_files = 60.0_wp !! where no number of steps is given [s]
 
 contains

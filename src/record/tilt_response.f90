@@ -77,7 +77,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     type(tilt_response_type), intent(inout) :: response
-    real(wp) :: force(4)
+    real(wp) :: force(5)
 
     call angular_stiffness(bearing, newton, response%slope)
     force = bearing%reaction()
@@ -86,11 +86,11 @@ contains
     response%tilt = tilt(response%axis)
     if (.not. response%measured) then
       response%first_slope = response%slope
-      call find_untilted(tilt, force(3:4), response)
+      call find_untilted(tilt, force(4:5), response)
     end if
     response%measured = .true.
     if (abs(response%tilt) > 0.0_wp) then
-      response%secant = (force(3:4) - response%untilted)/response%tilt
+      response%secant = (force(4:5) - response%untilted)/response%tilt
     else
       response%secant = response%slope(:, response%axis)
     end if

@@ -2,7 +2,7 @@
 module gfb_refinement
   use gfb_kinds, only: wp
   use gfb_grid_convergence, only: convergence_type, estimate_errors, estimate_error
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_accuracy_case, only: accuracy_case_type, all_coefficients, asked_name
   use gfb_quantity, only: quantity_type, place_of
   use gfb_result_names, only: is_nodal, add_result
@@ -23,7 +23,7 @@ module gfb_refinement
   private
 
   integer, parameter :: side = 2 !! of a block: displacements or rotations
-  integer, parameter :: blocks = shaft_coordinates/side
+  integer, parameter :: blocks = journal_motions/side
   real(wp), parameter :: vanishing = 1.0e-9_wp !! a coupling block below that of its neighbours [1]
 
   integer, parameter :: least_meshes = 3 !! that show an order
@@ -89,11 +89,11 @@ contains
     integer :: entry(side**2), i, j, k
 
     allocate (estimate(size(value, 1)))
-    do k = 0, size(value, 1)/shaft_coordinates**2 - 1
+    do k = 0, size(value, 1)/journal_motions**2 - 1
       do j = 0, blocks - 1
         do i = 0, blocks - 1
-          entry = (k*shaft_coordinates + side*j)*shaft_coordinates + side*i + &
-                  [1, 2, shaft_coordinates + 1, shaft_coordinates + 2]
+          entry = (k*journal_motions + side*j)*journal_motions + side*i + &
+                  [1, 2, journal_motions + 1, journal_motions + 2]
           estimate(entry) = estimate_errors(value(entry, :), formal_order)
         end do
       end do
@@ -132,8 +132,8 @@ contains
     real(wp) :: largest(blocks, blocks)
     integer :: i, j, k, n
 
-    n = size(value)/shaft_coordinates**2
-    matrix = reshape(value, [shaft_coordinates, shaft_coordinates, n])
+    n = size(value)/journal_motions**2
+    matrix = reshape(value, [journal_motions, journal_motions, n])
     do k = 1, n
       do j = 1, blocks
         do i = 1, blocks

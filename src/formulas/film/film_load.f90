@@ -8,9 +8,10 @@ module gfb_film_load
   private
   public :: film_force_weights, film_force, film_friction, film_friction_rates
 
-  integer, parameter, public :: film_forces = shaft_coordinates !! F_x, F_y, M_x, M_y
-  !> The force acts on the sleeve, as the shaft's coordinates are the sleeve's; the torque does not.
-  real(wp), parameter, public :: acts_on(film_forces) = [1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp]
+  integer, parameter, public :: film_forces = shaft_coordinates !! F_x, F_y, F_z, M_x, M_y
+  !> F_x and F_y act on the sleeve, as the shaft's coordinates are the sleeve's; the others on the
+  !> shaft.
+  real(wp), parameter, public :: acts_on(film_forces) = [1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, -1.0_wp]
 
 contains
 
@@ -23,8 +24,8 @@ contains
   !> are the work conjugates of the shaft's coordinates: \( \int (p - p_a) b \, d\Omega \).
   pure subroutine film_force_weights(geometry, motion, weight)
     type(film_geometry_type), intent(in) :: geometry !! of the element
-    real(wp), intent(in) :: motion(:, :)  !! (4, points) the shaft's, see `point_motions` [1], [m]
-    real(wp), intent(out) :: weight(:, :) !! (4, nodes) of p - p_a [m2], [m3]
+    real(wp), intent(in) :: motion(:, :)  !! (5, points) the shaft's, see `point_motions` [1], [m]
+    real(wp), intent(out) :: weight(:, :) !! (5, nodes) of p - p_a [m2], [m3]
     real(wp) :: shapes(size(motion, 2), size(motion, 2))
     integer :: point
 
@@ -40,9 +41,9 @@ contains
   !> The element's share of force and torque where the pressure is above ambient only.
   pure function film_force(geometry, motion, overpressure) result(force)
     type(film_geometry_type), intent(in) :: geometry !! of the element
-    real(wp), intent(in) :: motion(:, :)    !! (4, points) the shaft's, see `point_motions` [1], [m]
+    real(wp), intent(in) :: motion(:, :)    !! (5, points) the shaft's, see `point_motions` [1], [m]
     real(wp), intent(in) :: overpressure(:) !! p - p_a at the nodes [Pa]
-    real(wp) :: force(film_forces)          !! F_x, F_y [N], M_x, M_y [N m]
+    real(wp) :: force(film_forces)          !! F_x, F_y, F_z [N], M_x, M_y [N m]
     real(wp) :: shapes(size(overpressure), size(overpressure))
     integer :: point
 

@@ -1,9 +1,10 @@
 !> How a motion of the shaft opens the gap: the one place that knows the journal's kinematics.
 !>
 !> The gap of a rigid sleeve is \( h_r = C + b(\theta, z) \cdot q \) with the sleeve's coordinates
-!> relative to the shaft, \( q = (e_x, e_y, \phi_x, \phi_y) \), and
+!> relative to the shaft, \( q = (e_x, e_y, e_z, \phi_x, \phi_y) \), and
 !>
-!> $$ b = \frac{\partial h}{\partial q} = [\cos\theta, \sin\theta, -z \sin\theta, z \cos\theta] $$
+!> $$ b = \frac{\partial h}{\partial q} =
+!>    [\cos\theta, \sin\theta, 0, -z \sin\theta, z \cos\theta] $$
 !>
 !> Source: [Gu2020] eq. 12. As printed there \( \phi_x \) stands with the cosine; the text of its
 !> section 4.3 fits only with the two exchanged, as here. Forces and torques on the sleeve are
@@ -16,9 +17,10 @@ module gfb_shaft_motion
   private
   public :: shaft_motion, point_motions, motion_excess, entraining_speed
 
-  integer, parameter, public :: shaft_coordinates = 4 !! e_x, e_y [m], phi_x, phi_y [rad]
-  integer, parameter, public :: shaft_unknowns = 2    !! of them, those that a load moves: e_x, e_y
-  integer, parameter, public :: no_shaft = -1 !! the shaft has no unknowns: a number of none
+  integer, parameter, public :: shaft_coordinates = 5 !! e_x, e_y, e_z [m], phi_x, phi_y [rad]
+  integer, parameter, public :: translations = 3      !! those of them before the tilts
+  integer, parameter, public :: journal_motions = 4   !! that change the gap of a journal
+  integer, parameter, public :: journal_coordinates(journal_motions) = [1, 2, 4, 5] !! which these are
 
 contains
 
@@ -26,16 +28,16 @@ contains
   pure function shaft_motion(angle, axial) result(motion)
     real(wp), intent(in) :: angle !! theta [rad]
     real(wp), intent(in) :: axial !! z, zero at the midplane [m]
-    real(wp) :: motion(shaft_coordinates) !! b [1], [1], [m], [m]
+    real(wp) :: motion(shaft_coordinates) !! b [1], [m]
 
-    motion = [cos(angle), sin(angle), -axial*sin(angle), axial*cos(angle)]
+    motion = [cos(angle), sin(angle), 0.0_wp, -axial*sin(angle), axial*cos(angle)]
   end function shaft_motion
 
   !> The same at the Gauss points of an element.
   pure function point_motions(angle, axial) result(motion)
     real(wp), intent(in) :: angle(:)           !! theta of the nodes, unwound [rad]
     real(wp), intent(in) :: axial(size(angle)) !! z of the nodes [m]
-    real(wp) :: motion(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [1], [m], [m]
+    real(wp) :: motion(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [m]
     real(wp) :: shapes(size(angle), size(angle))
     integer :: point
 
@@ -52,7 +54,7 @@ contains
   pure function motion_excess(angle, axial) result(excess)
     real(wp), intent(in) :: angle(:)           !! theta of the nodes, unwound [rad]
     real(wp), intent(in) :: axial(size(angle)) !! z of the nodes [m]
-    real(wp) :: excess(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [1], [m], [m]
+    real(wp) :: excess(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [m]
     real(wp) :: nodal(shaft_coordinates, size(angle)), shapes(size(angle), size(angle))
     integer :: i
 

@@ -2,8 +2,9 @@
 !> Pads and shaft: their unknowns, and what a state of them says. Their equations are another module's.
 !>
 !> Local unknowns of a rank, in this order: of each pad the pressures of its film nodes and the foil's
-!> unknowns, and \( (e_x, e_y) \) where the shaft floats, with its tilts where a rotor has two bearings. Newton sees them divided by their sizes
-!> (ambient pressure, clearance), and the equations by the sizes of their terms.
+!> unknowns, and those of the shaft's coordinates that are unknowns: \( (e_x, e_y) \) where it floats, with its tilts
+!> where a rotor has two bearings. Newton sees them divided by their sizes (ambient pressure, clearance), and the
+!> equations by the sizes of their terms.
 !>
 !> Contacts that open and close along a Newton step.
 !>
@@ -19,6 +20,7 @@ module gfb_bearing
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
+  use gfb_shaft_motion, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type, block_type, create_blocks
@@ -30,17 +32,16 @@ module gfb_bearing
 
   integer, parameter :: normal = 3 !! component of an approach
 
-  integer, parameter :: planar = 2 !! unknowns of a shaft that does not tilt
-
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
-    logical :: floats = .false.            !! (e_x, e_y) are unknowns
-    logical :: shaft_fixed = .false.       !! they are, but fixed at the point's eccentricity
+    integer, allocatable :: coordinate(:)  !! of the shaft, those that are unknowns
+    logical :: floats = .false.            !! there are some
+    logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
     type(pad_type), allocatable :: pad(:)  !! equal ones
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks
-    integer :: first_shaft = 0             !! local unknowns before e_x
+    integer :: first_shaft = 0             !! local unknowns before the shaft's
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp), allocatable :: unknown_scale(:) !! of the local unknowns, in SI
     type(local_exchange_type) :: exchange  !! between local unknowns and vectors
@@ -63,6 +64,7 @@ module gfb_bearing
     procedure :: local_force
     procedure :: reaction
     procedure :: force_scale
+    procedure :: levers
     procedure :: equation_scale
     procedure :: begin_path => begin_bearing_path
     procedure :: next_change => next_bearing_change
@@ -147,7 +149,7 @@ contains
         block(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
       end associate
     end do
-    call create_blocks(block, merge(bearing%pad(1)%film%coordinates, 0, bearing%floats), bearing%blocks)
+    call create_blocks(block, size(bearing%coordinate), bearing%blocks)
     bearing%unknowns = bearing%blocks%border%unknowns
     bearing%last_rank = bearing%blocks%border%last_rank
     bearing%first_shaft = bearing%blocks%first(size(block) + 1)
@@ -164,10 +166,7 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
-    associate (film => bearing%pad(1)%film, shaft => bearing%unknown_scale(bearing%first_shaft + 1:))
-      shaft = film%clearance
-      if (size(shaft) > planar) shaft(planar + 1:) = film%clearance/abs(film%offset)
-    end associate
+    bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%pad(1)%film%clearance/bearing%levers()
   end subroutine scale_unknowns
 
   !> Sizes of the local equations at an operating point, in SI.
@@ -180,9 +179,15 @@ contains
     do i = 1, size(self%pad)
       scale(self%pad(i)%first + 1:self%pad(i)%last) = self%pad(i)%equation_scale(point)
     end do
-    scale(self%first_shaft + 1:) = self%force_scale(point)
-    scale(self%first_shaft + 1 + planar:) = self%force_scale(point)*abs(self%pad(1)%film%offset)
+    scale(self%first_shaft + 1:) = self%force_scale(point)*self%levers()
   end function equation_scale
+
+  !> By which a tilt moves the film, and a force makes a torque, of the shaft's unknowns; translations: 1 [m].
+  pure function levers(self) result(lever)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp) :: lever(size(self%coordinate))
+    lever = merge(1.0_wp, abs(self%pad(1)%film%offset), self%coordinate <= translations)
+  end function levers
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
   pure function force_scale(self, point) result(force)
@@ -191,9 +196,9 @@ contains
     real(wp) :: force
 
     if (present(point)) then
-      force = norm2(point%load) + self%pad(1)%film%shadow()
+      force = norm2(point%load(:translations)) + self%pad(1)%film%shadow()
     else
-      force = norm2(self%point%load) + self%pad(1)%film%shadow()
+      force = norm2(self%point%load(:translations)) + self%pad(1)%film%shadow()
     end if
   end function force_scale
 
@@ -236,20 +241,19 @@ contains
 
     point = self%point
     if (present(asked)) point = asked
-    if (self%floats) point%eccentricity = unknown(self%first_shaft + 1:self%first_shaft + planar)
-    if (self%blocks%border%scalars > planar) point%tilt = unknown(self%first_shaft + 1 + planar:)
+    point%place(self%coordinate) = unknown(self%first_shaft + 1:)
   end function bearing_position
 
   !> Eccentricity at the present state, found or fixed [m].
   function bearing_eccentricity(self) result(eccentricity)
     class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: eccentricity(2)
+    type(operating_point_type) :: here
     real(wp) :: unknown(self%local_size())
 
-    eccentricity = self%point%eccentricity
-    if (.not. self%floats) return
     call self%get_unknowns(unknown)
-    eccentricity = unknown(self%first_shaft + 1:self%first_shaft + planar)
+    here = self%position(unknown)
+    eccentricity = here%place(:2)
   end function bearing_eccentricity
 
   !> Smallest gap at the present state, over all ranks [m].

@@ -13,13 +13,14 @@ module gfb_bearing_system
   use gfb_solid_contact, only: solid_contact_type, contact_pressure_rate
   use gfb_foil_model, only: foil_model_type
   use gfb_film_load, only: acts_on, film_forces
-  use gfb_shaft_motion, only: no_shaft
+  use gfb_shaft_motion, only: journal_coordinates, translations
   use gfb_matrix_rows, only: copy_row
   use gfb_blocks, only: blocks_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_pad, only: free_edge_type, pad_type, pad_place_type, complete_pad, place_pads
-  use gfb_film_matrix, only: make_film_room, add_film_rows, add_shaft_weights, add_shaft_stiffness
+  use gfb_film_matrix, only: shaft_unknowns_type, make_film_room, add_film_rows, add_shaft_weights, add_shaft_stiffness, &
+                             add_block
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
@@ -62,26 +63,22 @@ contains
     type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     class(foil_model_type), intent(in) :: foil !! under the film
-    integer, intent(in) :: shaft    !! local unknowns before e_x, or `no_shaft`
+    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
     logical, intent(in) :: fixed     !! the shaft's equations are its position's
     real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
     real(wp), intent(in) :: factor  !! of the derivatives; 0: makes room [1]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
-    integer :: column(film%coordinates + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft
-    real(wp) :: slope(film%coordinates + 1, size(gap)), rate(size(gap))
-    integer :: i
+    integer :: column(size(shaft%coordinate) + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft
+    real(wp) :: slope(size(shaft%coordinate) + 1, size(gap)), rate(size(gap))
 
     if (.not. contact%present) return
     rate = factor*contact_pressure_rate(contact, gap)
     column(1, :) = foil%source - 1
     slope(1, :) = rate*foil%rate
-    column(2:, :) = -1
-    do i = 1, film%coordinates
-      if (shaft /= no_shaft) column(1 + i, :) = shaft + i - 1
-      slope(1 + i, :) = rate*film%motion(i, :)
-    end do
-    if (shaft /= no_shaft) call add_to_shaft(film, shaft, fixed, column, slope, matrix)
+    column(2:, :) = spread(int(shaft%numbers()), 2, size(gap))
+    slope(2:, :) = spread(rate, 1, size(shaft%coordinate))*film%motion(shaft%coordinate, :)
+    call add_to_shaft(film, shaft, fixed, column, slope, matrix)
     call foil%add_load_rates(column, slope, matrix)
   end subroutine add_solid_rows
 
@@ -89,27 +86,22 @@ contains
   !> pattern where the shaft is fixed.
   subroutine add_to_shaft(film, shaft, fixed, column, slope, matrix)
     type(gas_film_type), intent(in) :: film
-    integer, intent(in) :: shaft        !! local unknowns before e_x
+    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
     logical, intent(in) :: fixed
     integer, intent(in) :: column(:, :) !! (3 or 5, nodes) local numbers, from 0
     real(wp), intent(in) :: slope(:, :) !! (3 or 5, nodes) of the pressure by them
     Mat, intent(in) :: matrix
 
     ! a row of the matrix in each column, as PETSc reads it
-    real(wp) :: block(size(column, 1), film%coordinates)
-    PetscInt :: row(film%coordinates)
+    real(wp) :: block(size(column, 1), size(shaft%coordinate))
     integer :: node, i
-    PetscErrorCode :: ierr
 
-    row = [(int(shaft + i - 1, pint), i=1, film%coordinates)]
     block = 0.0_wp
-    do node = 1, size(column, 2)
-      if (.not. fixed) then
-        do i = 1, film%coordinates
-          block(:, i) = acts_on(i)*film%force_weight(i, node)*slope(:, node)
-        end do
-      end if
-      PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column, 1), pint), int(column(:, node), pint), [block], ADD_VALUES, ierr))
+    do node = 1, merge(size(column, 2), 0, size(shaft%coordinate) > 0)
+      do i = 1, merge(0, size(shaft%coordinate), fixed)
+        block(:, i) = acts_on(shaft%coordinate(i))*film%force_weight(shaft%coordinate(i), node)*slope(:, node)
+      end do
+      call add_block(matrix, shaft%numbers(), int(column(:, node), pint), block)
     end do
   end subroutine add_to_shaft
 
@@ -118,7 +110,7 @@ contains
     type(pad_type), intent(in) :: pad !! film and foil
     type(blocks_type), intent(in) :: blocks !! of unknowns
     integer, intent(in) :: foil_block !! the foil's among them
-    integer, intent(in) :: shaft      !! local unknowns before e_x, or `no_shaft`
+    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
 
     PetscInt :: first, last, row, entries, number(maxval([0, pad%foil%row_entries]))
@@ -149,7 +141,7 @@ contains
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
-    integer, intent(in) :: shaft       !! local unknowns before e_x, or `no_shaft`
+    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
     logical, intent(in) :: fixed        !! the shaft is fixed
     type(cost_events_type), intent(in) :: events !! of PETSc's log
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
@@ -201,7 +193,7 @@ contains
   subroutine create_bearing_system(bearing, foil, floats, place)
     type(bearing_system_type), intent(inout) :: bearing !! with the film of its first pad
     class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
-    logical, intent(in) :: floats !! (e_x, e_y) are unknowns
+    logical, intent(in) :: floats !! (e_x, e_y) are unknowns, tilts with a rotor of two bearings
     type(pad_place_type), intent(in), optional :: place(:) !! of the pads, which are equal; default: one
     PetscErrorCode :: ierr
 
@@ -210,6 +202,8 @@ contains
     if (present(place)) call place_pads(place, bearing%pad)
     bearing%floats = floats
     bearing%dense_rows = floats
+    bearing%coordinate = pack(journal_coordinates, floats .and. (journal_coordinates <= translations .or. &
+                                                                 abs(bearing%pad(1)%film%offset) > 0.0_wp))
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
@@ -270,35 +264,39 @@ contains
 
     do i = 1, size(bearing%pad)
       call number_by(bearing, i, bearing%jacobian)
-      call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_number(bearing, i), bearing%jacobian)
+      call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_of(bearing, i), bearing%jacobian)
     end do
     call number_by(bearing, 0, bearing%jacobian)
-    if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(bearing%first_shaft, 0.0_wp*bearing%point%other_stiffness(bearing%blocks%border%scalars), bearing%jacobian)
+    if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
 
-  !> Local unknowns of a pad, before e_x among the numbers by which it fills the matrix, where the shaft has any.
-  pure integer function shaft_number(bearing, i) result(number)
+  !> The shaft's unknowns among the numbers by which a pad fills the matrix, or among the bearing's.
+  pure function shaft_of(bearing, i) result(shaft)
     class(bearing_system_type), intent(in) :: bearing
-    integer, intent(in) :: i !! of the pad
-    number = merge(bearing%pad(i)%last - bearing%pad(i)%first, no_shaft, bearing%floats)
-  end function shaft_number
+    integer, intent(in) :: i !! of the pad, or 0
+    type(shaft_unknowns_type) :: shaft
+
+    shaft = shaft_unknowns_type(bearing%first_shaft, bearing%coordinate)
+    if (i > 0) shaft%before = bearing%pad(i)%last - bearing%pad(i)%first
+  end function shaft_of
 
   !> Forces over coordinates: those that keep a fixed shaft at its position; of one that floats those of its inertia.
   pure function hold_stiffness(bearing, point, fixed) result(stiffness)
     class(bearing_system_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point !! whose load counts
     logical, intent(in) :: fixed                     !! the shaft is fixed
-    real(wp) :: stiffness(bearing%blocks%border%scalars, bearing%blocks%border%scalars) !! [N/m], [N m/rad]
+    real(wp) :: stiffness(size(bearing%coordinate), size(bearing%coordinate)), own(size(bearing%coordinate)) !! [N/m], [N m/rad]
     integer :: i
 
-    stiffness = point%other_stiffness(size(stiffness, 1))
+    stiffness = -point%inertia(bearing%coordinate, bearing%coordinate)
     if (.not. fixed) return
+    own = bearing%force_scale(point)/bearing%pad(1)%film%clearance*bearing%levers()**2
     stiffness = 0.0_wp
-    do i = 1, size(stiffness, 1)
-      stiffness(i, i) = bearing%force_scale(point)/bearing%pad(1)%film%clearance*merge(1.0_wp, bearing%pad(1)%film%offset**2, i <= 2)
+    do i = 1, size(own)
+      stiffness(i, i) = own(i)
     end do
   end function hold_stiffness
 
@@ -384,11 +382,10 @@ contains
 
     if (.not. bearing%shaft_fixed) then
       force = acts_on*bearing%local_force(unknown, gap)
-      value = force(:size(value))
-      if (bearing%last_rank) call point%add_other_forces(unknown(bearing%first_shaft + 1:), value)
+      value = force(bearing%coordinate)
+      if (bearing%last_rank) call point%add_other_forces(bearing%coordinate, unknown(bearing%first_shaft + 1:), value)
     else if (bearing%last_rank) then
-      force = point%place()
-      value = matmul(hold_stiffness(bearing, point, .true.), unknown(bearing%first_shaft + 1:) - force(:size(value)))
+      value = matmul(hold_stiffness(bearing, point, .true.), unknown(bearing%first_shaft + 1:) - point%place(bearing%coordinate))
     end if
   end subroutine add_shaft_residual
 
@@ -423,11 +420,11 @@ contains
       call number_by(self, i, self%jacobian)
       associate (pad => self%pad(i))
         call fill_pad(pad, self%position(unknown, point), unknown(pad%first + 1:pad%last), &
-                      gap(pad%first_node + 1:pad%last_node), shaft_number(self, i), fixed, self%events, self%jacobian)
+                      gap(pad%first_node + 1:pad%last_node), shaft_of(self, i), fixed, self%events, self%jacobian)
       end associate
     end do
     call number_by(self, 0, self%jacobian)
-    if (self%floats .and. self%last_rank) call add_shaft_stiffness(self%first_shaft, hold_stiffness(self, point, fixed), self%jacobian)
+    if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
@@ -564,7 +561,7 @@ contains
     order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
     order%total = largest_number(order%number)
     if (.not. bearing%floats) return
-    associate (scalars => bearing%blocks%border%scalars)
+    associate (scalars => size(bearing%coordinate))
       if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]
       order%total = order%total + scalars
     end associate

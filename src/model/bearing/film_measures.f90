@@ -2,6 +2,7 @@
 module gfb_film_measures
   use gfb_kinds, only: wp
   use gfb_film_load, only: film_forces, film_force, film_friction, film_friction_rates
+  use gfb_shaft_motion, only: translations
   use gfb_general_film, only: general_friction, general_friction_rates, film_flow_type, &
                               general_peclet
   use gfb_operating_point, only: operating_point_type
@@ -30,7 +31,7 @@ contains
                                                pressure(nodes) - film%ambient_pressure)
       end associate
     end do
-    if (film%copies > 1.0_wp) force(3:4) = 0.0_wp
+    if (film%copies > 1.0_wp) force(translations + 1:) = 0.0_wp
   end function force_without_suction
 
   !> This rank's share of the drag on the shaft [N].

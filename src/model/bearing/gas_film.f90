@@ -5,7 +5,7 @@ module gfb_gas_film
   use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes, &
                                gap_towards
   use gfb_bore_profile, only: bore_profile_type, bore_height
-  use gfb_shaft_motion, only: shaft_coordinates, shaft_unknowns, shaft_motion, point_motions, &
+  use gfb_shaft_motion, only: shaft_coordinates, translations, shaft_motion, point_motions, &
                               motion_excess, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type
@@ -34,7 +34,6 @@ module gfb_gas_film
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
     real(wp) :: width = 0.0_wp            !! that is meshed [m]
     real(wp) :: offset = 0.0_wp           !! of its midplane from the rotor's centre [m]
-    integer :: coordinates = shaft_unknowns !! of a shaft that floats, 4 where it tilts
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
     integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
     real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
@@ -42,11 +41,11 @@ module gfb_gas_film
     real(wp), allocatable :: axial(:)             !! z of the nodes [m]
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
-    real(wp), allocatable :: force_weight(:, :)   !! (4, nodes) this rank's share [m2], [m3]
+    real(wp), allocatable :: force_weight(:, :)   !! (5, nodes) this rank's share [m2], [m3]
     real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, odd in z [m3]
-    real(wp), allocatable :: motion(:, :)         !! (4, nodes) see `shaft_motion` [1], [m]
-    real(wp), allocatable :: point_motion(:, :, :)  !! (4, points, elements) the same there [1], [m]
-    real(wp), allocatable :: motion_excess(:, :, :) !! (4, points, elements) of them over the nodes'
+    real(wp), allocatable :: motion(:, :)         !! (5, nodes) see `shaft_motion` [1], [m]
+    real(wp), allocatable :: point_motion(:, :, :)  !! (5, points, elements) the same there [1], [m]
+    real(wp), allocatable :: motion_excess(:, :, :) !! (5, points, elements) of them over the nodes'
     real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
@@ -94,7 +93,6 @@ contains
     film%cell(2) = whole%row_axial(2) - whole%row_axial(1)
     film%width = whole%row_axial(whole%rows()) - whole%row_axial(1)
     film%offset = whole%offset
-    if (abs(film%offset) > 0.0_wp) film%coordinates = shaft_coordinates ! it tilts
     film%cell_nodes = cell_nodes
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
@@ -142,8 +140,8 @@ contains
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
-    film%half_torque_weight = film%force_weight(3:4, :)
-    if (film%copies > 1.0_wp) film%force_weight(3:4, :) = 0.0_wp ! the mirrored half cancels it
+    film%half_torque_weight = film%force_weight(translations + 1:, :)
+    if (film%copies > 1.0_wp) film%force_weight(translations + 1:, :) = 0.0_wp ! the mirrored half cancels it
   end subroutine measure_elements
 
   !> Takes the height of a bore off the rigid gap; once more where the film has moved around.
@@ -206,10 +204,10 @@ contains
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
     real(wp) :: gap(size(deflection)), eccentricity(2)
 
-    eccentricity = point%eccentricity + self%shift
+    eccentricity = point%place(:2) + self%shift
     gap = deflection + gap_towards(self%motion(1, :), self%motion(2, :), self%axial + self%offset, &
                                    self%clearance - self%interference, eccentricity(1), &
-                                   eccentricity(2), point%tilt(1), point%tilt(2))
+                                   eccentricity(2), point%place(4), point%place(5))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
@@ -224,8 +222,8 @@ contains
     excess = 0.0_wp
     do i = 1, size(self%shape, 2)
       associate (motion => self%motion_excess(:, i, element))
-        excess(i) = dot_product(point%eccentricity + self%shift, motion(1:2)) &
-          + point%tilt(2)*motion(4) + point%tilt(1)*motion(3)
+        excess(i) = dot_product(point%place(:2) + self%shift, motion(1:2)) &
+          + point%place(5)*motion(5) + point%place(4)*motion(4)
       end associate
     end do
     if (allocated(self%bore)) then
@@ -304,18 +302,19 @@ contains
     end do
   end subroutine film_flows
 
-  !> Derivatives of one element's equations by nodal pressures and deflections, and by the first of
-  !> the shaft's coordinates, as many as there is room for.
-  pure subroutine film_element_jacobian(self, element, pressure, gap, point, by_pressure, by_gap, &
-                                        by_shaft)
+  !> Derivatives of one element's equations by nodal pressures and deflections, and by some of the
+  !> shaft's coordinates.
+  pure subroutine film_element_jacobian(self, element, pressure, gap, point, coordinate, &
+                                        by_pressure, by_gap, by_shaft)
     class(gas_film_type), intent(in) :: self !! this rank's film
     integer, intent(in) :: element !! of this rank
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
     type(operating_point_type), intent(in) :: point !! operating point
+    integer, intent(in) :: coordinate(:) !! of the shaft, which are asked for
     real(wp), contiguous, intent(out) :: by_pressure(:, :) !! (nodes, nodes) [m3/s]
     real(wp), contiguous, intent(out) :: by_gap(:, :)      !! (nodes, nodes) [Pa m2/s]
-    real(wp), intent(out) :: by_shaft(:, :)                !! (nodes, 2 or 4) [Pa m2/s], [Pa m3/s]
+    real(wp), intent(out) :: by_shaft(:, :) !! (nodes, coordinates) [Pa m2/s], [Pa m3/s]
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess
     real(wp) :: by_excess(size(self%shape, 1), size(self%shape, 2))
@@ -340,9 +339,9 @@ contains
       end if
       by_shaft = 0.0_wp
       do i = 1, n
-        do k = 1, size(by_shaft, 2)
-          by_shaft(:, k) = by_shaft(:, k) + by_gap(:, i)*self%motion(k, nodes(i)) &
-            + by_excess(:, i)*self%motion_excess(k, i, element)
+        do k = 1, size(coordinate)
+          by_shaft(:, k) = by_shaft(:, k) + by_gap(:, i)*self%motion(coordinate(k), nodes(i)) &
+            + by_excess(:, i)*self%motion_excess(coordinate(k), i, element)
         end do
       end do
     end associate
@@ -357,13 +356,14 @@ contains
     integer, intent(in) :: coordinate    !! of `shaft_motion`
     real(wp), intent(inout) :: column(:) !! at the nodes [Pa m2/s], [Pa m3/s]
     real(wp), dimension(size(self%shape, 1), size(self%shape, 1)) :: by_pressure, by_gap
-    real(wp) :: by_shaft(size(self%shape, 1), shaft_coordinates)
+    real(wp) :: by_shaft(size(self%shape, 1), 1)
     integer :: element
 
     do element = 1, size(self%element_nodes, 2)
-      call self%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, by_shaft)
+      call self%element_jacobian(element, pressure, gap, point, [coordinate], by_pressure, by_gap, &
+                                 by_shaft)
       associate (nodes => self%element_nodes(:, element))
-        column(nodes) = column(nodes) + by_shaft(:, coordinate)
+        column(nodes) = column(nodes) + by_shaft(:, 1)
       end associate
     end do
     where (self%fixed) column(:size(self%fixed)) = 0.0_wp

@@ -10,60 +10,35 @@ module gfb_operating_point
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
     real(wp) :: speed = 0.0_wp           !! of the shaft, in +theta [rad/s]
-    real(wp) :: load(2) = 0.0_wp         !! external force on the shaft, where it floats [N]
+    !> External forces and torques on the shaft, where it floats; see `shaft_coordinates` [N], [N m].
+    real(wp) :: load(shaft_coordinates) = 0.0_wp
     !> Of the sleeve relative to the shaft, where it is fixed; over a step of time, where a shaft
-    !> that floats would be without forces [m].
-    real(wp) :: eccentricity(2) = 0.0_wp
-    real(wp) :: tilt(2) = 0.0_wp         !! the same of the sleeve's tilt [rad]
-    real(wp) :: torque(2) = 0.0_wp       !! external one on a rotor that tilts [N m]
-    real(wp) :: inertia = 0.0_wp         !! of a shaft that floats, over a step of time [N/m]
-    !> The same of its tilts, with the gyroscopic torque by the other's rate [N m/rad].
-    real(wp) :: tilt_inertia(2, 2) = 0.0_wp
+    !> that floats would be without forces [m], [rad].
+    real(wp) :: place(shaft_coordinates) = 0.0_wp
+    !> Of a shaft that floats, over a step of time, with the gyroscopic torque of a tilt by the
+    !> other's rate [N/m], [N m/rad].
+    real(wp) :: inertia(shaft_coordinates, shaft_coordinates) = 0.0_wp
     real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts a free edge of the top foils [N]
     real(wp) :: edge_tension(most_pads) = 0.0_wp !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]
     real(wp) :: edge_height(most_pads) = 0.0_wp !! it, above the edge at rest [m]
   contains
-    procedure :: place
     procedure :: add_other_forces
-    procedure :: other_stiffness
   end type operating_point_type
 
 contains
 
-  !> All coordinates of the sleeve relative to the shaft [m], [rad].
-  pure function place(self) result(coordinate)
-    class(operating_point_type), intent(in) :: self !! the point
-    real(wp) :: coordinate(shaft_coordinates)
-    coordinate = [self%eccentricity, self%tilt]
-  end function place
-
   !> Adds the forces on the sleeve that balance the film's: those of the load, and of inertia.
-  pure subroutine add_other_forces(self, place, force)
+  pure subroutine add_other_forces(self, coordinate, place, force)
     class(operating_point_type), intent(in) :: self !! the point
-    real(wp), intent(in) :: place(:)    !! the coordinates that are unknowns [m], [rad]
-    real(wp), intent(inout) :: force(:) !! conjugate to them [N], [N m]
-    real(wp) :: all(shaft_coordinates)
+    integer, intent(in) :: coordinate(:) !! those that are unknowns
+    real(wp), intent(in) :: place(:)     !! their values [m], [rad]
+    real(wp), intent(inout) :: force(:)  !! conjugate to them [N], [N m]
 
-    all = [self%load, self%torque]
-    force = force - all(:size(force))
-    if (.not. self%inertia > 0.0_wp) return
-    all = self%place()
-    force = force + matmul(self%other_stiffness(size(place)), place - all(:size(place)))
+    force = force - self%load(coordinate)
+    if (.not. maxval(abs(self%inertia)) > 0.0_wp) return
+    force = force - matmul(self%inertia(coordinate, coordinate), place - self%place(coordinate))
   end subroutine add_other_forces
-
-  !> Their derivatives by the coordinates [N/m], [N m/rad].
-  pure function other_stiffness(self, coordinates) result(stiffness)
-    class(operating_point_type), intent(in) :: self !! the point
-    integer, intent(in) :: coordinates !! that are unknown
-    real(wp) :: stiffness(coordinates, coordinates), all(shaft_coordinates, shaft_coordinates)
-
-    all = 0.0_wp
-    all(1, 1) = -self%inertia
-    all(2, 2) = -self%inertia
-    all(3:, 3:) = -self%tilt_inertia
-    stiffness = all(:coordinates, :coordinates)
-  end function other_stiffness
 
   !> The point at a fraction of the straight path from one to another, or on beyond either.
   elemental function point_between(first, last, fraction) result(point)
@@ -77,8 +52,7 @@ contains
     end if
     point%speed = first%speed + fraction*(last%speed - first%speed)
     point%load = first%load + fraction*(last%load - first%load)
-    point%eccentricity = first%eccentricity + fraction*(last%eccentricity - first%eccentricity)
-    point%tilt = first%tilt + fraction*(last%tilt - first%tilt)
+    point%place = first%place + fraction*(last%place - first%place)
     point%edge_pull = first%edge_pull + fraction*(last%edge_pull - first%edge_pull)
     point%edge_tension = first%edge_tension + fraction*(last%edge_tension - first%edge_tension)
     point%edge_hold = first%edge_hold + fraction*(last%edge_hold - first%edge_hold)
@@ -92,11 +66,8 @@ contains
 
     call archive%visit('speed', point%speed)
     call archive%visit('load', point%load)
-    call archive%visit('eccentricity', point%eccentricity)
-    call archive%visit('tilt', point%tilt)
+    call archive%visit('place', point%place)
     call archive%visit('inertia', point%inertia)
-    call archive%visit('torque', point%torque)
-    call archive%visit('tilt_inertia', point%tilt_inertia)
     call archive%visit('edge_pull', point%edge_pull)
     call archive%visit('edge_tension', point%edge_tension)
     call archive%visit('edge_hold', point%edge_hold)

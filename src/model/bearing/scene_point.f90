@@ -15,8 +15,8 @@ contains
     type(operating_point_type) :: point
 
     point%speed = angular_speed(operation%speed_rpm)
-    point%load = operation%load
-    point%eccentricity = operation%eccentricity
-    point%tilt = operation%tilt
+    point%load(:2) = operation%load
+    point%place(:2) = operation%eccentricity
+    point%place(4:5) = operation%tilt
   end function operating_point
 end module gfb_scene_point

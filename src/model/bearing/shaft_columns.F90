@@ -20,7 +20,7 @@ contains
   !> unknowns staying: the film's by the rigid gap, of foil and shaft by the asperities' pressure.
   subroutine shaft_column(bearing, coordinate, column)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    integer, intent(in) :: coordinate !! of `shaft_motion`: e_x, e_y [m], tilt_x, tilt_y [rad]
+    integer, intent(in) :: coordinate !! see `shaft_coordinates`
     Vec, intent(in) :: column         !! like the residual, scaled, by that unit
 
     real(wp) :: unknown(bearing%local_size()), value(bearing%local_size()), force(film_forces)
@@ -38,10 +38,9 @@ contains
         if (.not. pad%contact%present) cycle
         call add_asperities(pad, coordinate, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
                             value(pad%first + 1:pad%last), force)
-        if (bearing%floats .and. .not. bearing%shaft_fixed) then
-          force = acts_on*force
-          value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(:bearing%blocks%border%scalars)
-        end if
+        if (bearing%shaft_fixed) cycle
+        force = acts_on*force
+        value(bearing%first_shaft + 1:) = value(bearing%first_shaft + 1:) + force(bearing%coordinate)
       end associate
     end do
     PetscCallA(VecSet(column, 0.0_wp, ierr))

@@ -12,8 +12,7 @@ module gfb_film_rates
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   use gfb_squeeze_term, only: squeeze_weights, squeeze_jacobian
-  use gfb_film_matrix, only: element_columns, add_block
-  use gfb_shaft_motion, only: no_shaft
+  use gfb_film_matrix, only: shaft_unknowns_type, element_columns, add_block
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type, number_by
@@ -80,13 +79,15 @@ contains
     real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: by_pressure, by_gap
     ! a row of the matrix in each column, as PETSc reads it
     real(wp) :: block(2*size(by_gap, 1), size(by_gap, 1))
-    PetscInt :: row(size(by_gap, 1)), column(2*size(by_gap, 1) + 2)
+    PetscInt :: row(size(by_gap, 1)), column(2*size(by_gap, 1))
+    type(shaft_unknowns_type) :: none
     integer :: element, b, place, n
 
     n = size(row)
+    none = shaft_unknowns_type(0, [integer ::])
     associate (film => pad%film, foil => pad%foil)
       do element = 1, size(film%element_nodes, 2)
-        call element_columns(film, foil, no_shaft, element, row, column)
+        call element_columns(film, foil, none, element, row, column)
         call element_derivatives(film, kind, element, pressure, gap, point, by_pressure, by_gap)
         block = 0.0_wp
         block(:n, :) = transpose(by_pressure)
@@ -96,7 +97,7 @@ contains
             block(place, :) = block(place, :) + foil%rate(nodes(b))*by_gap(:, b)
           end do
         end associate
-        call add_block(matrix, row, column(:2*n), block)
+        call add_block(matrix, row, column, block)
       end do
     end associate
   end subroutine fill_pad_film
@@ -108,10 +109,10 @@ contains
     real(wp), intent(in) :: pressure(:), gap(:) !! at this rank's nodes [Pa], [m]
     type(operating_point_type), intent(in) :: point
     real(wp), contiguous, intent(out) :: by_pressure(:, :), by_gap(:, :) !! (nodes, nodes)
-    real(wp) :: by_excess(size(by_gap, 1), size(by_gap, 1)), by_shaft(size(by_gap, 1), 2)
+    real(wp) :: by_excess(size(by_gap, 1), size(by_gap, 1)), by_shaft(size(by_gap, 1), 0)
 
     if (kind == flow_by_gap) then
-      call film%element_jacobian(element, pressure, gap, point, by_pressure, by_gap, by_shaft)
+      call film%element_jacobian(element, pressure, gap, point, [integer ::], by_pressure, by_gap, by_shaft)
     else
       call element_squeeze(film, element, pressure, gap, point, by_pressure, by_gap, by_excess)
     end if
@@ -139,7 +140,7 @@ contains
   !> Derivative of c by one of the shaft's coordinates, the unknowns staying.
   subroutine squeeze_column(bearing, coordinate, column)
     type(bearing_system_type), intent(in) :: bearing !! at its answer
-    integer, intent(in) :: coordinate !! of `shaft_motion`: e_x, e_y [m], tilt_x, tilt_y [rad]
+    integer, intent(in) :: coordinate !! see `shaft_coordinates`
     Vec, intent(in) :: column         !! scaled as the residual, by that unit
 
     real(wp) :: unknown(bearing%local_size()), value(bearing%local_size()), gap(bearing%film_nodes())

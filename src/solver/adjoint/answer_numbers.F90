@@ -6,6 +6,7 @@ module gfb_answer_numbers
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
+  use gfb_shaft_motion, only: journal_motions, journal_coordinates
   use gfb_film_measures, only: film_drag, film_drag_rates, film_integral
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
@@ -67,7 +68,7 @@ contains
     type(operating_point_type), intent(in) :: point !! with the shaft's position where it is fixed
     type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
     real(wp) :: number(numbers)
-    real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes()), solid(bearing%film_nodes())
+    real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes()), solid(bearing%film_nodes()), force(film_forces)
     type(operating_point_type) :: here
     integer :: i
 
@@ -76,7 +77,8 @@ contains
     pressure = bearing%film_pressure(unknown)
     solid = bearing%solid_pressure(unknown)
     number = 0.0_wp
-    number(place_force:place_torque - 1) = bearing%local_force(unknown, gap)
+    force = bearing%local_force(unknown, gap)
+    number(place_force:place_torque - 1) = force(journal_coordinates)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         number(place_torque) = number(place_torque) + pad%film%radius* &
@@ -91,7 +93,7 @@ contains
       if (nodes%node(i) > 0) number(place_extremes + i - 1) = pressure(nodes%node(i))
     end do
     number = sum_over_ranks(number)
-    number(place_e:place_e + 1) = here%eccentricity
+    number(place_e:place_e + 1) = here%place(:2)
     number(place_speed) = point%speed
   end function measure
 
@@ -131,8 +133,8 @@ contains
     real(wp), intent(inout) :: by_unknown(:, :), by_gap(:, :) !! (pad's unknowns or nodes, numbers)
     integer :: k
 
-    do k = 1, film_forces
-      associate (weight => pad%film%force_weight(k, :))
+    do k = 1, journal_motions
+      associate (weight => pad%film%force_weight(journal_coordinates(k), :))
         by_unknown(:size(gap), place_force + k - 1) = weight
         by_gap(:, place_force + k - 1) = weight*contact_pressure_rate(pad%contact, gap)
       end associate
@@ -163,8 +165,8 @@ contains
       do k = 1, 2
         ahead = bearing%position(unknown)
         behind = ahead
-        ahead%eccentricity(k) = ahead%eccentricity(k) + step
-        behind%eccentricity(k) = behind%eccentricity(k) - step
+        ahead%place(k) = ahead%place(k) + step
+        behind%place(k) = behind%place(k) - step
         associate (by_shaft => gradient(bearing%first_shaft + k, place_torque))
           by_shaft = by_shaft + film%radius*(film_drag(film, pressure, gap, ahead) &
                                              - film_drag(film, pressure, gap, behind))/(2.0_wp*step)

@@ -75,7 +75,7 @@ contains
 
     point = bearing%point
     if (parameter%key%name == 'load') then
-      point%load = point%load*(value/norm2(point%load))
+      point%load(:2) = point%load(:2)*(value/norm2(point%load(:2)))
     else
       point%speed = angular_speed(value)
     end if

@@ -350,7 +350,7 @@ contains
     value = parameter%value
     if (parameter%key%group == 'operation') then
       value = point%speed/angular_speed(1.0_wp)
-      if (parameter%key%name == 'load') value = norm2(point%load)
+      if (parameter%key%name == 'load') value = norm2(point%load(:2))
     else if (present(at) .and. allocated(scene%sweep%keys)) then
       list = swept_keys(scene%sweep)
       do i = 1, size(list)

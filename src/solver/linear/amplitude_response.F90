@@ -9,7 +9,7 @@ module gfb_amplitude_response
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_contacts_in_motion, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction
@@ -28,7 +28,7 @@ module gfb_amplitude_response
   type, public :: vibration_state_type
     complex(wp), allocatable :: stiffness(:) !! along the surface, of this rank's contacts, pad by pad [N/m]
     complex(wp), allocatable, private :: sticking(:) !! the same of no amplitude [N/m]
-    complex(wp) :: coefficient(shaft_coordinates) = 0.0_wp !! forces and torques over the motion [SI]
+    complex(wp) :: coefficient(journal_motions) = 0.0_wp !! forces and torques over the motion [SI]
     real(wp) :: lost = 0.0_wp    !! energy that contacts lose in a cycle [J]
     integer :: passes = 0        !! of the last amplitude
     logical :: converged = .false.
@@ -99,7 +99,7 @@ contains
     integer, intent(in) :: coordinate
     type(vibration_state_type), intent(inout) :: vibration
     logical, intent(out) :: found
-    complex(wp) :: z(shaft_coordinates, shaft_coordinates)
+    complex(wp) :: z(journal_motions, journal_motions)
 
     call combine(response%equations, rate)
     associate (stiffness => vibration%stiffness - vibration%sticking)

@@ -23,7 +23,7 @@ module gfb_dynamic_response
   use gfb_kinds, only: wp
   use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions, journal_coordinates
   use gfb_pad, only: pad_type
   use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
@@ -36,12 +36,12 @@ module gfb_dynamic_response
   private
   public :: create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
 
-  !> of the shaft's coordinates
+  !> of a journal's motions
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
 
   !> The equations of motions with one symmetry about z = 0, or of all.
   type :: part_type
-    integer, allocatable :: coordinate(:) !! of the shaft that have it
+    integer, allocatable :: coordinate(:) !! of the journal's motions, those that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
     type(complex_factors_type) :: factors
@@ -54,7 +54,7 @@ module gfb_dynamic_response
     integer :: status = 0         !! of the last factors: MUMPS' INFOG(1), negative where there are none
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
-    type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates)
+    type(tVec) :: steady_column(journal_motions), squeeze_column(journal_motions)
     type(tVec) :: one, other !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
     type(dynamic_response_type), allocatable :: opposite       !! of that
@@ -76,7 +76,7 @@ contains
         if (against_mirror(bearing, coordinate)) then
           weight(:, pad%first_node + 1:pad%last_node) = -film%half_torque_weight
         else
-          weight(:, pad%first_node + 1:pad%last_node) = film%force_weight(coordinate, :)
+          weight(:, pad%first_node + 1:pad%last_node) = film%force_weight(journal_coordinates(coordinate), :)
         end if
       end associate
     end do
@@ -142,11 +142,11 @@ contains
     call complete_equations(bearing, vibration, response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
-    do k = 1, shaft_coordinates
+    do k = 1, journal_motions
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
-      call shaft_column(bearing, k, response%steady_column(k))
-      call squeeze_column(bearing, k, response%squeeze_column(k))
+      call shaft_column(bearing, journal_coordinates(k), response%steady_column(k))
+      call squeeze_column(bearing, journal_coordinates(k), response%squeeze_column(k))
     end do
     call measure_asperities(bearing, response%solid_rate)
     call create_parts(bearing, response)
@@ -265,15 +265,15 @@ contains
     type(dynamic_response_type), intent(inout) :: response !! of it
     complex(wp), intent(in) :: rate !! lambda, i omega for vibrations; with a loss factor for these alone [1/s]
     !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry [SI]
-    complex(wp), intent(out) :: coefficient(shaft_coordinates, shaft_coordinates)
+    complex(wp), intent(out) :: coefficient(journal_motions, journal_motions)
     logical, intent(out) :: found !! all of them; else a matrix cannot be factorized
     logical, intent(in), optional :: only_translations !! tilts are not asked for
-    complex(wp) :: other(shaft_coordinates, shaft_coordinates)
+    complex(wp) :: other(journal_motions, journal_motions)
     integer :: i, wanted
 
     coefficient = 0.0_wp
     found = .false.
-    wanted = shaft_coordinates
+    wanted = journal_motions
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
     call combine(response%equations, rate)
     do i = 1, size(response%part)
@@ -282,7 +282,7 @@ contains
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
-    if (.not. allocated(response%opposite) .or. wanted < shaft_coordinates) return
+    if (.not. allocated(response%opposite) .or. wanted < journal_motions) return
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)
@@ -381,7 +381,7 @@ contains
     integer :: node
 
     do node = 1, size(pressure)
-      gap = -motion*pad%film%motion(coordinate, node)
+      gap = -motion*pad%film%motion(journal_coordinates(coordinate), node)
       if (pad%foil%source(node) > 0) gap = gap + pad%foil%rate(node)*value(pad%foil%source(node))
       pressure(node) = pressure(node) + solid_rate(node)*gap
     end do
@@ -401,7 +401,7 @@ contains
     do i = 1, size(response%part)
       call destroy_complex_factors(response%part(i)%factors)
     end do
-    do i = 1, shaft_coordinates
+    do i = 1, journal_motions
       PetscCallA(VecDestroy(response%steady_column(i), ierr))
       PetscCallA(VecDestroy(response%squeeze_column(i), ierr))
     end do

@@ -67,7 +67,7 @@ contains
     PetscErrorCode :: ierr
 
     fixed = bearing%point
-    fixed%eccentricity = bearing%eccentricity()
+    fixed%place(:2) = bearing%eccentricity()
     call bearing%linearise_at(fixed, .true., bearing%state)
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, stiffness, ierr))
     call bearing%linearise(bearing%state)

@@ -24,7 +24,7 @@ module gfb_static_stiffness
   private
   public :: angular_stiffness, find_edge_stiffness
 
-  integer, parameter :: tilts = 2 !! the shaft's coordinates before its tilts
+  integer, parameter :: tilts = 3 !! the shaft's coordinates before its tilts
 
   real(wp), parameter :: probe = 1.0e-3_wp !! force on the edge, over the size of a force; the answer is linear in it [1]
 
@@ -99,7 +99,7 @@ contains
     call bearing%get_unknowns(change, response)
     force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + bearing%film_pressure(change) &
                                               + solid_change(bearing, axis, here, change)))
-    torque = force(3:4)
+    torque = force(4:5)
   end function torque_of
 
   !> How much less the asperities press: their pressure follows the gap, that is foil, shaft and tilt.

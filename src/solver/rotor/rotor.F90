@@ -13,7 +13,7 @@
 !> other's torque (gyroscopic), \( G = I_p/2 \, [0, 1; -1, 0] \).
 module gfb_rotor
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   implicit none (type, external)
   private
   public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, determinant, inverse, whirl_sense
@@ -51,7 +51,7 @@ contains
   pure function motion_of(rotor, kind) result(motion)
     type(rotor_type), intent(in) :: rotor !! with its bearings' distance
     integer, intent(in) :: kind !! `cylindrical` or `conical`
-    real(wp) :: motion(shaft_coordinates, planar) !! [1], [m]
+    real(wp) :: motion(journal_motions, planar) !! [1], [m]
 
     motion = 0.0_wp
     if (kind == cylindrical) then
@@ -90,11 +90,11 @@ contains
   pure function dynamic_matrix(rotor, kind, coefficient, rate, speed) result(matrix)
     type(rotor_type), intent(in) :: rotor !! with mass and inertias
     integer, intent(in) :: kind !! `cylindrical` or `conical`
-    complex(wp), intent(in) :: coefficient(shaft_coordinates, shaft_coordinates) !! Z of one bearing [SI]
+    complex(wp), intent(in) :: coefficient(journal_motions, journal_motions) !! Z of one bearing [SI]
     complex(wp), intent(in) :: rate !! lambda [1/s]
     real(wp), intent(in) :: speed   !! of the rotor [rad/s]
     complex(wp) :: matrix(planar, planar)
-    real(wp) :: motion(shaft_coordinates, planar)
+    real(wp) :: motion(journal_motions, planar)
     integer :: i
 
     if (kind == cylindrical) then

@@ -40,7 +40,7 @@
 !> product has none, so its zeros can be counted, and found from starts nearby.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: log_determinant
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
@@ -199,7 +199,7 @@ contains
     complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp), intent(out) :: logarithm !! of scaled equations [1]
     logical, intent(out) :: found !! the matrices could be factorized
-    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
+    complex(wp) :: coefficient(journal_motions, journal_motions)
     integer :: i
 
     call find_coefficients(bearing, response, rate, coefficient, found, only_translations=kind == cylindrical)

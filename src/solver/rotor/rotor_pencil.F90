@@ -30,7 +30,7 @@ module gfb_rotor_pencil
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: complex_factors_type, solve_complex, keep_entries
   use gfb_petsc_kinds, only: pint
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
   implicit none (type)
@@ -83,7 +83,7 @@ module gfb_rotor_pencil
   !> What the product needs.
   type :: pencil_type
     type(linked_share_type), allocatable :: share(:)
-    real(wp) :: motion(shaft_coordinates, planar) = 0.0_wp !! T
+    real(wp) :: motion(journal_motions, planar) = 0.0_wp !! T
     real(wp) :: shift = 0.0_wp                !! sigma [1/s]
     type(rotor_scale_type) :: scale
     real(wp) :: inertia = 0.0_wp              !! [kg], [kg m2]
@@ -341,7 +341,7 @@ contains
     real(wp), intent(out) :: reach !! distance of the last mode from the shift; huge where there are no more [1/s]
     logical, intent(out) :: found !! the matrix could be factorized
     type(pencil_type), target :: pencil
-    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
+    complex(wp) :: coefficient(journal_motions, journal_motions)
 
     allocate (modes(0))
     reach = 0.0_wp

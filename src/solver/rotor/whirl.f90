@@ -9,7 +9,7 @@
 !> without any mass): the critical mass is zero.
 module gfb_whirl
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_root_bracket, only: root_bracket_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
@@ -67,7 +67,7 @@ contains
     real(wp), intent(in) :: ratio !! [1]
     complex(wp), intent(out) :: kappa(2) !! [N/m]
     logical, intent(out) :: found
-    complex(wp) :: coefficient(shaft_coordinates, shaft_coordinates)
+    complex(wp) :: coefficient(journal_motions, journal_motions)
 
     call find_coefficients(bearing, response, cmplx(0.0_wp, ratio*bearing%point%speed, wp), &
                            coefficient, found, only_translations=.true.)

@@ -137,8 +137,8 @@ contains
 
     if (report%shaft_fixed) then
       words = 'lost before the shaft is released: '
-    else if (norm2(target%load) > 0.0_wp) then
-      words = 'lost at '//text(100.0_wp*norm2(report%reached%load)/norm2(target%load), 3)//' % of the load: '
+    else if (norm2(target%load(:2)) > 0.0_wp) then
+      words = 'lost at '//text(100.0_wp*norm2(report%reached%load(:2))/norm2(target%load(:2)), 3)//' % of the load: '
     else
       words = 'lost: '
     end if

@@ -97,7 +97,7 @@ contains
     call set_adhesion(bearing, 1.0_wp)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
-    early = contacts%release == before .or. (contacts%release == by_load .and. norm2(target%load) > norm2(force(1:2)))
+    early = contacts%release == before .or. (contacts%release == by_load .and. norm2(target%load(:2)) > norm2(force(1:2)))
     if (report%converged() .and. early) call lead_contacts(bearing, newton, releasing, contacts, report)
     if (report%converged() .and. bearing%floats) call release_shaft(bearing, newton, target, soft, report)
     if (.not. early .and. (report%converged() .or. .not. report%shaft_fixed)) then

@@ -366,7 +366,7 @@ contains
     settings = settings_with_fixed_edge(problem%settings)
     do number = 1, merge(size(shares), 1, problem%bearing%floats)
       easier = with_fixed_edges(problem)
-      easier%load = shares(number)*problem%target%load
+      easier%load(:2) = shares(number)*problem%target%load(:2)
       call guess_position(problem%bearing, problem%scene, easier, usual_contacts%eccentricity)
       call approach(problem%bearing, problem%newton, easier, settings, usual_contacts, report)
       if (.not. report%shaft_fixed) exit
@@ -479,7 +479,7 @@ contains
     target = problem%target
     problem%target = without_holds(report%reached, 1, most_pads)
     call last%save(problem%bearing)
-    share = norm2(problem%target%load)/max(norm2(target%load), tiny(1.0_wp))
+    share = norm2(problem%target%load(:2))/max(norm2(target%load(:2)), tiny(1.0_wp))
     call release_edges(problem, short, ends)
     problem%target = target
     if (short%converged()) then

@@ -65,7 +65,7 @@ contains
     quick = trial_settings(problem%settings)
     downwards = quick
     downwards%touch_down_gap = 0.0_wp
-    associate (bearing => problem%bearing, newton => problem%newton, load => problem%target%load)
+    associate (bearing => problem%bearing, newton => problem%newton, load => problem%target%load(:2))
       position = bearing%eccentricity()
       if (-dot_product(position, load) > cos(aside)*norm2(position)*norm2(load)) return
       direction = atan2(load(2), load(1)) + behind_load
@@ -76,7 +76,7 @@ contains
         force = bearing%reaction()
         if (dot_product(force(1:2), load) >= norm2(load)**2) exit
         next = bearing%point
-        next%eccentricity = deeper*next%eccentricity
+        next%place(:2) = deeper*next%place(:2)
         call follow_path(bearing, newton, next, 0.5_wp, downwards, report)
         if (.not. report%converged()) exit ! a load may press it where a position does not lead
       end do
@@ -165,7 +165,7 @@ contains
     answer = bearing_answer(bearing)
     peclet = answer%maximum_peclet
     wanted = target
-    wanted%eccentricity = eccentricity
+    wanted%place(:2) = eccentricity
     call solve_at(bearing, newton, wanted, .true., settings, report)
     report%shaft_fixed = .true.
   end subroutine find_by_upwinding

@@ -76,7 +76,7 @@ contains
     associate (bearing => problem%bearing, target => problem%target)
       if (.not. bearing%pad(1)%foil%has_contacts()) then
         starts = [start_from_rest]
-        if (bearing%floats .and. norm2(target%load) > 0.0_wp .and. target%speed > 0.0_wp) starts = [starts, start_laid_down]
+        if (bearing%floats .and. norm2(target%load(:2)) > 0.0_wp .and. target%speed > 0.0_wp) starts = [starts, start_laid_down]
       else
         free_edge = has_free_edge(bearing)
         starts = [start_released_early, start_released_late]
@@ -232,7 +232,7 @@ contains
     call refused%save(problem%bearing)
     easier = problem
     easier%anchor = saved_state_type()
-    easier%target%load = load_share*problem%target%load
+    easier%target%load(:2) = load_share*problem%target%load(:2)
     call try_free_edge(easier, light, ends)
     call easier%anchor%destroy()
     if (light%converged()) then
@@ -275,7 +275,7 @@ contains
     type(operating_point_type), intent(in) :: target
     real(wp) :: distance
 
-    distance = norm2(report%reached%load - target%load)/max(norm2(target%load), tiny(1.0_wp)) + &
+    distance = norm2(report%reached%load(:2) - target%load(:2))/max(norm2(target%load(:2)), tiny(1.0_wp)) + &
       abs(report%reached%speed - target%speed)/max(abs(target%speed), tiny(1.0_wp))
     if (report%shaft_fixed) distance = huge(1.0_wp)
   end function distance

@@ -66,14 +66,13 @@ contains
     to_position = settings
     to_position%touch_down_gap = 0.0_wp
     wanted = target
-    wanted%eccentricity = bearing%eccentricity()
+    wanted%place(:2) = bearing%eccentricity()
     free = free_position(bearing, wanted)
     call put_at_rest(bearing, free)
     call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
     report%shaft_fixed = .true.
-    if (report%converged() .and. norm2(free%eccentricity - wanted%eccentricity) + &
-        norm2(free%tilt - wanted%tilt) > 0.0_wp) then
+    if (report%converged() .and. any(abs(free%place - wanted%place) > 0.0_wp)) then
       call newton%log%detail('to the position asked for')
       call follow_path(bearing, newton, wanted, 0.25_wp, to_position, report)
       report%shaft_fixed = .true.
@@ -91,9 +90,9 @@ contains
 
     force = bearing%reaction()
     bearing%shaft_fixed = .false.
-    bearing%point%load = force(1:2)
+    bearing%point%load(:2) = force(1:2)
     call newton%log%detail('shaft released, load from the reaction to its target')
-    change = norm2(target%load - force(1:2))
+    change = norm2(target%load(:2) - force(1:2))
     call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(change, tiny(1.0_wp)), settings, report)
   end subroutine release_shaft
 
@@ -108,14 +107,12 @@ contains
 
     free = wanted
     centred = wanted
-    centred%eccentricity = 0.0_wp
-    centred%tilt = 0.0_wp
+    centred%place = 0.0_wp
     at_rest = undeflected_gap(bearing, centred)
     extremes = largest_over_ranks([-minval(at_rest), maxval(at_rest - undeflected_gap(bearing, wanted))])
     associate (clearance => -extremes(1), approach => extremes(2)) ! the former less than C with a preload or a bore that is no circle
       if (approach < clearance) return
-      free%eccentricity = wanted%eccentricity*room_at_rest*clearance/approach
-      free%tilt = wanted%tilt*room_at_rest*clearance/approach
+      free%place = wanted%place*room_at_rest*clearance/approach
     end associate
   end function free_position
 
@@ -145,7 +142,7 @@ contains
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
     call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
-    if (bearing%floats) unknown(bearing%first_shaft + 1:) = position%eccentricity
+    unknown(bearing%first_shaft + 1:) = position%place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest
 
@@ -157,19 +154,19 @@ contains
     real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
     real(wp) :: direction, free
 
-    bearing%point%eccentricity = target%eccentricity
+    bearing%point%place(:2) = target%place(:2)
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
       free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(bore_peak(scene%bore%profile), 0.0_wp) &
-        - bearing%pad(1)%film%interference - 0.5_wp*scene%bearing%length*norm2(target%tilt)
+        - bearing%pad(1)%film%interference - 0.5_wp*scene%bearing%length*norm2(target%place(4:5))
       direction = start_attitude
-      if (norm2(target%load) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
-      bearing%point%eccentricity = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
-      if (bearing%pad(1)%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load) > 0.0_wp) then
-        bearing%point%eccentricity = resting_position(bearing, target)
+      if (norm2(target%load(:2)) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
+      bearing%point%place(:2) = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
+      if (bearing%pad(1)%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load(:2)) > 0.0_wp) then
+        bearing%point%place(:2) = resting_position(bearing, target)
       end if
     end if
-    call place_shaft(bearing, (bearing%point%eccentricity)) ! a copy: it is overwritten
+    call place_shaft(bearing, (bearing%point%place(:2))) ! a copy: it is overwritten
   end subroutine guess_position
 
   !> Puts a shaft that finds its own position somewhere to begin with.
@@ -178,7 +175,7 @@ contains
     real(wp), intent(in) :: position(2) !! eccentricity [m]
     real(wp) :: unknown(bearing%local_size())
 
-    bearing%point%eccentricity = position
+    bearing%point%place(:2) = position
     unknown = 0.0_wp
     unknown(bearing%first_shaft + 1:) = position
     call bearing%set_unknowns(unknown)
@@ -197,16 +194,16 @@ contains
     integer :: i
 
     there = target
-    direction = -target%load/norm2(target%load)
+    direction = -target%load(:2)/norm2(target%load(:2))
     near = 0.0_wp
     far = bearing%pad(1)%film%clearance
     do i = 1, halvings
       middle = 0.5_wp*(near + far)
-      there%eccentricity = middle*direction
+      there%place(:2) = middle*direction
       gap = undeflected_gap(bearing, there)
       smallest = largest_over_ranks([-minval(gap)])
       force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + contact_pressure(bearing%pad(1)%contact, gap)))
-      if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load) < norm2(target%load)**2) then
+      if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load(:2)) < norm2(target%load(:2))**2) then
         near = middle
       else
         far = middle

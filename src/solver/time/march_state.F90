@@ -103,7 +103,7 @@ contains
     real(wp) :: way(2, 2) !! (x and y, bearings) [m]
     real(wp) :: lever(2)
 
-    lever = 0.5_wp*self%drive%bearing_distance*[change(4), -change(3)]
+    lever = 0.5_wp*self%drive%bearing_distance*[change(5), -change(4)]
     way(:, 1) = change(:2) + lever
     way(:, 2) = change(:2) - lever
   end function way_in_bearings
@@ -202,7 +202,7 @@ contains
     call archive%visit('place', march%place)
     call archive%visit('first_place', march%first_place)
     call archive%visit('past_step', march%past_step)
-    call archive%visit('start', march%start%eccentricity)
+    call archive%visit('start', march%start%place(:2))
     do i = 1, size(march%pad)
       if (march%pad(i)%springs%local) call archive%visit('spring_drag_'//text(i), march%pad(i)%springs%drag)
     end do

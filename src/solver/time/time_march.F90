@@ -52,7 +52,7 @@ contains
       PetscCallA(VecCopy(bearing%state, march%state(i), ierr))
     end do
     march%start = bearing%point
-    if (bearing%shaft_fixed) march%start%eccentricity = bearing%eccentricity()
+    if (bearing%shaft_fixed) march%start%place(:2) = bearing%eccentricity()
     march%next = first_step(march)
     march%past_step = march%next
     march%first_place = place_of(bearing)
@@ -104,7 +104,7 @@ contains
     force = acts_on*bearing%reaction()
     acceleration = 0.0_wp
     acceleration(:2) = (force(:2) - march%drive%load_at(0.0_wp))/march%drive%mass
-    if (tilts(bearing)) acceleration(3:) = (force(3:) - march%drive%torque_at(0.0_wp))/march%drive%transverse_inertia
+    if (tilts(bearing)) acceleration(4:) = (force(4:) - march%drive%torque_at(0.0_wp))/march%drive%transverse_inertia
     do i = 2, kept_times
       march%place(:, i) = march%first_place + 0.5_wp*acceleration*((i - 1)*march%next)**2
     end do
@@ -196,7 +196,7 @@ contains
       call bearing%get_unknowns(march%unknown(:, step), march%state(step))
     end do
     do step = 2, 1, -1
-      if (.not. bearing%floats) bearing%point%eccentricity = march%place(:2, step)
+      if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, step)
       do i = 1, size(bearing%pad)
         associate (pad => bearing%pad(i), unknown => march%unknown(:, step))
           if (march%settings%damps()) call recall_springs(step, unknown(pad%first + 1:pad%last), pad%foil, march%pad(i)%springs)
@@ -317,15 +317,16 @@ contains
     weight = difference_weights(step, march%past_step(1))
     call drive_at(march, time, bearing)
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
-      bearing%point%inertia = march%drive%mass*weight(0)**2
+      bearing%point%inertia(1, 1) = march%drive%mass*weight(0)**2
+      bearing%point%inertia(2, 2) = bearing%point%inertia(1, 1)
       place = free_place(march, weight)
-      bearing%point%eccentricity = place(:2)
+      bearing%point%place(:2) = place(:2)
       if (tilts(bearing)) then
-        bearing%point%tilt_inertia = march%drive%transverse_inertia*weight(0)**2*unit + weight(0)*gyration(march, time)
-        bearing%point%tilt = free_tilt(march, weight, gyration(march, time), place(3:))
+        bearing%point%inertia(4:, 4:) = march%drive%transverse_inertia*weight(0)**2*unit + weight(0)*gyration(march, time)
+        bearing%point%place(4:5) = free_tilt(march, weight, gyration(march, time), place(4:))
       end if
     else
-      bearing%point%eccentricity = march%start%eccentricity + march%drive%orbit_at(time)
+      bearing%point%place(:2) = march%start%place(:2) + march%drive%orbit_at(time)
     end if
     if (bearing%momentum%present) call bearing%momentum%prepare(weight, march%state(1), march%state(2))
     do i = 1, size(bearing%pad)
@@ -356,7 +357,7 @@ contains
     real(wp), intent(in) :: without(2) !! without that torque [rad]
     real(wp) :: tilt(2), rest(2)
 
-    associate (inertia => march%drive%transverse_inertia*weight(0)**2, now => march%place(3:, 1), before => march%place(3:, 2))
+    associate (inertia => march%drive%transverse_inertia*weight(0)**2, now => march%place(4:, 1), before => march%place(4:, 2))
       rest = inertia*(without - now) - weight(2)*matmul(gyration, before - now)
       ! The matrix is [a, b; -b, a].
       associate (b => weight(0)*gyration(1, 2))
@@ -381,14 +382,14 @@ contains
     type(bearing_system_type), intent(inout) :: bearing
 
     bearing%point%speed = march%drive%speed_at(time)
-    bearing%point%load = march%drive%load_at(time)
-    if (tilts(bearing)) bearing%point%torque = march%drive%torque_at(time)
+    bearing%point%load(:2) = march%drive%load_at(time)
+    if (tilts(bearing)) bearing%point%load(4:5) = march%drive%torque_at(time)
   end subroutine drive_at
 
   !> Whether tilts are unknowns.
   pure logical function tilts(bearing)
     type(bearing_system_type), intent(in) :: bearing
-    tilts = bearing%blocks%border%scalars > 2
+    tilts = size(bearing%coordinate) > 2
   end function tilts
 
   !> Where the sleeve is at the present state, and its tilt [m], [rad].
@@ -399,7 +400,7 @@ contains
 
     call bearing%get_unknowns(unknown)
     here = bearing%position(unknown)
-    place = here%place()
+    place = here%place
   end function place_of
 
   !> Begins Newton's method ahead of the newest state, where the film is open there.
@@ -419,7 +420,7 @@ contains
     end do
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
       place = place_ahead(march, step)
-      ahead(bearing%first_shaft + 1:) = place(:bearing%blocks%border%scalars)
+      ahead(bearing%first_shaft + 1:) = place(bearing%coordinate)
     end if
     open = bearing%is_open_at(ahead)
     if (open) then
@@ -433,7 +434,6 @@ contains
   subroutine end_march(march, bearing)
     type(march_type), intent(inout) :: march !! its numbers stay
     type(bearing_system_type), intent(inout) :: bearing !! at the last state
-    real(wp) :: place(film_forces)
     integer :: i
     PetscErrorCode :: ierr
 
@@ -442,12 +442,7 @@ contains
     end do
     call bearing%momentum%destroy()
     bearing%point%inertia = 0.0_wp
-    bearing%point%tilt_inertia = 0.0_wp
-    if (bearing%floats) then
-      place = place_of(bearing)
-      bearing%point%eccentricity = place(:2)
-      bearing%point%tilt = place(3:)
-    end if
+    if (bearing%floats) bearing%point%place = place_of(bearing)
     do i = 1, size(bearing%pad)
       if (allocated(bearing%pad(i)%film%past)) deallocate (bearing%pad(i)%film%past)
     end do

@@ -73,10 +73,10 @@ contains
 
     associate (scene => solution%scene, bearing => solution%bearing)
       if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
-      bearing%point%eccentricity = bearing%eccentricity()
+      bearing%point%place(:2) = bearing%eccentricity()
       bearing%shaft_fixed = .true.
-      call solution%context%log%line('shaft fixed at ('//text(bearing%point%eccentricity(1)*micrometres, 5)//', '// &
-                                     text(bearing%point%eccentricity(2)*micrometres, 5)//') um')
+      call solution%context%log%line('shaft fixed at ('//text(bearing%point%place(1)*micrometres, 5)//', '// &
+                                     text(bearing%point%place(2)*micrometres, 5)//') um')
       call begin_tilt(scene, bearing, solution%newton, solution%record%tilted)
     end associate
   end subroutine fix_shaft

@@ -281,7 +281,7 @@ contains
     type(operating_point_type) :: target
 
     target = operating_point(operation_at(self%scene%operation, self%scene%sweep, point))
-    if (self%scene%sweep%hold_position) target%eccentricity = self%bearing%point%eccentricity
+    if (self%scene%sweep%hold_position) target%place(:2) = self%bearing%point%place(:2)
   end function target_at
 
   !> Says whether the answer recorded last is on another branch than the one before.
@@ -360,13 +360,13 @@ contains
       end if
       select case (reason%code)
       case (reason_fixed_shaft)
-        call log%line('last state reached: tilt ('//text(point%tilt(1), 4)//', '// &
-                      text(point%tilt(2), 4)//') rad, film force ('//text(force(1), 5)//', '// &
+        call log%line('last state reached: tilt ('//text(point%place(4), 4)//', '// &
+                      text(point%place(5), 4)//') rad, film force ('//text(force(1), 5)//', '// &
                       text(force(2), 5)//') N, '//thinnest_film(self%bearing))
       case (reason_no_equilibrium, reason_no_limit)
         call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
                       ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
-                      text(point%tilt(1), 4)//', '//text(point%tilt(2), 4)//') rad, '// &
+                      text(point%place(4), 4)//', '//text(point%place(5), 4)//') rad, '// &
                       thinnest_film(self%bearing))
       case default
         call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)// &

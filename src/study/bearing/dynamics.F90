@@ -12,7 +12,7 @@ module gfb_dynamics
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, meshes_foils
   use gfb_dynamics_case, only: tangent_stick, frequencies_at
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_shaft_motion, only: journal_motions
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_opposite
@@ -96,7 +96,7 @@ contains
     integer :: i
 
     point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
-    allocate (point%coefficient(shaft_coordinates, shaft_coordinates, size(point%frequency)), source=(0.0_wp, 0.0_wp))
+    allocate (point%coefficient(journal_motions, journal_motions, size(point%frequency)), source=(0.0_wp, 0.0_wp))
     do i = 1, size(point%frequency)
       call log%is_at('frequency '//text(i)//' of '//text(size(point%frequency)), real(i - 1, wp)/real(size(point%frequency), wp))
       call log%waiting('')
@@ -124,7 +124,7 @@ contains
     none = ieee_value(none, ieee_quiet_nan)
     point%amplitude = scene%dynamics%amplitudes
     associate (amplitudes => size(point%amplitude), frequencies => size(point%frequency))
-      allocate (point%at_amplitude(shaft_coordinates, shaft_coordinates, amplitudes, frequencies), &
+      allocate (point%at_amplitude(journal_motions, journal_motions, amplitudes, frequencies), &
                 source=cmplx(none, none, wp))
       allocate (point%friction_loss(translations, amplitudes, frequencies))
     end associate

@@ -76,7 +76,7 @@ contains
     limit%axis = scene%capacity%tilt_axis
     limit%smallest_gap = scene%capacity%smallest_gap
     limit%contact_part = scene%capacity%contact_part
-    if (any(abs(point%load) > 0.0_wp)) limit%direction = point%load/norm2(point%load)
+    if (any(abs(point%load(:2)) > 0.0_wp)) limit%direction = point%load(:2)/norm2(point%load(:2))
     limit%length = scene%bearing%length
     limit%diameter = 2.0_wp*scene%bearing%radius
   end function limit_of
@@ -96,11 +96,11 @@ contains
 
     select case (self%question)
     case (analysis_load_capacity)
-      value = dot_product(point%load, self%direction)
+      value = dot_product(point%load(:2), self%direction)
     case (analysis_lift_off)
       value = point%speed
     case default
-      value = point%tilt(self%axis)
+      value = point%place(3 + self%axis)
     end select
   end function value_at
 
@@ -114,11 +114,11 @@ contains
     changed = point
     select case (self%question)
     case (analysis_load_capacity)
-      changed%load = value*self%direction
+      changed%load(:2) = value*self%direction
     case (analysis_lift_off)
       changed%speed = value
     case default
-      changed%tilt(self%axis) = value
+      changed%place(3 + self%axis) = value
     end select
   end function point_with
 
@@ -199,7 +199,7 @@ contains
     type(bearing_answer_type), intent(in) :: answer
     type(operating_point_type), intent(in) :: point !! with the load
     real(wp) :: part
-    part = norm2(answer%solid_force(:2))/norm2(point%load)
+    part = norm2(answer%solid_force(:2))/norm2(point%load(:2))
   end function contact_part
 
   !> The limit as a sentence without its end.

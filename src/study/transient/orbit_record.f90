@@ -50,7 +50,7 @@ contains
     self%turns(self%steps) = march%turns()
     self%motion(:2, self%steps) = march%place(:2, 1)
     if (size(self%motion, 1) > 2) then
-      self%motion(3:4, self%steps) = march%place(3:, 1)
+      self%motion(3:4, self%steps) = march%place(4:, 1)
       self%motion(5:, self%steps) = pack(march%way_in_bearings(march%place(:, 1)), .true.)
     end if
   end subroutine see_step

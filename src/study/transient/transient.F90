@@ -142,7 +142,7 @@ contains
                                   real([march%steps, newton%iterations, newton%factorizations], wp)]
     if (.not. self%tilts) return
     pads = size(bearing%pad)/2
-    self%values(planar + 1:, self%lines) = [march%place(3:, 1), march%velocity(3:, 1), answer%force(3:), march%outer_torque(), &
+    self%values(planar + 1:, self%lines) = [march%place(4:, 1), march%velocity(4:, 1), answer%force(4:), march%outer_torque(), &
                                             pack(march%way_in_bearings(march%place(:, 1)), .true.), &
                                             minval(answer%pad_gap(:pads)), minval(answer%pad_gap(pads + 1:))]
   end subroutine add_line
@@ -317,7 +317,7 @@ contains
     end if
     call begin_rubbing(bearing, goes_on)
     call begin_march(drive, settings, bearing, march)
-    if (scene%transient%orbit_radius > 0.0_wp) march%start%eccentricity = scene%operation%eccentricity
+    if (scene%transient%orbit_radius > 0.0_wp) march%start%place(:2) = scene%operation%eccentricity
   end subroutine begin_transient
 
   !> Moves the sleeve and its steady film from the centre of the circle to the circle, along x.
@@ -333,7 +333,7 @@ contains
 
     if (.not. scene%transient%orbit_radius > 0.0_wp) return
     first = bearing%point
-    first%eccentricity(1) = first%eccentricity(1) + scene%transient%orbit_radius
+    first%place(1) = first%place(1) + scene%transient%orbit_radius
     associate (solver => scene%solver)
       call follow_path(bearing, newton, first, 1.0_wp, &
                        path_settings_type(solver%maximum_load_steps, max(shortest, solver%smallest_load_step), solver%touch_down_gap), &

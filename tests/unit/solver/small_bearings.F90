@@ -53,7 +53,7 @@ contains
     call build_bearing(scene, bearing_plan_type(scene%mesh%circumferential_elements, scene%mesh%axial_elements, half, &
                                                 floats=.not. present(place)), bearing, error)
     if (allocated(error)) error stop 'a wrong mesh in a test'
-    if (present(place)) bearing%point%eccentricity = place
+    if (present(place)) bearing%point%place(:2) = place
     allocate (unknown(bearing%local_size()), source=0.0_wp)
     call bearing%put_pressure(spread(scene%gas%ambient_pressure, 1, bearing%film_nodes()), unknown)
     call bearing%set_unknowns(unknown)
