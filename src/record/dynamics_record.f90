@@ -8,7 +8,7 @@ module gfb_dynamics_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_text, only: exact_text
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private

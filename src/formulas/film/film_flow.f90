@@ -3,7 +3,7 @@ module gfb_film_flow
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: cell_peclet, upwind_weight, upwind_weight_derivative
+  public :: flow_here, cell_peclet, upwind_weight, upwind_weight_derivative
 
   !> The gas between the surfaces, and how its equation is weighted.
   type, public :: film_flow_type
@@ -16,6 +16,16 @@ module gfb_film_flow
   real(wp), parameter :: large_peclet = 20.0_wp !! above it coth is one to round-off
 
 contains
+
+  !> The flow where the surface is faster than where its speed is told.
+  elemental function flow_here(flow, stretch) result(here)
+    type(film_flow_type), intent(in) :: flow !! at the radius where arcs are measured
+    real(wp), intent(in) :: stretch !! see `gfb_film_surface` [1]
+    type(film_flow_type) :: here
+
+    here = flow
+    here%entraining_speed = stretch*flow%entraining_speed
+  end function flow_here
 
   !> Cell Peclet number, entrained over diffused flow.
   !>

@@ -1,6 +1,6 @@
 !> Geometry of a film element at its Gauss points.
 !>
-!> Coordinates: \( x \) along the shaft's motion, \( z \) along its axis. A bilinear element has
+!> Coordinates: \( x \) along the shaft's motion, \( z \) across it. A bilinear element has
 !> four nodes, counter-clockwise in the \( (x, z) \) plane. A biquadratic one has nine, three by
 !> three, those of one \( x \) after the other. Both have as many Gauss points as nodes, numbered
 !> as they are. Elements do not move, so this is computed once a run.
@@ -9,7 +9,7 @@ module gfb_film_geometry
   use gfb_errors, only: error_type, fail
   implicit none (type, external)
   private
-  public :: rigid_gap, gap_towards, film_geometry, film_shape, biquadratic_shape, film_shapes
+  public :: film_geometry, widen, film_shape, biquadratic_shape, film_shapes
 
   integer, parameter, public :: film_nodes = 4         !! nodes of a bilinear element
   integer, parameter, public :: film_points = 4        !! its Gauss points, 2 x 2
@@ -49,44 +49,10 @@ module gfb_film_geometry
     real(wp), allocatable :: gradient(:, :, :)  !! (2, nodes, points) of the shapes, (x, z) [1/m]
     real(wp), allocatable :: area(:)            !! weight times Jacobian determinant [m2]
     real(wp), allocatable :: stream_length(:)   !! distance of the nodes along x [m]
+    real(wp), allocatable :: stretch(:)         !! see `gfb_film_surface` [1]
   end type film_geometry_type
 
 contains
-
-  !> Gap at one point without foil deflection.
-  !>
-  !> $$ h_r = C + (e_x + z \phi_y) \cos\theta + (e_y - z \phi_x) \sin\theta $$
-  !>
-  !> Source: [Gu2020] eq. 12; see `gfb_shaft_motion`, which has its derivatives.
-  elemental function rigid_gap(angle, axial, clearance, eccentricity_x, eccentricity_y, &
-                               tilt_x, tilt_y) result(gap)
-    real(wp), intent(in) :: angle          !! theta [rad]
-    real(wp), intent(in) :: axial          !! z, zero at the midplane [m]
-    real(wp), intent(in) :: clearance      !! C [m]
-    real(wp), intent(in) :: eccentricity_x !! of the sleeve relative to the shaft [m]
-    real(wp), intent(in) :: eccentricity_y !! of the sleeve relative to the shaft [m]
-    real(wp), intent(in) :: tilt_x         !! of the sleeve relative to the shaft about x [rad]
-    real(wp), intent(in) :: tilt_y         !! of the sleeve relative to the shaft about y [rad]
-    real(wp) :: gap                        !! h_r [m]
-
-    gap = gap_towards(cos(angle), sin(angle), axial, clearance, eccentricity_x, eccentricity_y, &
-                      tilt_x, tilt_y)
-  end function rigid_gap
-
-  !> The same where cosine and sine of the angle are known.
-  elemental function gap_towards(cosine, sine, axial, clearance, eccentricity_x, eccentricity_y, &
-                                 tilt_x, tilt_y) result(gap)
-    real(wp), intent(in) :: cosine, sine   !! of theta [1]
-    real(wp), intent(in) :: axial          !! z, zero at the midplane [m]
-    real(wp), intent(in) :: clearance      !! C [m]
-    real(wp), intent(in) :: eccentricity_x !! of the sleeve relative to the shaft [m]
-    real(wp), intent(in) :: eccentricity_y !! of the sleeve relative to the shaft [m]
-    real(wp), intent(in) :: tilt_x         !! of the sleeve relative to the shaft about x [rad]
-    real(wp), intent(in) :: tilt_y         !! of the sleeve relative to the shaft about y [rad]
-    real(wp) :: gap                        !! h_r [m]
-
-    gap = clearance + (eccentricity_x + axial*tilt_y)*cosine + (eccentricity_y - axial*tilt_x)*sine
-  end function gap_towards
 
   !> Gradients, areas and lengths of one element.
   !>
@@ -102,6 +68,7 @@ contains
     associate (nodes => size(position, 2))
       allocate (geometry%gradient(2, nodes, nodes), geometry%area(nodes))
       allocate (geometry%stream_length(nodes))
+      allocate (geometry%stretch(nodes), source=1.0_wp)
       intervals = real(merge(1, line_nodes - 1, nodes == film_nodes), wp)
     end associate
     do point = 1, size(geometry%area)
@@ -119,6 +86,21 @@ contains
       geometry%stream_length(point) = 2.0_wp/(abs(inverse(1, 1)) + abs(inverse(2, 1)))/intervals
     end do
   end subroutine film_geometry
+
+  !> Makes an element that was measured at one radius one of a surface whose radius changes: along x
+  !> it is longer, and its surface faster, by the stretch.
+  pure subroutine widen(stretch, geometry)
+    real(wp), intent(in) :: stretch(:) !! at the points, see `gfb_film_surface` [1]
+    type(film_geometry_type), intent(inout) :: geometry !! the element
+    integer :: point
+
+    do point = 1, size(stretch)
+      geometry%gradient(1, :, point) = geometry%gradient(1, :, point)/stretch(point)
+    end do
+    geometry%area = geometry%area*stretch
+    geometry%stream_length = geometry%stream_length*stretch
+    geometry%stretch = stretch
+  end subroutine widen
 
   !> Slopes of the shape functions on the parent square, and the weight of a Gauss point.
   pure subroutine parent_slopes(point, parent, weight)

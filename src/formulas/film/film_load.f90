@@ -2,8 +2,8 @@
 module gfb_film_load
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
-  use gfb_film_flow, only: film_flow_type
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_film_surface, only: shaft_coordinates
   implicit none (type, external)
   private
   public :: film_force_weights, film_force, film_friction, film_friction_rates
@@ -60,10 +60,11 @@ contains
   !> Drag of the film on the shaft's surface, Couette and pressure parts.
   !>
   !> $$ D = \int \Bigl( \frac{2 \mu U}{h} + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr)
-  !> d\Omega $$
+  !> \frac{r}{R} \, d\Omega $$
   !>
   !> It is the shear at \( y = h \) of the velocity between a resting surface and one that moves
-  !> with \( 2 U \); positive against the motion.
+  !> with \( 2 U \); positive against the motion. D R is the torque, so what acts at another radius
+  !> than R counts by its stretch r/R.
   pure function film_friction(geometry, flow, pressure, gap, excess) result(drag)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow         !! of the gas
@@ -71,6 +72,7 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
     real(wp) :: drag                    !! [N]
+    type(film_flow_type) :: here
     real(wp) :: h, shapes(size(gap), size(gap))
     integer :: point
 
@@ -79,9 +81,10 @@ contains
     ! Less one node's pressure, so that an even pressure has no gradient to the last digit.
     do point = 1, size(geometry%area)
       h = dot_product(shapes(:, point), gap) + excess(point)
-      drag = drag + geometry%area(point)*(2.0_wp*flow%viscosity*flow%entraining_speed/h &
-                                          + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), &
-                                                                 pressure - pressure(1)))
+      here = flow_here(flow, geometry%stretch(point))
+      drag = drag + geometry%area(point)*geometry%stretch(point)* &
+             (2.0_wp*here%viscosity*here%entraining_speed/h &
+              + 0.5_wp*h*dot_product(geometry%gradient(1, :, point), pressure - pressure(1)))
     end do
   end function film_friction
 
@@ -93,6 +96,7 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
     real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
+    type(film_flow_type) :: here
     real(wp) :: h, shapes(size(gap), size(gap))
     integer :: point
 
@@ -101,11 +105,12 @@ contains
     by_gap = 0.0_wp
     do point = 1, size(geometry%area)
       associate (shape => shapes(:, point), along => geometry%gradient(1, :, point), &
-                 area => geometry%area(point))
+                 area => geometry%area(point)*geometry%stretch(point))
+        here = flow_here(flow, geometry%stretch(point))
         h = dot_product(shape, gap) + excess(point)
         by_pressure = by_pressure + 0.5_wp*area*h*along
         by_gap = by_gap + area*(0.5_wp*dot_product(along, pressure - pressure(1)) &
-                                - 2.0_wp*flow%viscosity*flow%entraining_speed/h**2)*shape
+                                - 2.0_wp*here%viscosity*here%entraining_speed/h**2)*shape
       end associate
     end do
   end subroutine film_friction_rates

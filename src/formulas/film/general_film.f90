@@ -9,7 +9,8 @@ module gfb_general_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
-  use gfb_film_flow, only: film_flow_type, cell_peclet, upwind_weight, upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here, cell_peclet, upwind_weight, &
+                           upwind_weight_derivative
   implicit none (type, external)
   private
   public :: film_flow_type, general_residual, general_jacobian, general_peclet, peclet_slopes, &
@@ -59,6 +60,7 @@ contains
     real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
     real(wp), intent(out) :: residual(:) !! one a node [Pa m3/s]
     real(wp) :: shapes(size(gap), size(gap)), flux_x, flux_z
+    type(film_flow_type) :: local
     type(point_type) :: here
     type(jet_type) :: peclet
     integer :: i
@@ -67,12 +69,13 @@ contains
     residual = 0.0_wp
     do i = 1, size(gap)
       associate (gradient => geometry%gradient(:, :, i), length => geometry%stream_length(i))
-        here = state_at(shapes(:, i), gradient, law, flow, pressure, gap, excess(i))
-        flux_x = here%along%f*here%p_x - here%gas%r*here%h*flow%entraining_speed
+        local = flow_here(flow, geometry%stretch(i))
+        here = state_at(shapes(:, i), gradient, law, local, pressure, gap, excess(i))
+        flux_x = here%along%f*here%p_x - here%gas%r*here%h*local%entraining_speed
         flux_z = here%across%f*here%p_z
         if (flow%upwind) then
-          peclet = peclet_jet(here, flow, length)
-          flux_x = flux_x + 0.5_wp*length*upwind_weight(peclet%f)*strong_residual(here, flow)
+          peclet = peclet_jet(here, local, length)
+          flux_x = flux_x + 0.5_wp*length*upwind_weight(peclet%f)*strong_residual(here, local)
         end if
         residual = residual + geometry%area(i)*(flux_x*gradient(1, :) + flux_z*gradient(2, :))
       end associate
@@ -93,6 +96,7 @@ contains
     real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
     real(wp) :: shapes(size(gap), size(gap)), x_by_h, z_by_h
     real(wp), dimension(size(gap)) :: x_by_p, z_by_p, x_by_slope
+    type(film_flow_type) :: local
     type(point_type) :: here
     integer :: i, b
 
@@ -100,9 +104,10 @@ contains
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
     do i = 1, size(gap)
+      local = flow_here(flow, geometry%stretch(i))
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), &
-                 area => geometry%area(i), speed => flow%entraining_speed)
-        here = state_at(shape, gradient, law, flow, pressure, gap, excess(i))
+                 area => geometry%area(i), speed => local%entraining_speed)
+        here = state_at(shape, gradient, law, local, pressure, gap, excess(i))
         x_by_p = shape*(here%along%p*here%p_x - here%gas%r_p*here%h*speed) &
           + here%along%f*gradient(1, :)
         z_by_p = shape*here%across%p*here%p_z + here%across%f*gradient(2, :)
@@ -110,7 +115,7 @@ contains
         z_by_h = here%across%h*here%p_z
         x_by_slope = 0.0_wp
         if (flow%upwind) then
-          call add_upwind_derivatives(here, flow, geometry%stream_length(i), shape, gradient, &
+          call add_upwind_derivatives(here, local, geometry%stream_length(i), shape, gradient, &
                                       x_by_p, x_by_h, x_by_slope)
         end if
         by_excess(:, i) = area*(x_by_h*gradient(1, :) + z_by_h*gradient(2, :))
@@ -338,7 +343,7 @@ contains
   !> Drag of the film on the shaft's surface, Couette and pressure parts.
   !>
   !> $$ D = \int \Bigl( \frac{2 \mu U}{h + 2 \lambda} (1 + a Re^b)
-  !>      + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr) d\Omega $$
+  !>      + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr) \frac{r}{R} \, d\Omega $$
   !>
   !> The factor with the Reynolds number only with turbulence.
   pure function general_friction(geometry, flow, law, pressure, gap, excess) result(drag)
@@ -356,8 +361,9 @@ contains
     drag = 0.0_wp
     do i = 1, size(gap)
       h = dot_product(shapes(:, i), gap) + excess(i)
-      shear = couette_shear(flow, law, dot_product(shapes(:, i), pressure), h)
-      drag = drag + geometry%area(i)* &
+      shear = couette_shear(flow_here(flow, geometry%stretch(i)), law, &
+                            dot_product(shapes(:, i), pressure), h)
+      drag = drag + geometry%area(i)*geometry%stretch(i)* &
              (shear(1) + 0.5_wp*h*dot_product(geometry%gradient(1, :, i), pressure - pressure(1)))
     end do
   end function general_friction
@@ -380,9 +386,10 @@ contains
     by_gap = 0.0_wp
     do i = 1, size(gap)
       associate (shape => shapes(:, i), along => geometry%gradient(1, :, i), &
-                 area => geometry%area(i))
+                 area => geometry%area(i)*geometry%stretch(i))
         h = dot_product(shape, gap) + excess(i)
-        shear = couette_shear(flow, law, dot_product(shape, pressure), h)
+        shear = couette_shear(flow_here(flow, geometry%stretch(i)), law, &
+                              dot_product(shape, pressure), h)
         by_pressure = by_pressure + area*(shear(2)*shape + 0.5_wp*h*along)
         by_gap = by_gap + area*(shear(3) + 0.5_wp*dot_product(along, pressure - pressure(1)))*shape
       end associate

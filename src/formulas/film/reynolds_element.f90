@@ -7,7 +7,8 @@ module gfb_reynolds_element
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, biquadratic_shape, &
                                biquadratic_nodes
-  use gfb_film_flow, only: film_flow_type, cell_peclet, upwind_weight, upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here, cell_peclet, upwind_weight, &
+                           upwind_weight_derivative
   implicit none (type, external)
   private
   public :: reynolds_residual, reynolds_jacobian
@@ -42,27 +43,31 @@ contains
 
     if (size(residual) == film_nodes) then
       call sum_residual(film_nodes, film_shape, geometry%gradient, geometry%area, &
-                        geometry%stream_length, flow, pressure, gap, excess, source, residual)
+                        geometry%stream_length, geometry%stretch, flow, pressure, gap, excess, &
+                        source, residual)
     else
       call sum_residual(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
-                        geometry%stream_length, flow, pressure, gap, excess, source, residual)
+                        geometry%stream_length, geometry%stretch, flow, pressure, gap, excess, &
+                        source, residual)
     end if
   end subroutine reynolds_residual
 
   !> The residual's sum over the Gauss points, of which there are as many as nodes.
-  pure subroutine sum_residual(nodes, shapes, gradients, area, stream_length, flow, pressure, gap, &
-                               excess, source, residual)
+  pure subroutine sum_residual(nodes, shapes, gradients, area, stream_length, stretch, flow, &
+                               pressure, gap, excess, source, residual)
     integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
     real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
     real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
     real(wp), intent(in) :: area(nodes)                !! of the points [m2]
     real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    real(wp), intent(in) :: stretch(nodes)             !! see `gfb_film_surface` [1]
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
     real(wp), intent(in) :: excess(nodes)               !! at the points [m]
     real(wp), intent(in) :: source(nodes)               !! at the nodes [Pa m/s]
     real(wp), intent(out) :: residual(nodes)            !! [Pa m3/s]
 
+    type(film_flow_type) :: here
     type(film_state_type) :: state
     real(wp) :: mobility, flux_x, flux_z, fed
     integer :: point
@@ -73,12 +78,13 @@ contains
         state = film_state(shape, gradient, pressure, gap, excess(point))
         fed = dot_product(shape, source)
         mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
-        flux_x = mobility*state%p_x - state%p*state%h*flow%entraining_speed
+        flux_x = mobility*state%p_x - state%p*state%h*(stretch(point)*flow%entraining_speed)
         flux_z = mobility*state%p_z
         if (flow%upwind) then
+          here = flow_here(flow, stretch(point))
           flux_x = flux_x + 0.5_wp*stream_length(point)* &
-            upwind_weight(cell_peclet(flow, stream_length(point), state%p, state%h))* &
-            (strong_residual(flow, state) - fed)
+            upwind_weight(cell_peclet(here, stream_length(point), state%p, state%h))* &
+            (strong_residual(here, state) - fed)
         end if
         residual = residual + area(point)* &
           (flux_x*gradient(1, :) + flux_z*gradient(2, :) - fed*shape)
@@ -101,23 +107,24 @@ contains
 
     if (size(pressure) == film_nodes) then
       call sum_jacobian(film_nodes, film_shape, geometry%gradient, geometry%area, &
-                        geometry%stream_length, flow, pressure, gap, excess, source, by_pressure, &
-                        by_gap, by_excess)
+                        geometry%stream_length, geometry%stretch, flow, pressure, gap, excess, &
+                        source, by_pressure, by_gap, by_excess)
     else
       call sum_jacobian(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
-                        geometry%stream_length, flow, pressure, gap, excess, source, by_pressure, &
-                        by_gap, by_excess)
+                        geometry%stream_length, geometry%stretch, flow, pressure, gap, excess, &
+                        source, by_pressure, by_gap, by_excess)
     end if
   end subroutine reynolds_jacobian
 
   !> The derivatives' sums over the Gauss points, of which there are as many as nodes.
-  pure subroutine sum_jacobian(nodes, shapes, gradients, areas, stream_length, flow, pressure, &
-                               gap, excess, source, by_pressure, by_gap, by_excess)
+  pure subroutine sum_jacobian(nodes, shapes, gradients, areas, stream_length, stretch, flow, &
+                               pressure, gap, excess, source, by_pressure, by_gap, by_excess)
     integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
     real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
     real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
     real(wp), intent(in) :: areas(nodes)               !! of the points [m2]
     real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    real(wp), intent(in) :: stretch(nodes)             !! see `gfb_film_surface` [1]
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
     real(wp), intent(in) :: excess(nodes)               !! at the points [m]
@@ -133,10 +140,10 @@ contains
 
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
-    speed = flow%entraining_speed
     do point = 1, nodes
       associate (shape => shapes(:, point), gradient => gradients(:, :, point), &
                  area => areas(point))
+        speed = stretch(point)*flow%entraining_speed
         state = film_state(shape, gradient, pressure, gap, excess(point))
         mobility = state%p*state%h**3/(12.0_wp*flow%viscosity)
         x_by_p = shape*(mobility/state%p*state%p_x - state%h*speed) + mobility*gradient(1, :)
@@ -145,8 +152,9 @@ contains
         z_by_h = 3.0_wp*mobility/state%h*state%p_z
         x_by_slope = 0.0_wp
         if (flow%upwind) then
-          call add_upwind_derivatives(flow, stream_length(point), shape, gradient, state, &
-                                      dot_product(shape, source), x_by_p, x_by_h, x_by_slope)
+          call add_upwind_derivatives(flow_here(flow, stretch(point)), stream_length(point), shape, &
+                                      gradient, state, dot_product(shape, source), x_by_p, x_by_h, &
+                                      x_by_slope)
         end if
         by_excess(:, point) = area*(x_by_h*gradient(1, :) + z_by_h*gradient(2, :))
         do b = 1, nodes

@@ -20,7 +20,7 @@ module gfb_squeeze_term
                                biquadratic_shape, biquadratic_nodes
   use gfb_gas_law, only: gas_law_type, gas_density
   use gfb_general_film, only: general_peclet, peclet_slopes
-  use gfb_film_flow, only: film_flow_type, upwind_weight, upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
   public :: squeeze_weights, squeeze_content, squeeze_jacobian, stored_gas, storage_residual, &
@@ -45,7 +45,8 @@ contains
     if (.not. flow%upwind) return
     do point = 1, size(excess)
       associate (shape => shapes(:, point), length => geometry%stream_length(point))
-        peclet = general_peclet(law, flow, length, dot_product(shape, pressure), &
+        peclet = general_peclet(law, flow_here(flow, geometry%stretch(point)), length, &
+                                dot_product(shape, pressure), &
                                 dot_product(shape, gap) + excess(point))
         weight(:, point) = shape &
           + 0.5_wp*length*upwind_weight(peclet)*geometry%gradient(1, :, point)
@@ -143,23 +144,24 @@ contains
 
     if (size(pressure) == film_nodes) then
       call sum_storage(film_nodes, film_shape, geometry%gradient, geometry%area, &
-                       geometry%stream_length, flow, law, pressure, gap, excess, factor, past, &
-                       residual)
+                       geometry%stream_length, geometry%stretch, flow, law, pressure, gap, &
+                       excess, factor, past, residual)
     else
       call sum_storage(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
-                       geometry%stream_length, flow, law, pressure, gap, excess, factor, past, &
-                       residual)
+                       geometry%stream_length, geometry%stretch, flow, law, pressure, gap, &
+                       excess, factor, past, residual)
     end if
   end function storage_residual
 
   !> Its sum over the Gauss points, of which there are as many as nodes.
-  pure subroutine sum_storage(nodes, shapes, gradients, area, stream_length, flow, law, pressure, &
-                              gap, excess, factor, past, residual)
+  pure subroutine sum_storage(nodes, shapes, gradients, area, stream_length, stretch, flow, law, &
+                              pressure, gap, excess, factor, past, residual)
     integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
     real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
     real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
     real(wp), intent(in) :: area(nodes)                !! of the points [m2]
     real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    real(wp), intent(in) :: stretch(nodes)             !! see `gfb_film_surface` [1]
     type(film_flow_type), intent(in) :: flow
     type(gas_law_type), intent(in) :: law
     real(wp), intent(in) :: pressure(nodes), gap(nodes) !! at the nodes [Pa], [m]
@@ -179,7 +181,8 @@ contains
         gain = area(point)*(factor*r*h + past(point))
         residual = residual + gain*shape
         if (flow%upwind) then
-          lean = 0.5_wp*length*upwind_weight(general_peclet(law, flow, length, p, h))
+          lean = 0.5_wp*length*upwind_weight( &
+                 general_peclet(law, flow_here(flow, stretch(point)), length, p, h))
           residual = residual + gain*lean*gradients(1, :, point)
         end if
       end associate
@@ -217,7 +220,8 @@ contains
     rate = factor*stored_gas(law, pressure, gap, excess) + past
     do point = 1, size(gap)
       associate (shape => shapes(:, point), length => geometry%stream_length(point))
-        peclet = peclet_slopes(law, flow, length, dot_product(shape, pressure), &
+        peclet = peclet_slopes(law, flow_here(flow, geometry%stretch(point)), length, &
+                               dot_product(shape, pressure), &
                                dot_product(shape, gap) + excess(point))
         slope = 0.5_wp*length*upwind_weight_derivative(peclet(1))*geometry%area(point)*rate(point)
         turned = slope*geometry%gradient(1, :, point)

@@ -20,7 +20,7 @@ module gfb_bearing
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: translations
+  use gfb_film_surface, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type, block_type, create_blocks
@@ -186,7 +186,7 @@ contains
   pure function levers(self) result(lever)
     class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: lever(size(self%coordinate))
-    lever = merge(1.0_wp, abs(self%pad(1)%film%offset), self%coordinate <= translations)
+    lever = merge(1.0_wp, self%pad(1)%film%surface%tilt_arm(), self%coordinate <= translations)
   end function levers
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].

@@ -6,7 +6,7 @@ module gfb_bearing_answer
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
                                   measures_of, extremes, summed
   use gfb_film_load, only: film_forces
-  use gfb_film_measures, only: force_without_suction, film_drag, film_integral, film_peclet, &
+  use gfb_film_measures, only: force_without_suction, film_drag, film_moment, film_peclet, &
                                film_midplane_gap
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -97,7 +97,7 @@ contains
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
-    answer%friction_torque = total(size(total))*bearing%pad(1)%film%radius + answer%solid_torque
+    answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius + answer%solid_torque
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
     answer%minimum_gap_midplane = -largest(2)
@@ -152,7 +152,7 @@ contains
       associate (film => bearing%pad(i)%film, first => bearing%pad(i)%first_node + 1, &
                  last => bearing%pad(i)%last_node)
         sums(:film_forces, i) = film%force(film%ambient_pressure + pressure(first:last))
-        sums(film_forces + 1, i) = film_integral(film, pressure(first:last))
+        sums(film_forces + 1, i) = film_moment(film, pressure(first:last))
       end associate
     end do
     sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
@@ -165,7 +165,7 @@ contains
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.
       answer%solid_force = total(:film_forces)
-      answer%solid_torque = bearing%pad(1)%contact%friction*film%radius*total(film_forces + 1)
+      answer%solid_torque = bearing%pad(1)%contact%friction*film%surface%radius*total(film_forces + 1)
       answer%maximum_solid_pressure = largest(1)
     end associate
   end subroutine read_solid_contact

@@ -110,7 +110,7 @@ contains
     bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
-    call find_places(scene, film%offset, place)
+    call find_places(scene, film%surface%offset, place)
     call create_bearing_system(bearing, foil, floats, place)
     bearing%low_fill = scene%model%foil /= foil_shell
     call take_film_numbers(scene, bearing)
@@ -233,6 +233,6 @@ contains
         end if
       end if
     end associate
-    mesh%offset = 0.5_wp*plan%bearing_distance
+    mesh%surface%offset = 0.5_wp*plan%bearing_distance
   end function film_mesh_of
 end module gfb_bearing_builder

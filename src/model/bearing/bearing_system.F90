@@ -13,7 +13,7 @@ module gfb_bearing_system
   use gfb_solid_contact, only: solid_contact_type, contact_pressure_rate
   use gfb_foil_model, only: foil_model_type
   use gfb_film_load, only: acts_on, film_forces
-  use gfb_shaft_motion, only: journal_coordinates, translations
+  use gfb_film_surface, only: translations
   use gfb_matrix_rows, only: copy_row
   use gfb_blocks, only: blocks_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
@@ -202,8 +202,9 @@ contains
     if (present(place)) call place_pads(place, bearing%pad)
     bearing%floats = floats
     bearing%dense_rows = floats
-    bearing%coordinate = pack(journal_coordinates, floats .and. (journal_coordinates <= translations .or. &
-                                                                 abs(bearing%pad(1)%film%offset) > 0.0_wp))
+    associate (surface => bearing%pad(1)%film%surface, motions => bearing%pad(1)%film%surface%motions())
+      bearing%coordinate = pack(motions, floats .and. (motions <= translations .or. abs(surface%offset) > 0.0_wp))
+    end associate
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))

@@ -2,14 +2,14 @@
 module gfb_film_measures
   use gfb_kinds, only: wp
   use gfb_film_load, only: film_forces, film_force, film_friction, film_friction_rates
-  use gfb_shaft_motion, only: translations
-  use gfb_general_film, only: general_friction, general_friction_rates, film_flow_type, &
-                              general_peclet
+  use gfb_film_surface, only: translations
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_general_film, only: general_friction, general_friction_rates, general_peclet
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   implicit none (type, external)
   private
-  public :: force_without_suction, film_drag, film_drag_rates, film_integral, square_integrals, &
+  public :: force_without_suction, film_drag, film_drag_rates, film_moment, square_integrals, &
             film_peclet, film_midplane_gap
 
   integer, parameter :: corners = 4 !! of a cell
@@ -102,8 +102,9 @@ contains
     end do
   end subroutine film_drag_rates
 
-  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it.
-  pure function film_integral(film, value) result(integral)
+  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it, where what it does counts
+  !> by its radius: torque over the radius R of the surface.
+  pure function film_moment(film, value) result(integral)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the local film nodes, in any unit [SI]
     real(wp) :: integral
@@ -111,12 +112,11 @@ contains
 
     integral = 0.0_wp
     do element = 1, size(film%element_nodes, 2)
-      associate (here => value(film%element_nodes(:, element)))
-        integral = integral + film%copies*dot_product(matmul(here, film%shape), &
-                                                      film%geometry(element)%area)
+      associate (here => value(film%element_nodes(:, element)), geometry => film%geometry(element))
+        integral = integral + film%copies*dot_product(matmul(here, film%shape), geometry%area*geometry%stretch)
       end associate
     end do
-  end function film_integral
+  end function film_moment
 
   !> This rank's shares of the integral of a nodal field's square over the solved surface, and of
   !> its area [m2].
@@ -151,7 +151,7 @@ contains
       associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
         do i = 1, size(film%shape, 2)
-          peclet = max(peclet, abs(general_peclet(film%law, flow, geometry%stream_length(i), &
+          peclet = max(peclet, abs(general_peclet(film%law, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
                                                   dot_product(film%shape(:, i), pressure(nodes)), &
                                                   dot_product(film%shape(:, i), gap(nodes)))))
         end do

@@ -2,11 +2,10 @@
 module gfb_gas_film
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_film_geometry, only: film_geometry_type, film_geometry, film_shapes, most_film_nodes, &
-                               gap_towards
+  use gfb_film_geometry, only: film_geometry_type, film_geometry, widen, film_shapes, &
+                               most_film_nodes
   use gfb_bore_profile, only: bore_profile_type, bore_height
-  use gfb_shaft_motion, only: shaft_coordinates, translations, shaft_motion, point_motions, &
-                              motion_excess, entraining_speed
+  use gfb_film_surface, only: film_surface_type, shaft_coordinates, translations, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type
   use gfb_general_film, only: general_residual, general_jacobian
@@ -25,7 +24,7 @@ module gfb_gas_film
   type, public :: gas_film_type
     type(film_flow_type) :: flow          !! of a shaft at rest, see `flow_at`
     type(gas_law_type) :: law             !! of the gas
-    real(wp) :: radius = 0.0_wp           !! of the bearing [m]
+    type(film_surface_type) :: surface    !! that it lies on
     real(wp) :: clearance = 0.0_wp        !! C [m]
     real(wp) :: interference = 0.0_wp     !! of foil and shaft, less of the gap all around [m]
     real(wp) :: shift(2) = 0.0_wp         !! of the pad's centre, adds to the eccentricity [m]
@@ -33,17 +32,17 @@ module gfb_gas_film
     real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
     real(wp) :: width = 0.0_wp            !! that is meshed [m]
-    real(wp) :: offset = 0.0_wp           !! of its midplane from the rotor's centre [m]
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
     integer, allocatable :: cell_nodes(:, :)      !! (4, cells), local nodes
     real(wp), allocatable :: shape(:, :)          !! (nodes, points) shape functions [1]
     real(wp), allocatable :: angle(:)             !! theta of the nodes [rad]
-    real(wp), allocatable :: axial(:)             !! z of the nodes [m]
+    real(wp), allocatable :: axial(:)             !! s of the nodes, z on a cylinder [m]
+    real(wp), allocatable :: direction(:, :)      !! (2, nodes) cosine and sine of theta [1]
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (5, nodes) this rank's share [m2], [m3]
     real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, odd in z [m3]
-    real(wp), allocatable :: motion(:, :)         !! (5, nodes) see `shaft_motion` [1], [m]
+    real(wp), allocatable :: motion(:, :)         !! (5, nodes) b, see `gfb_film_surface` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (5, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (5, points, elements) of them over the nodes'
     real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
@@ -83,20 +82,20 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     integer :: i, station, row
 
-    film%radius = whole%radius
+    film%surface = whole%surface
     film%clearance = clearance
     film%ambient_pressure = ambient_pressure
     film%flow%viscosity = viscosity
     film%flow%upwind = upwind
     film%copies = merge(2.0_wp, 1.0_wp, whole%half)
-    film%cell(1) = whole%radius*abs(whole%station_angle(2) - whole%station_angle(1))
+    film%cell(1) = whole%surface%radius*abs(whole%station_angle(2) - whole%station_angle(1))
     film%cell(2) = whole%row_axial(2) - whole%row_axial(1)
     film%width = whole%row_axial(whole%rows()) - whole%row_axial(1)
-    film%offset = whole%offset
     film%cell_nodes = cell_nodes
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
     allocate (film%angle(size(mesh_node)), film%axial(size(mesh_node)))
+    allocate (film%direction(2, size(mesh_node)))
     allocate (film%fixed(size(mesh_node)), film%motion(shaft_coordinates, size(mesh_node)))
     do i = 1, size(mesh_node)
       station = (mesh_node(i) - 1)/whole%rows() + 1
@@ -104,7 +103,8 @@ contains
       film%angle(i) = whole%station_angle(station)
       film%axial(i) = whole%row_axial(row)
       film%fixed(i) = whole%is_edge(station, row)
-      film%motion(:, i) = shaft_motion(film%angle(i), film%axial(i) + film%offset)
+      film%direction(:, i) = [cos(film%angle(i)), sin(film%angle(i))]
+      film%motion(:, i) = film%surface%motion(film%angle(i), film%axial(i))
     end do
     call measure_elements(film, error)
   end subroutine create_gas_film
@@ -130,12 +130,14 @@ contains
         angle = film%angle(nodes)
         ! The element that closes a ring reaches beyond the last station.
         where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
-        position(1, :) = film%radius*angle
+        position(1, :) = film%surface%radius*angle
         position(2, :) = film%axial(nodes)
         call film_geometry(position, film%geometry(element), error)
         if (allocated(error)) return
-        motion = point_motions(angle, film%axial(nodes) + film%offset)
-        film%motion_excess(:, :, element) = motion_excess(angle, film%axial(nodes) + film%offset)
+        call widen(film%surface%stretch(matmul(film%axial(nodes), film%shape)), &
+                   film%geometry(element))
+        motion = film%surface%point_motions(angle, film%axial(nodes))
+        film%motion_excess(:, :, element) = film%surface%motion_excess(angle, film%axial(nodes))
         call film_force_weights(film%geometry(element), motion, weight)
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
@@ -172,7 +174,7 @@ contains
     type(film_flow_type) :: flow
 
     flow = self%flow
-    flow%entraining_speed = entraining_speed(point%speed, self%radius)
+    flow%entraining_speed = entraining_speed(point%speed, self%surface%radius)
   end function flow_at
 
   !> Flow through a cell, that of the pressure and that of the motion: the size of an equation.
@@ -190,11 +192,11 @@ contains
     end associate
   end function cell_flow
 
-  !> Ambient pressure on the bearing's shadow: the size of a force [N].
+  !> Ambient pressure on the surface over a radian, a journal's shadow: the size of a force [N].
   pure function shadow(self) result(force)
     class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp) :: force
-    force = self%ambient_pressure*self%radius*self%copies*self%width
+    force = self%ambient_pressure*self%surface%radius*self%copies*self%width
   end function shadow
 
   !> Gap at the nodes: tilted shaft and deflected foil [m].
@@ -205,9 +207,10 @@ contains
     real(wp) :: gap(size(deflection)), eccentricity(2)
 
     eccentricity = point%place(:2) + self%shift
-    gap = deflection + gap_towards(self%motion(1, :), self%motion(2, :), self%axial + self%offset, &
-                                   self%clearance - self%interference, eccentricity(1), &
-                                   eccentricity(2), point%place(4), point%place(5))
+    gap = deflection + self%surface%gap(self%direction(1, :), self%direction(2, :), self%axial, &
+                                        self%clearance - self%interference, eccentricity(1), &
+                                        eccentricity(2), point%place(3), point%place(4), &
+                                        point%place(5))
     if (allocated(self%bore)) gap = gap - self%bore
   end function film_node_gap
 
@@ -223,7 +226,7 @@ contains
     do i = 1, size(self%shape, 2)
       associate (motion => self%motion_excess(:, i, element))
         excess(i) = dot_product(point%place(:2) + self%shift, motion(1:2)) &
-          + point%place(5)*motion(5) + point%place(4)*motion(4)
+          + point%place(5)*motion(5) + point%place(4)*motion(4) + point%place(3)*motion(3)
       end associate
     end do
     if (allocated(self%bore)) then
@@ -353,7 +356,7 @@ contains
     real(wp), intent(in) :: pressure(:)  !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)       !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
-    integer, intent(in) :: coordinate    !! of `shaft_motion`
+    integer, intent(in) :: coordinate    !! see `shaft_coordinates`
     real(wp), intent(inout) :: column(:) !! at the nodes [Pa m2/s], [Pa m3/s]
     real(wp), dimension(size(self%shape, 1), size(self%shape, 1)) :: by_pressure, by_gap
     real(wp) :: by_shaft(size(self%shape, 1), 1)

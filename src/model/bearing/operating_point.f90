@@ -2,7 +2,7 @@
 module gfb_operating_point
   use gfb_kinds, only: wp, most_pads
   use gfb_archive, only: archive_type
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_film_surface, only: shaft_coordinates
   implicit none (type, external)
   private
   public :: point_between, visit_point

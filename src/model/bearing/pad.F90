@@ -339,7 +339,7 @@ contains
     pad%first_node = before%last_node
     pad%last_node = pad%first_node + nodes
     pad%whole%station_angle = first%whole%station_angle + place%turn
-    pad%whole%offset = place%offset
+    pad%whole%surface%offset = place%offset
     associate (film => first%film)
       call create_gas_film(pad%whole, pad%mesh%mesh_node, pad%mesh%element_nodes, film%clearance, film%ambient_pressure, &
                            film%flow%viscosity, film%flow%upwind, pad%film, error)

@@ -197,7 +197,7 @@ contains
       foil%pushed(:, i) = -foil%source(element_nodes(:, i))
       station = (mesh%mesh_node(element_nodes(:, i)) - 1)/film%rows() + 1
       row = modulo(mesh%mesh_node(element_nodes(:, i)) - 1, film%rows()) + 1
-      area = film%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
+      area = film%surface%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
              (maxval(film%row_axial(row)) - minval(film%row_axial(row)))
       foil%weight(:, :, i) = area*unit
     end do

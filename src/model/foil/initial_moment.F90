@@ -37,9 +37,9 @@ contains
     real(wp) :: along(size(film%station_angle)), across(size(film%row_axial))
     integer :: i, station, row
 
-    if (.not. abs(initial_curvature(top_foil, film%radius)) > 0.0_wp) return
+    if (.not. abs(initial_curvature(top_foil, film%surface%radius)) > 0.0_wp) return
     allocate (foil%initial_shape(foil%local_unknowns(), 2), source=0.0_wp)
-    along = tributary(film%radius*film%station_angle)
+    along = tributary(film%surface%radius*film%station_angle)
     across = tributary(film%row_axial)
     surface = foil%surfaces()
     associate (part => surface(top_surface)%part)
@@ -47,12 +47,12 @@ contains
         if (.not. part%owned(i)) cycle
         station = (part%mesh_node(i) - 1)/size(across) + 1
         row = part%mesh_node(i) - (station - 1)*size(across)
-        call add(1, radial, along(station)*across(row)/film%radius**2)
+        call add(1, radial, along(station)*across(row)/film%surface%radius**2)
         call add(1, about_axis, across(row)*at_end(station, size(along)))
         call add(2, about_tangent, -along(station)*at_end(row, size(across)))
       end do
     end associate
-    call set_initial_moment(top_foil, film%radius, foil)
+    call set_initial_moment(top_foil, film%surface%radius, foil)
 
   contains
 

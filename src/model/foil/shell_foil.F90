@@ -406,7 +406,7 @@ contains
 
     window = [1, 0]
     if (size(x) == 0) return
-    station = film%radius*(film%station_angle - film%station_angle(1))
+    station = film%surface%radius*(film%station_angle - film%station_angle(1))
     window(1) = max(1, count(station <= minval(x)) - 1)
     window(2) = min(size(station), max(2, count(station < maxval(x)) + 2))
     window(1) = min(window(1), window(2) - 1)

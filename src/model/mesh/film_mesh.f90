@@ -1,25 +1,25 @@
-!> The film's mesh: a rectangle of the unrolled pad, or a ring; rows of film and foils.
+!> The film's mesh: a rectangle of the unrolled pad, or all around; rows of film and foils.
 module gfb_film_mesh
   use gfb_kinds, only: wp
+  use gfb_film_surface, only: film_surface_type, cylinder
   implicit none (type, external)
   private
   public :: axial_rows, uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
             find_film_place, find_interval
 
-  !> A film mesh by its stations along the shaft's motion and its rows along the axis.
+  !> A film mesh by its stations along the shaft's motion and its rows across it.
   !>
   !> Node (station i, row j), both from 1, is number (i - 1)*rows + j. Between neighbouring stations
   !> and rows lies a cell. A bilinear element is a cell; a biquadratic one is two by two of them, so
   !> there are twice as many cells in each direction as elements then.
   type, public :: film_mesh_type
-    real(wp) :: radius = 0.0_wp                !! of the bearing [m]
+    type(film_surface_type) :: surface         !! that it lies on
     logical :: periodic = .false.              !! the last station's neighbour is the first
     logical :: half = .false.                  !! z >= 0 only, the other half is its mirror
     logical :: opposite = .false.              !! what is solved changes its sign there
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
-    real(wp), allocatable :: row_axial(:)      !! z of the rows, 0 at the midplane [m]
-    real(wp) :: offset = 0.0_wp                !! of the midplane from the rotor's centre [m]
+    real(wp), allocatable :: row_axial(:)      !! s of the rows: z, 0 at the midplane, of a cylinder [m]
   contains
     procedure :: stations => film_stations
     procedure :: rows => film_rows
@@ -77,7 +77,7 @@ contains
     real(wp) :: finer
     integer :: i, around
 
-    mesh%radius = radius
+    mesh%surface = cylinder(radius)
     mesh%periodic = periodic
     mesh%half = half
     if (present(order)) mesh%order = order

@@ -214,7 +214,7 @@ contains
     integer, intent(in), optional :: window(2) !! first and last station; default: all
     type(quad_mesh_type) :: mesh
 
-    mesh = top_foil_mesh(film%radius*(film%station_angle - film%station_angle(1)), height, &
+    mesh = top_foil_mesh(film%surface%radius*(film%station_angle - film%station_angle(1)), height, &
                          film%row_axial, film%half, window)
   end function top_mesh
 

@@ -23,8 +23,8 @@ contains
     real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp), allocatable :: bound(:), weight(:)
 
-    bound = film%radius*(film%station_angle - film%station_angle(1))
-    if (film%periodic) bound = [bound, film%radius*turn]
+    bound = film%surface%radius*(film%station_angle - film%station_angle(1))
+    if (film%periodic) bound = [bound, film%surface%radius*turn]
     bound = bound(1::film%order)
     allocate (weight(size(bound) - 1))
     weight = real(film%order*film%rows()*merge(1 + node_unknowns, 1, shells), wp)

@@ -22,7 +22,7 @@ contains
 
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
     pads = size(bearing%pad)
-    if (abs(bearing%pad(1)%film%offset) > 0.0_wp) pads = pads/2
+    if (abs(bearing%pad(1)%film%surface%offset) > 0.0_wp) pads = pads/2
     call add_pads(bearing, output, 0, pads, 'film', grids)
     if (pads < size(bearing%pad)) call add_pads(bearing, output, pads, pads, 'film_2', grids)
   end subroutine add_film_grid
@@ -42,7 +42,7 @@ contains
 
     call bearing%get_unknowns(unknown)
     film%name = name
-    film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%offset, &
+    film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%surface%offset, &
                            this_rank(), rank_count())
     call add('theta', 'rad', 'angle around the bearing', [(bearing%pad(i)%film%angle, i=1, size(bearing%pad))])
     if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', bearing%film_pressure(unknown))
@@ -87,8 +87,8 @@ contains
     integer :: i
 
     associate (first => bearing%pad(1)%whole)
-      position = [(first%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, pads)]
-      if (first%periodic) position = [position, first%radius*turn]
+      position = [(first%surface%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, pads)]
+      if (first%periodic) position = [position, first%surface%radius*turn]
     end associate
   end function positions_along
 

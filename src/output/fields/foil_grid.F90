@@ -255,7 +255,7 @@ contains
         motion = pad%foil%motions(unknown(pad%first + 1:pad%last))
         do i = 1, size(surface)
           call create_foil_grid(surface(i), surface(i)%name//behind, grid)
-          grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%offset
+          grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%surface%offset
           call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
           call add_stress(surface(i), motion(i)%stress, grid)
           if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)

@@ -6,8 +6,8 @@ module gfb_answer_numbers
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
-  use gfb_shaft_motion, only: journal_motions, journal_coordinates
-  use gfb_film_measures, only: film_drag, film_drag_rates, film_integral
+  use gfb_film_surface, only: journal_motions, journal_coordinates
+  use gfb_film_measures, only: film_drag, film_drag_rates, film_moment
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -81,11 +81,11 @@ contains
     number(place_force:place_torque - 1) = force(journal_coordinates)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
-        number(place_torque) = number(place_torque) + pad%film%radius* &
+        number(place_torque) = number(place_torque) + pad%film%surface%radius* &
           film_drag(pad%film, pressure(first:last), gap(first:last), here)
         if (.not. pad%contact%present) cycle
-        number(place_torque) = number(place_torque) + pad%film%radius*pad%contact%friction* &
-          film_integral(pad%film, solid(first:last))
+        number(place_torque) = number(place_torque) + pad%film%surface%radius*pad%contact%friction* &
+          film_moment(pad%film, solid(first:last))
       end associate
     end do
     if (nodes%node(1) > 0) number(place_extremes) = gap(nodes%node(1))
@@ -156,10 +156,10 @@ contains
     associate (film => pad%film, pressure => unknown(pad%first + 1:pad%first + size(gap)))
       call film_drag_rates(film, pressure, gap, bearing%position(unknown), by_pressure, by_node)
       associate (mine => gradient(pad%first + 1:pad%first + size(gap), place_torque))
-        mine = mine + film%radius*by_pressure
+        mine = mine + film%surface%radius*by_pressure
       end associate
       area = nodal_areas(pad)
-      by_gap(:, place_torque) = film%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
+      by_gap(:, place_torque) = film%surface%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
       if (.not. bearing%floats) return
       step = part*film%clearance
       do k = 1, 2
@@ -168,14 +168,14 @@ contains
         ahead%place(k) = ahead%place(k) + step
         behind%place(k) = behind%place(k) - step
         associate (by_shaft => gradient(bearing%first_shaft + k, place_torque))
-          by_shaft = by_shaft + film%radius*(film_drag(film, pressure, gap, ahead) &
+          by_shaft = by_shaft + film%surface%radius*(film_drag(film, pressure, gap, ahead) &
                                              - film_drag(film, pressure, gap, behind))/(2.0_wp*step)
         end associate
       end do
     end associate
   end subroutine add_drag
 
-  !> Weights of a field's nodal values in its integral, this rank's share [m2].
+  !> Weights of a field's nodal values in `film_moment`, this rank's share [m2].
   pure function nodal_areas(pad) result(area)
     type(pad_type), intent(in) :: pad
     real(wp) :: area(size(pad%film%angle))
@@ -183,8 +183,8 @@ contains
 
     area = 0.0_wp
     do element = 1, size(pad%film%element_nodes, 2)
-      associate (nodes => pad%film%element_nodes(:, element))
-        area(nodes) = area(nodes) + pad%film%copies*matmul(pad%film%shape, pad%film%geometry(element)%area)
+      associate (nodes => pad%film%element_nodes(:, element), geometry => pad%film%geometry(element))
+        area(nodes) = area(nodes) + pad%film%copies*matmul(pad%film%shape, geometry%area*geometry%stretch)
       end associate
     end do
   end function nodal_areas

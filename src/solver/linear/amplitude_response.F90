@@ -9,7 +9,7 @@ module gfb_amplitude_response
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_contacts_in_motion, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction

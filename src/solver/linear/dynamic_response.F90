@@ -23,7 +23,7 @@ module gfb_dynamic_response
   use gfb_kinds, only: wp
   use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_shaft_motion, only: journal_motions, journal_coordinates
+  use gfb_film_surface, only: journal_motions, journal_coordinates
   use gfb_pad, only: pad_type
   use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities

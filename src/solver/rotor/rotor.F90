@@ -13,7 +13,7 @@
 !> other's torque (gyroscopic), \( G = I_p/2 \, [0, 1; -1, 0] \).
 module gfb_rotor
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   implicit none (type, external)
   private
   public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, determinant, inverse, whirl_sense

@@ -40,7 +40,7 @@
 !> product has none, so its zeros can be counted, and found from starts nearby.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: log_determinant
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure

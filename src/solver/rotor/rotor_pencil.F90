@@ -30,7 +30,7 @@ module gfb_rotor_pencil
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: complex_factors_type, solve_complex, keep_entries
   use gfb_petsc_kinds, only: pint
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
   implicit none (type)

@@ -9,7 +9,7 @@
 !> without any mass): the critical mass is zero.
 module gfb_whirl
   use gfb_kinds, only: wp
-  use gfb_shaft_motion, only: journal_motions
+  use gfb_film_surface, only: journal_motions
   use gfb_root_bracket, only: root_bracket_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients

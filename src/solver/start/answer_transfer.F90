@@ -137,8 +137,8 @@ contains
     station = (wanted - 1)/surface%mesh%rows + 1
     row = modulo(wanted - 1, surface%mesh%rows) + 1
     if (number == top_surface) then
-      along = find_places(small%whole%radius*small%whole%station_angle, &
-                          bearing%whole%radius*bearing%whole%station_angle(station), .false.)
+      along = find_places(small%whole%surface%radius*small%whole%station_angle, &
+                          bearing%whole%surface%radius*bearing%whole%station_angle(station), .false.)
     else
       along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
     end if

@@ -8,7 +8,7 @@ module gfb_march_state
   use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_shaft_motion, only: shaft_coordinates
+  use gfb_film_surface, only: shaft_coordinates
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_spring_history, only: spring_history_type
   implicit none (type)

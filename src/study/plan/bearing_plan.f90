@@ -19,7 +19,7 @@ module gfb_bearing_plan
   use gfb_scene_rules, only: is_symmetric
   use gfb_shell_geometry, only: node_unknowns
   use gfb_general_film, only: film_flow_type, general_peclet
-  use gfb_shaft_motion, only: entraining_speed
+  use gfb_film_surface, only: entraining_speed
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
