@@ -4,8 +4,8 @@
 !> A foil has unknowns of its own, or none. Its deflection at each film node follows from one
 !> unknown of the bearing: \( h_f = r (x - x_0) \). It adds its equations to those of the film.
 !>
-!> What depends on the model is deferred, so that the compiler names what a new model lacks; one
-!> without unknowns, surfaces or contacts answers with nothing. Contacts are the same in every model.
+!> By itself it is the foil that does not move: it has no unknowns, equations or surfaces. A model that has some
+!> replaces what is said of them; a new one reads the list of procedures. Contacts are the same in every model.
 module gfb_foil_model
   use petscmat
   use gfb_kinds, only: wp
@@ -20,8 +20,8 @@ module gfb_foil_model
   implicit none (type)
   private
 
-  !> A foil model: deflection at the film nodes, equations, their derivatives.
-  type, abstract, public :: foil_model_type
+  !> A foil model: deflection at the film nodes, equations, their derivatives. A rigid one.
+  type, public :: foil_model_type
     integer :: owned = 0      !! unknowns of the foil this rank owns
     integer :: first = 0      !! local unknowns of the bearing before the foil's first
     integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
@@ -39,20 +39,20 @@ module gfb_foil_model
     type(contact_set_type) :: contacts         !! this rank's; their unknowns are the local foil unknowns
     real(wp) :: first_hardness = 1.0_wp        !! factor of their stiffness that a first answer begins with
   contains
-    procedure(add_residual), deferred :: add_residual
-    procedure(add_jacobian), deferred :: add_jacobian
-    procedure(add_constant), deferred :: add_constant
-    procedure(add_load_rates), deferred :: add_load_rates
-    procedure(estimate), deferred :: estimate
-    procedure(is_meshed), deferred :: is_meshed
-    procedure(add_mass), deferred :: add_mass
-    procedure(natural_numbers), deferred :: natural_numbers
-    procedure(surfaces), deferred :: surfaces
-    procedure(own_unknown), deferred :: own_unknown
-    procedure(motions), deferred :: motions
-    procedure(nodal_contacts), deferred :: nodal_contacts
-    procedure(sizes), deferred :: sizes
-    procedure(destroy), deferred :: destroy
+    procedure :: add_residual
+    procedure :: add_jacobian
+    procedure :: add_constant
+    procedure :: add_load_rates
+    procedure :: estimate
+    procedure :: is_meshed
+    procedure :: add_mass
+    procedure :: natural_numbers
+    procedure :: surfaces
+    procedure :: own_unknown
+    procedure :: motions
+    procedure :: nodal_contacts
+    procedure :: sizes
+    procedure :: destroy
     procedure :: place
     procedure :: local_unknowns
     procedure :: own_part
@@ -73,124 +73,116 @@ module gfb_foil_model
     procedure :: add_penetration_rates
   end type foil_model_type
 
-  abstract interface
-    !> Adds the foil's equations to the local residual of the bearing.
-    subroutine add_residual(self, unknown, residual)
-      import :: foil_model_type, wp
-      class(foil_model_type), intent(in) :: self !! the foil
-      real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
-      real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
-    end subroutine add_residual
-
-    !> Adds the derivatives of the foil's equations to the bearing's matrix, by local numbers.
-    subroutine add_jacobian(self, unknown, jacobian)
-      import :: foil_model_type, wp, tMat
-      class(foil_model_type), intent(in) :: self !! the foil
-      real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
-    end subroutine add_jacobian
-
-    !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
-    !> what does.
-    subroutine add_constant(self, jacobian)
-      import :: foil_model_type, tMat
-      class(foil_model_type), intent(in) :: self !! the foil
-      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
-    end subroutine add_constant
-
-    !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
-    !> node that depends on some unknowns of the bearing.
-    subroutine add_load_rates(self, column, slope, jacobian)
-      import :: foil_model_type, wp, tMat
-      class(foil_model_type), intent(in) :: self !! the foil
-      integer, intent(in) :: column(:, :) !! (3 or 5, film nodes) local numbers from 0; negative: none
-      real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
-      Mat, intent(in) :: jacobian !! of the bearing, by local numbers
-    end subroutine add_load_rates
-
-    !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
-    subroutine estimate(self, unknown)
-      import :: foil_model_type, wp
-      class(foil_model_type), intent(in) :: self !! the foil
-      real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
-    end subroutine estimate
-
-    !> Whether top foil and bumps have meshes of their own: the matrix `elastic`, spread over all
-    !> ranks, equations that are forces, and edges that can lift.
-    pure function is_meshed(self) result(meshed)
-      import :: foil_model_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      logical :: meshed
-    end function is_meshed
-
-    !> Adds the consistent mass of all that is not condensed, in the foil's own numbers, and lists the
-    !> condensed pieces of this rank. The scene gives densities.
-    !>
-    !> Fails where an element is degenerate.
-    subroutine add_mass(self, mass, piece, error)
-      import :: foil_model_type, condensed_piece_type, error_type, tMat
-      class(foil_model_type), intent(in) :: self !! the foil
-      Mat, intent(in) :: mass !! like `elastic`, not assembled yet [kg] between displacements
-      type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! one a kind
-      type(error_type), allocatable, intent(out) :: error !! why it failed
-    end subroutine add_mass
-
-    !> Natural numbers, from 1, of the foil's unknowns this rank owns, in the order of the vectors:
-    !> they do not depend on how many ranks there are. All ranks ask.
-    function natural_numbers(self) result(number)
-      import :: foil_model_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      integer, allocatable :: number(:)
-    end function natural_numbers
-
-    !> The surfaces that are meshed, this rank's part of each; none where nothing is.
-    function surfaces(self) result(list)
-      import :: foil_model_type, foil_surface_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      type(foil_surface_type), allocatable :: list(:)
-    end function surfaces
-
-    !> Local foil unknown of a degree of freedom at one of this rank's own nodes; 0: fixed, or
-    !> condensed.
-    pure function own_unknown(self, surface, component, node) result(number)
-      import :: foil_model_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      integer, intent(in) :: surface   !! which of `surfaces`
-      integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
-      integer, intent(in) :: node      !! of the surface's whole mesh
-      integer :: number
-    end function own_unknown
-
-    !> Displacements and stresses of each of `surfaces`. All ranks ask.
-    function motions(self, unknown) result(list)
-      import :: foil_model_type, surface_motion_type, wp
-      class(foil_model_type), intent(in) :: self !! the foil
-      real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
-      type(surface_motion_type), allocatable :: list(:)
-    end function motions
-
-    !> This rank's contacts, each of one node of the surface that has them.
-    function nodal_contacts(self) result(contacts)
-      import :: foil_model_type, contact_set_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      type(contact_set_type) :: contacts
-    end function nodal_contacts
-
-    !> Sizes that the summary shows.
-    function sizes(self) result(list)
-      import :: foil_model_type, quantity_type
-      class(foil_model_type), intent(in) :: self !! the foil
-      type(quantity_type), allocatable :: list(:)
-    end function sizes
-
-    !> Frees what PETSc holds; may be called twice.
-    subroutine destroy(self)
-      import :: foil_model_type
-      class(foil_model_type), intent(inout) :: self !! the foil
-    end subroutine destroy
-  end interface
-
 contains
+
+  !> Adds the foil's equations to the local residual of the bearing.
+  subroutine add_residual(self, unknown, residual)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:)     !! local unknowns of the bearing, in SI
+    real(wp), intent(inout) :: residual(:) !! of the bearing, one a local unknown [SI]
+  end subroutine add_residual
+
+  !> Adds the derivatives of the foil's equations to the bearing's matrix, by local numbers.
+  subroutine add_jacobian(self, unknown, jacobian)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
+  end subroutine add_jacobian
+
+  !> Adds what never changes in the foil's part of the matrix, beside `elastic`, and makes room for
+  !> what does.
+  subroutine add_constant(self, jacobian)
+    class(foil_model_type), intent(in) :: self !! the foil
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
+  end subroutine add_constant
+
+  !> Adds what the foil's equations gain where more than the film loads it: a pressure at each film
+  !> node that depends on some unknowns of the bearing.
+  subroutine add_load_rates(self, column, slope, jacobian)
+    class(foil_model_type), intent(in) :: self !! the foil
+    integer, intent(in) :: column(:, :) !! (3 or 5, film nodes) local numbers from 0; negative: none
+    real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
+    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
+  end subroutine add_load_rates
+
+  !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
+  subroutine estimate(self, unknown)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(inout) :: unknown(:) !! local unknowns of the bearing, in SI
+  end subroutine estimate
+
+  !> Whether top foil and bumps have meshes of their own: the matrix `elastic`, spread over all
+  !> ranks, equations that are forces, and edges that can lift.
+  pure function is_meshed(self) result(meshed)
+    class(foil_model_type), intent(in) :: self !! the foil
+    logical :: meshed
+    meshed = .false.
+  end function is_meshed
+
+  !> Adds the consistent mass of all that is not condensed, in the foil's own numbers, and lists the
+  !> condensed pieces of this rank. The scene gives densities.
+  !>
+  !> Fails where an element is degenerate.
+  subroutine add_mass(self, mass, piece, error)
+    class(foil_model_type), intent(in) :: self !! the foil
+    Mat, intent(in) :: mass !! like `elastic`, not assembled yet [kg] between displacements
+    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! one a kind
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    allocate (piece(0))
+  end subroutine add_mass
+
+  !> Natural numbers, from 1, of the foil's unknowns this rank owns, in the order of the vectors:
+  !> they do not depend on how many ranks there are. All ranks ask.
+  function natural_numbers(self) result(number)
+    class(foil_model_type), intent(in) :: self !! the foil
+    integer, allocatable :: number(:)
+    allocate (number(0))
+  end function natural_numbers
+
+  !> The surfaces that are meshed, this rank's part of each; none where nothing is.
+  function surfaces(self) result(list)
+    class(foil_model_type), intent(in) :: self !! the foil
+    type(foil_surface_type), allocatable :: list(:)
+    allocate (list(0))
+  end function surfaces
+
+  !> Local foil unknown of a degree of freedom at one of this rank's own nodes; 0: fixed, or
+  !> condensed.
+  pure function own_unknown(self, surface, component, node) result(number)
+    class(foil_model_type), intent(in) :: self !! the foil
+    integer, intent(in) :: surface   !! which of `surfaces`
+    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
+    integer, intent(in) :: node      !! of the surface's whole mesh
+    integer :: number
+    number = 0
+  end function own_unknown
+
+  !> Displacements and stresses of each of `surfaces`. All ranks ask.
+  function motions(self, unknown) result(list)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    type(surface_motion_type), allocatable :: list(:)
+    allocate (list(0))
+  end function motions
+
+  !> This rank's contacts, each of one node of the surface that has them.
+  function nodal_contacts(self) result(contacts)
+    class(foil_model_type), intent(in) :: self !! the foil
+    type(contact_set_type) :: contacts
+    contacts = self%contacts
+  end function nodal_contacts
+
+  !> Sizes that the summary shows.
+  function sizes(self) result(list)
+    class(foil_model_type), intent(in) :: self !! the foil
+    type(quantity_type), allocatable :: list(:)
+    allocate (list(0))
+  end function sizes
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy(self)
+    class(foil_model_type), intent(inout) :: self !! the foil
+  end subroutine destroy
 
   !> Tells the foil where its unknowns stand among those of the bearing.
   pure subroutine place(self, first)

@@ -13,11 +13,6 @@ module gfb_foundation_foil
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, foundation_pressure_axial_mean
   use gfb_curved_bump, only: walowit_anno_stiffness
-  use gfb_errors, only: error_type
-  use gfb_quantity, only: quantity_type
-  use gfb_contact_set, only: contact_set_type
-  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
-  use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_model, only: foil_model_type
   use gfb_film_mesh, only: film_mesh_type, row_weights
   use gfb_mesh_dm, only: local_mesh_type
@@ -42,16 +37,7 @@ module gfb_foundation_foil
     procedure :: add_springs => foundation_springs
     procedure :: put_damping => foundation_damping
     procedure :: estimate => foundation_estimate
-    procedure :: add_constant => foundation_constant
-    procedure :: is_meshed => foundation_is_meshed
-    procedure :: add_mass => foundation_mass
     procedure :: natural_numbers => foundation_natural_numbers
-    procedure :: surfaces => foundation_surfaces
-    procedure :: own_unknown => foundation_own_unknown
-    procedure :: motions => foundation_motions
-    procedure :: nodal_contacts => foundation_contacts
-    procedure :: sizes => foundation_sizes
-    procedure :: destroy => foundation_destroy
   end type foundation_foil_type
 
 contains
@@ -256,76 +242,10 @@ contains
     end do
   end subroutine foundation_estimate
 
-  !> Nothing of the matrix is constant and elastic.
-  subroutine foundation_constant(self, jacobian)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    Mat, intent(in) :: jacobian !! of the bearing, by local numbers
-  end subroutine foundation_constant
-
-  !> No mesh of its own.
-  pure function foundation_is_meshed(self) result(meshed)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    logical :: meshed
-    meshed = .false.
-  end function foundation_is_meshed
-
-  !> Springs without mass.
-  subroutine foundation_mass(self, mass, piece, error)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    Mat, intent(in) :: mass !! of the foil [kg]
-    type(condensed_piece_type), allocatable, intent(out) :: piece(:) !! none
-    type(error_type), allocatable, intent(out) :: error !! never
-    allocate (piece(0))
-  end subroutine foundation_mass
-
   !> The numbers of the stations whose equations this rank begins; none under local pressure.
   function foundation_natural_numbers(self) result(number)
     class(foundation_foil_type), intent(in) :: self !! the elastic foundation
     integer, allocatable :: number(:)
     number = self%global_unknown(self%owned_station)
   end function foundation_natural_numbers
-
-  !> No surfaces.
-  function foundation_surfaces(self) result(list)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    type(foil_surface_type), allocatable :: list(:)
-    allocate (list(0))
-  end function foundation_surfaces
-
-  !> No surface has an unknown.
-  pure function foundation_own_unknown(self, surface, component, node) result(number)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    integer, intent(in) :: surface !! which of `surfaces`
-    integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
-    integer, intent(in) :: node !! of the surface's whole mesh
-    integer :: number
-    number = 0
-  end function foundation_own_unknown
-
-  !> No surfaces, no motions.
-  function foundation_motions(self, unknown) result(list)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
-    type(surface_motion_type), allocatable :: list(:)
-    allocate (list(0))
-  end function foundation_motions
-
-  !> No contacts.
-  function foundation_contacts(self) result(contacts)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    type(contact_set_type) :: contacts
-    contacts = self%contacts
-  end function foundation_contacts
-
-  !> No sizes to show.
-  function foundation_sizes(self) result(list)
-    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
-    type(quantity_type), allocatable :: list(:)
-    allocate (list(0))
-  end function foundation_sizes
-
-  !> Nothing to free.
-  subroutine foundation_destroy(self)
-    class(foundation_foil_type), intent(inout) :: self !! the elastic foundation
-  end subroutine foundation_destroy
 end module gfb_foundation_foil

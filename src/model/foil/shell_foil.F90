@@ -12,7 +12,6 @@ module gfb_shell_foil
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_substructures, only: kind_count
-  use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry, element_section, assemble_piece, &
                                 retained_in_piece
@@ -52,7 +51,6 @@ module gfb_shell_foil
     procedure :: split_displacements => shell_displacements
     procedure :: stresses => stresses_of_shells
     procedure :: find_work => work_of_shells
-    procedure :: nodal_contacts => shell_contacts
     procedure :: sizes => shell_sizes
     procedure :: destroy => shell_destroy
   end type shell_foil_type
@@ -264,13 +262,6 @@ contains
     end associate
     same = same .and. all(abs(here%director - other%director) <= round_off) .and. all(abs(here%axis - other%axis) <= round_off)
   end function is_same
-
-  !> The contacts as they are: each is of one node of the bumps.
-  function shell_contacts(self) result(contacts)
-    class(shell_foil_type), intent(in) :: self !! the shell foil
-    type(contact_set_type) :: contacts
-    contacts = self%contacts
-  end function shell_contacts
 
   !> Unknowns of the bump foil, full and retained, and its super-elements.
   function shell_sizes(self) result(list)
