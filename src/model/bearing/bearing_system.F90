@@ -1,26 +1,17 @@
 #include "gfb_petsc.h"
-!> Pads and shaft as one set of equations.
-!>
-!> What the shaft's asperities add to the matrix: their pressure follows the gap.
-!>
-!> The asperities' pressure \( p_c(h) \) loads shaft and foil as the film's does, so their equations
-!> depend on what moves the foil, and on the shaft. The film's own equations do not know of it.
+!> Pads and shaft as one set of equations: the terms of each pad, the shaft's balance, momentum of the foils.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_gas_film, only: gas_film_type
-  use gfb_solid_contact, only: solid_contact_type, contact_pressure_rate
   use gfb_foil_model, only: foil_model_type
   use gfb_film_load, only: acts_on, film_forces
   use gfb_film_surface, only: translations
   use gfb_matrix_rows, only: copy_row
-  use gfb_blocks, only: blocks_type
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type, visit_point
-  use gfb_pad, only: free_edge_type, pad_type, pad_place_type, complete_pad, place_pads
-  use gfb_film_matrix, only: shaft_unknowns_type, make_film_room, add_film_rows, add_shaft_weights, add_shaft_stiffness, &
-                             add_block
+  use gfb_pad, only: pad_place_type, complete_pad, place_pads
+  use gfb_pad_terms, only: shaft_unknowns_type, pad_state_type, term_type, pad_terms, add_shaft_stiffness
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
@@ -32,11 +23,12 @@ module gfb_bearing_system
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   implicit none (type)
   private
-  public :: create_bearing_system, number_by, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
     type(foil_momentum_type) :: momentum !! inertia of the foils over a step of time, where they have a mass
+    type(term_type), allocatable, private :: term(:) !! of each pad's equations
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
     !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
     ISLocalToGlobalMapping, allocatable, private :: numbers(:)
@@ -48,6 +40,7 @@ module gfb_bearing_system
     procedure :: evaluate_at
     procedure :: linearise_at
     procedure :: is_open_at
+    procedure :: shaft_column
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
@@ -57,137 +50,6 @@ module gfb_bearing_system
   end type bearing_system_type
 
 contains
-
-  !> Adds their rows of shaft and foil; none where nothing touches.
-  subroutine add_solid_rows(contact, film, foil, shaft, fixed, gap, factor, matrix)
-    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    class(foil_model_type), intent(in) :: foil !! under the film
-    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
-    logical, intent(in) :: fixed     !! the shaft's equations are its position's
-    real(wp), intent(in) :: gap(:)  !! at this rank's nodes [m]
-    real(wp), intent(in) :: factor  !! of the derivatives; 0: makes room [1]
-    Mat, intent(in) :: matrix !! of the bearing, by local numbers
-
-    integer :: column(size(shaft%coordinate) + 1, size(gap)) ! local numbers, from 0: of the foil, of the shaft
-    real(wp) :: slope(size(shaft%coordinate) + 1, size(gap)), rate(size(gap))
-
-    if (.not. contact%present) return
-    rate = factor*contact_pressure_rate(contact, gap)
-    column(1, :) = foil%source - 1
-    slope(1, :) = rate*foil%rate
-    column(2:, :) = spread(int(shaft%numbers()), 2, size(gap))
-    slope(2:, :) = spread(rate, 1, size(shaft%coordinate))*film%motion(shaft%coordinate, :)
-    call add_to_shaft(film, shaft, fixed, column, slope, matrix)
-    call foil%add_load_rates(column, slope, matrix)
-  end subroutine add_solid_rows
-
-  !> The shaft's rows: weights of the pressures in the force, times their slopes; zeros keep the
-  !> pattern where the shaft is fixed.
-  subroutine add_to_shaft(film, shaft, fixed, column, slope, matrix)
-    type(gas_film_type), intent(in) :: film
-    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
-    logical, intent(in) :: fixed
-    integer, intent(in) :: column(:, :) !! (3 or 5, nodes) local numbers, from 0
-    real(wp), intent(in) :: slope(:, :) !! (3 or 5, nodes) of the pressure by them
-    Mat, intent(in) :: matrix
-
-    ! a row of the matrix in each column, as PETSc reads it
-    real(wp) :: block(size(column, 1), size(shaft%coordinate))
-    integer :: node, i
-
-    block = 0.0_wp
-    do node = 1, merge(size(column, 2), 0, size(shaft%coordinate) > 0)
-      do i = 1, merge(0, size(shaft%coordinate), fixed)
-        block(:, i) = acts_on(shaft%coordinate(i))*film%force_weight(shaft%coordinate(i), node)*slope(:, node)
-      end do
-      call add_block(matrix, shaft%numbers(), int(column(:, node), pint), block)
-    end do
-  end subroutine add_to_shaft
-
-  !> Fills in what never changes, with room for everything else.
-  subroutine fill_pad_constant(pad, blocks, foil_block, shaft, matrix)
-    type(pad_type), intent(in) :: pad !! film and foil
-    type(blocks_type), intent(in) :: blocks !! of unknowns
-    integer, intent(in) :: foil_block !! the foil's among them
-    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
-    Mat, intent(in) :: matrix !! of the bearing, by local numbers
-
-    PetscInt :: first, last, row, entries, number(maxval([0, pad%foil%row_entries]))
-    PetscInt, allocatable :: renumbered(:)
-    PetscScalar :: value(size(number))
-    PetscErrorCode :: ierr
-    integer, allocatable :: kept(:)
-    integer :: i
-
-    PetscCallA(MatGetOwnershipRange(pad%foil%elastic, first, last, ierr))
-    do row = first, last - 1
-      call copy_row(pad%foil%elastic, row, entries, number, value)
-      ! Membrane and bending of a condensed flat do not know each other either: exact zeros fill half of its block.
-      kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp .or. number(:entries) == row)
-      renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
-      PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
-    end do
-    call pad%foil%add_constant(matrix)
-    call make_film_room(pad%film, pad%foil, shaft, pad%mesh%owned, matrix)
-    call add_shaft_weights(pad%film, shaft, .false., 0.0_wp, matrix)
-    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, .true., &
-                        spread(pad%film%clearance, 1, size(pad%film%angle)), 0.0_wp, matrix)
-  end subroutine fill_pad_constant
-
-  !> Fills in the derivatives of film and foil, and of the pad's force.
-  subroutine fill_pad(pad, point, unknown, gap, shaft, fixed, events, matrix)
-    type(pad_type), intent(in) :: pad !! film and foil
-    type(operating_point_type), intent(in) :: point !! with the shaft's position
-    real(wp), intent(in) :: unknown(:) !! the pad's, in SI
-    real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
-    type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
-    logical, intent(in) :: fixed        !! the shaft is fixed
-    type(cost_events_type), intent(in) :: events !! of PETSc's log
-    Mat, intent(in) :: matrix !! of the bearing, by local numbers
-    PetscErrorCode :: ierr
-
-    PetscCallA(PetscLogEventBegin(events%film, ierr))
-    call add_film_rows(pad%film, pad%foil, shaft, pad%mesh%owned, unknown(:size(gap)), gap, point, matrix)
-    call add_shaft_weights(pad%film, shaft, fixed, 1.0_wp, matrix)
-    call add_solid_rows(pad%contact, pad%film, pad%foil, shaft, fixed, gap, 1.0_wp, matrix)
-    PetscCallA(PetscLogEventEnd(events%film, ierr))
-    PetscCallA(PetscLogEventBegin(events%foil, ierr))
-    call pad%foil%add_jacobian(unknown, matrix)
-    if (abs(point%edge_tension(pad%number)) > 0.0_wp) call add_tension(pad%edge, point%edge_tension(pad%number), matrix)
-    if (point%edge_hold(pad%number) > 0.0_wp) call add_hold(pad%edge, point%edge_hold(pad%number), matrix)
-    PetscCallA(PetscLogEventEnd(events%foil, ierr))
-  end subroutine fill_pad
-
-  !> Adds the stiffness of the string along the free edge.
-  subroutine add_tension(edge, tension, matrix)
-    type(free_edge_type), intent(in) :: edge
-    real(wp), intent(in) :: tension !! [N]
-    Mat, intent(in) :: matrix
-    integer :: pair, number(2)
-    real(wp) :: block(2, 2)
-    PetscErrorCode :: ierr
-
-    do pair = 1, edge%pairs()
-      call edge%tension_block(pair, tension, number, block)
-      PetscCallA(MatSetValuesLocal(matrix, 2_pint, int(number - 1, pint), 2_pint, int(number - 1, pint), [block], ADD_VALUES, ierr))
-    end do
-  end subroutine add_tension
-
-  !> Adds the stiffness of the springs that keep the free edge at a height.
-  subroutine add_hold(edge, stiffness, matrix)
-    type(free_edge_type), intent(in) :: edge
-    real(wp), intent(in) :: stiffness !! of the whole width [N/m]
-    Mat, intent(in) :: matrix
-    PetscInt :: number(1)
-    integer :: i
-    PetscErrorCode :: ierr
-
-    do i = 1, size(edge%unknown)
-      number = int(edge%unknown(i) - 1, pint)
-      PetscCallA(MatSetValuesLocal(matrix, 1_pint, number, 1_pint, number, [stiffness*edge%hold_stiffness(i)], ADD_VALUES, ierr))
-    end do
-  end subroutine add_hold
 
   !> Puts film, foil and shaft together; the foil moves into the system.
   subroutine create_bearing_system(bearing, foil, floats, place)
@@ -200,6 +62,7 @@ contains
     call register_cost_events(bearing%events)
     call complete_pad(foil, bearing%events, bearing%pad(1))
     if (present(place)) call place_pads(place, bearing%pad)
+    bearing%term = pad_terms()
     bearing%floats = floats
     bearing%dense_rows = floats
     associate (surface => bearing%pad(1)%film%surface, motions => bearing%pad(1)%film%surface%motions())
@@ -260,12 +123,17 @@ contains
   !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
   subroutine fill_constant(bearing)
     type(bearing_system_type), intent(inout) :: bearing
+    type(pad_state_type) :: state
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, k
 
     do i = 1, size(bearing%pad)
       call number_by(bearing, i, bearing%jacobian)
-      call fill_pad_constant(bearing%pad(i), bearing%blocks, 2*i, shaft_of(bearing, i), bearing%jacobian)
+      state%shaft = shaft_of(bearing, i)
+      call add_of_foil(bearing, bearing%pad(i)%foil%elastic, i, .true., bearing%jacobian)
+      do k = 1, size(bearing%term)
+        if (associated(bearing%term(k)%add_constant)) call bearing%term(k)%add_constant(bearing%pad(i), state, bearing%jacobian)
+      end do
     end do
     call number_by(bearing, 0, bearing%jacobian)
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
@@ -273,6 +141,48 @@ contains
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
   end subroutine fill_constant
+
+  !> Adds a matrix of a pad's foil, in its own numbers.
+  subroutine add_of_foil(bearing, of_foil, pad, keeps_diagonal, matrix)
+    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    Mat, intent(in) :: of_foil !! the same one for each pad
+    integer, intent(in) :: pad !! which
+    logical, intent(in) :: keeps_diagonal !! also where it is zero
+    Mat, intent(in) :: matrix !! like the bearing's
+    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(pad)%foil%row_entries]))
+    PetscInt, allocatable :: renumbered(:)
+    PetscScalar :: value(size(number))
+    PetscErrorCode :: ierr
+    integer, allocatable :: kept(:)
+    integer :: i
+
+    associate (blocks => bearing%blocks, foil_block => 2*pad)
+      PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
+      do row = first, last - 1
+        call copy_row(of_foil, row, entries, number, value)
+        ! Membrane and bending of a condensed flat do not know each other either: exact zeros fill half of its block.
+        kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp .or. (keeps_diagonal .and. number(:entries) == row))
+        renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
+        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
+      end do
+    end associate
+  end subroutine add_of_foil
+
+  !> A pad's part of a state.
+  pure function state_of(bearing, i, point, unknown, gap, fixed) result(state)
+    class(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: i !! of the pad
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    logical, intent(in) :: fixed       !! the shaft is fixed
+    type(pad_state_type) :: state
+
+    associate (pad => bearing%pad(i))
+      state = pad_state_type(point, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
+                             shaft_of(bearing, i), fixed)
+    end associate
+  end function state_of
 
   !> The shaft's unknowns among the numbers by which a pad fills the matrix, or among the bearing's.
   pure function shaft_of(bearing, i) result(shaft)
@@ -320,8 +230,9 @@ contains
 
     real(wp) :: unknown(self%local_size()), value(self%local_size()), gap(self%film_nodes())
     type(operating_point_type) :: here
+    type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, k
 
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%get_unknowns(unknown, state)
@@ -332,10 +243,13 @@ contains
     if (self%is_meshed()) valid = .not. any_rank(.not. valid) ! a foil's matrix is spread over the ranks
     if (valid) then
       do i = 1, size(self%pad)
-        associate (pad => self%pad(i))
-          call pad%add_residual(here, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
-                                self%events, value(pad%first + 1:pad%last))
-        end associate
+        of_pad = state_of(self, i, here, unknown, gap, self%shaft_fixed)
+        do k = 1, size(self%term)
+          if (.not. associated(self%term(k)%add_residual)) cycle
+          PetscCallA(PetscLogEventBegin(event_of(self, k), ierr))
+          call self%term(k)%add_residual(self%pad(i), of_pad, value(self%pad(i)%first + 1:self%pad(i)%last))
+          PetscCallA(PetscLogEventEnd(event_of(self, k), ierr))
+        end do
       end do
       if (self%floats) call add_shaft_residual(self, point, unknown, gap, value(self%first_shaft + 1:))
       value = value/self%equation_scale(point)
@@ -405,8 +319,9 @@ contains
     Vec, intent(in) :: state    !! scaled
 
     real(wp) :: unknown(self%local_size()), gap(self%film_nodes())
+    type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, k
 
     self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
@@ -419,10 +334,12 @@ contains
     end if
     do i = 1, size(self%pad)
       call number_by(self, i, self%jacobian)
-      associate (pad => self%pad(i))
-        call fill_pad(pad, self%position(unknown, point), unknown(pad%first + 1:pad%last), &
-                      gap(pad%first_node + 1:pad%last_node), shaft_of(self, i), fixed, self%events, self%jacobian)
-      end associate
+      of_pad = state_of(self, i, self%position(unknown, point), unknown, gap, fixed)
+      do k = 1, size(self%term)
+        PetscCallA(PetscLogEventBegin(event_of(self, k), ierr))
+        if (associated(self%term(k)%add_jacobian)) call self%term(k)%add_jacobian(self%pad(i), of_pad, self%jacobian)
+        PetscCallA(PetscLogEventEnd(event_of(self, k), ierr))
+      end do
     end do
     call number_by(self, 0, self%jacobian)
     if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
@@ -433,6 +350,40 @@ contains
     call self%momentum%add_stiffness(self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_at
+
+  !> Event of PETSc's log that a term belongs to.
+  pure function event_of(bearing, k) result(event)
+    class(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: k !! of the terms
+    PetscLogEvent :: event
+    event = merge(bearing%events%film, bearing%events%foil, bearing%term(k)%of_film)
+  end function event_of
+
+  !> Derivative of all equations by one of the shaft's coordinates at the present point and state, the unknowns staying.
+  !>
+  !> They are the right sides of a linear response: with \( f(x, q) = 0 \) the unknowns answer a motion of the shaft by
+  !> \( f_x x' = -f_q \), where the shaft is fixed in that coordinate.
+  subroutine shaft_column(self, coordinate, column)
+    class(bearing_system_type), intent(in) :: self !! the bearing's equations
+    integer, intent(in) :: coordinate !! see `shaft_coordinates`
+    Vec, intent(in) :: column         !! like the residual, scaled, by that unit
+    real(wp) :: unknown(self%local_size()), value(self%local_size()), gap(self%film_nodes())
+    type(pad_state_type) :: of_pad
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    call self%get_unknowns(unknown)
+    gap = self%gap(unknown)
+    value = 0.0_wp
+    do i = 1, size(self%pad)
+      of_pad = state_of(self, i, self%position(unknown), unknown, gap, self%shaft_fixed)
+      do k = 1, size(self%term)
+        if (associated(self%term(k)%add_column)) call self%term(k)%add_column(self%pad(i), of_pad, coordinate, value(self%pad(i)%first + 1:self%pad(i)%last), value(self%first_shaft + 1:))
+      end do
+    end do
+    PetscCallA(VecSet(column, 0.0_wp, ierr))
+    call self%exchange%add(value/self%equation_scale(self%point), column)
+  end subroutine shaft_column
 
   !> Moves the linearisation points of the foils' contacts to where the foils are now.
   subroutine settle_bearing(self, state, moved)

@@ -76,7 +76,6 @@ module gfb_pad
     procedure :: gap => pad_gap
     procedure :: loading
     procedure :: force => pad_force
-    procedure :: add_residual => pad_residual
     procedure :: unknown_scale
     procedure :: equation_scale
     procedure :: row_entries
@@ -396,35 +395,6 @@ contains
 
     force = self%film%force(self%loading(unknown, gap))
   end function pad_force
-
-  !> Adds the equations of film and foil; the film must be open.
-  subroutine pad_residual(self, point, unknown, gap, events, residual)
-    class(pad_type), intent(in) :: self !! the pad
-    type(operating_point_type), intent(in) :: point !! with the shaft's position
-    real(wp), intent(in) :: unknown(:)     !! the pad's, in SI
-    real(wp), intent(in) :: gap(:)         !! at this rank's nodes [m]
-    type(cost_events_type), intent(in) :: events !! of PETSc's log
-    real(wp), intent(inout) :: residual(:) !! the pad's, in SI
-    real(wp) :: loading(size(unknown)) ! the unknowns, with all pressure that loads the foil
-    PetscErrorCode :: ierr
-
-    associate (nodes => size(gap))
-      PetscCallA(PetscLogEventBegin(events%film, ierr))
-      call self%film%add_residual(unknown(:nodes), gap, point, residual)
-      where (self%film%fixed .and. self%mesh%owned)
-        residual(:nodes) = unknown(:nodes) - self%film%ambient_pressure
-      end where
-      PetscCallA(PetscLogEventEnd(events%film, ierr))
-      PetscCallA(PetscLogEventBegin(events%foil, ierr))
-      loading = unknown
-      loading(:nodes) = self%loading(unknown, gap)
-      call self%foil%add_residual(loading, residual)
-      call self%edge%add_pull(point%edge_pull(self%number), residual)
-      call self%edge%add_tension(point%edge_tension(self%number), unknown, residual)
-      call self%edge%add_hold(point%edge_hold(self%number), point%edge_height(self%number), unknown, residual)
-      PetscCallA(PetscLogEventEnd(events%foil, ierr))
-    end associate
-  end subroutine pad_residual
 
   !> Sizes of the unknowns, in SI.
   pure function unknown_scale(self) result(scale)

@@ -7,15 +7,13 @@
 module gfb_film_rates
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_petsc_kinds, only: pint
-  use gfb_matrix_rows, only: copy_row
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
   use gfb_squeeze_term, only: squeeze_weights, squeeze_jacobian
-  use gfb_film_matrix, only: shaft_unknowns_type, element_columns, add_block
+  use gfb_pad_terms, only: shaft_unknowns_type, element_columns, add_block
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type, number_by
+  use gfb_bearing_system, only: bearing_system_type, number_by, add_of_foil
   implicit none (type)
   private
   public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_from_foil, fill_friction, squeeze_column
@@ -193,7 +191,7 @@ contains
       associate (foil => bearing%pad(i)%foil)
         call number_by(bearing, i, matrix)
         call foil%add_springs(matrix)
-        if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, i, matrix)
+        if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, i, .false., matrix)
       end associate
     end do
     call finish(bearing, matrix)
@@ -209,34 +207,10 @@ contains
 
     PetscCallA(MatZeroEntries(matrix, ierr))
     do i = 1, size(bearing%pad)
-      call add_of_foil(bearing, of_foil, i, matrix)
+      call add_of_foil(bearing, of_foil, i, .false., matrix)
     end do
     call finish(bearing, matrix)
   end subroutine fill_from_foil
-
-  !> Adds a matrix of a pad's foil, in its own numbers.
-  subroutine add_of_foil(bearing, of_foil, pad, matrix)
-    type(bearing_system_type), intent(in) :: bearing
-    Mat, intent(in) :: of_foil, matrix
-    integer, intent(in) :: pad !! which
-    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(pad)%foil%row_entries]))
-    PetscInt, allocatable :: renumbered(:)
-    PetscScalar :: value(size(number))
-    PetscErrorCode :: ierr
-    integer, allocatable :: kept(:)
-    integer :: i
-
-    associate (blocks => bearing%blocks, foil_block => 2*pad)
-      PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
-      do row = first, last - 1
-        call copy_row(of_foil, row, entries, number, value)
-        ! The bearing's matrix has no room for exact zeros.
-        kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp)
-        renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
-        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
-      end do
-    end associate
-  end subroutine add_of_foil
 
   !> A stiffness of the contacts along their surface, and nothing else.
   subroutine fill_friction(bearing, stiffness, matrix)

@@ -25,7 +25,6 @@ module gfb_dynamic_response
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_surface, only: journal_motions, journal_coordinates
   use gfb_pad, only: pad_type
-  use gfb_shaft_columns, only: shaft_column
   use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
   use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
@@ -145,7 +144,7 @@ contains
     do k = 1, journal_motions
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
-      call shaft_column(bearing, journal_coordinates(k), response%steady_column(k))
+      call bearing%shaft_column(journal_coordinates(k), response%steady_column(k))
       call squeeze_column(bearing, journal_coordinates(k), response%squeeze_column(k))
     end do
     call measure_asperities(bearing, response%solid_rate)

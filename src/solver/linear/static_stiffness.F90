@@ -16,7 +16,6 @@ module gfb_static_stiffness
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_pad_contacts, only: set_lending
-  use gfb_shaft_columns, only: shaft_column
   use gfb_newton, only: newton_type, solve_with_factors
   use gfb_direct_solver, only: use_factors, make_factors
   use gfb_bearing_directions, only: edge_direction
@@ -54,7 +53,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, response, ierr))
     call make_factors(linear, bearing%jacobian, made, newton%enlargements)
     do axis = 1, merge(2, 0, made)
-      call shaft_column(bearing, tilts + axis, change)
+      call bearing%shaft_column(tilts + axis, change)
       PetscCallA(KSPSolve(linear, change, response, ierr))
       PetscCallA(KSPGetConvergedReason(linear, reason, ierr))
       if (GFB_REASON(reason) > 0) stiffness(:, axis) = -torque_of(bearing, axis, response)
