@@ -71,7 +71,7 @@ contains
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
     call add_quantity(row%quantity, answer_quantities( &
                       analysis_name(scene), converged, bearing_answer(bearing), &
-                      bearing%pad(1)%film%clearance, bearing%force_scale()))
+                      bearing%clearance, bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
     call add_counts(newton%iterations, newton%factorizations, row%quantity)

@@ -68,7 +68,7 @@ contains
     if (others .and. .not. archive%saves) call forget_numbers(record%series) ! the first rank has them
     points = 0
     if (allocated(record%history)) points = size(record%history)
-    if (points == 0 .or. .not. bearing%pad(1)%foil%has_contacts()) return
+    if (points == 0 .or. .not. bearing%has_contacts()) return
     call visit_contact_record(archive, pad_contacts(bearing), bearing%pad(1)%foil%contacts%rows, points, record%contacts)
   end subroutine visit_answer_and_record
 

@@ -32,7 +32,7 @@ contains
     integer, intent(in) :: point  !! number of this one
     integer, intent(in) :: points !! that there will be, as far as is known
     type(contact_record_type), intent(inout) :: record !! gets the point
-    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    if (.not. bearing%has_contacts()) return
     call record_contacts(pad_contacts(bearing), point, points, record)
   end subroutine record_foil_contacts
 

@@ -82,7 +82,7 @@ contains
     call angular_stiffness(bearing, newton, response%slope)
     force = bearing%reaction()
     response%held = bearing%shaft_fixed .or. .not. bearing%floats
-    response%rubs = bearing%pad(1)%foil%has_contacts()
+    response%rubs = bearing%has_contacts()
     response%tilt = tilt(response%axis)
     if (.not. response%measured) then
       response%first_slope = response%slope

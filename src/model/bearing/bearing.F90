@@ -35,6 +35,7 @@ module gfb_bearing
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
+    real(wp) :: clearance = 0.0_wp         !! C, by which lengths are measured [m]
     integer, allocatable :: coordinate(:)  !! of the shaft, those that are unknowns
     logical :: floats = .false.            !! there are some
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
@@ -56,6 +57,7 @@ module gfb_bearing
     procedure :: put_pressure
     procedure :: film_force
     procedure :: is_meshed
+    procedure :: has_contacts
     procedure :: gap => bearing_gap
     procedure :: solid_pressure
     procedure :: position => bearing_position
@@ -166,7 +168,7 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
-    bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%pad(1)%film%clearance/bearing%levers()
+    bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
   end subroutine scale_unknowns
 
   !> Sizes of the local equations at an operating point, in SI.
@@ -375,6 +377,13 @@ contains
       meshed = meshed .or. self%pad(i)%foil%is_meshed()
     end do
   end function is_meshed
+
+  !> Whether the foils have contacts, on whatever rank.
+  pure function has_contacts(self) result(has)
+    class(bearing_type), intent(in) :: self !! the bearing
+    logical :: has
+    has = self%pad(1)%foil%has_contacts()
+  end function has_contacts
 
   !> This rank's share of the pads' force on the sleeve and torque on the shaft [N], [N m].
   pure function local_force(self, unknown, gap) result(force)

@@ -150,6 +150,7 @@ contains
     type(pad_place_type), allocatable :: place(:)
     integer :: i
 
+    bearing%clearance = scene%bearing%clearance
     call find_places(scene, 0.0_wp, place)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))

@@ -105,7 +105,7 @@ contains
         end if
       end associate
     end do
-    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
+    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%clearance, direction)
   end subroutine edge_direction
 
   !> Which contacts open or close first on the path from the present state to another.
@@ -141,9 +141,9 @@ contains
     end do
     closes = any_rank(closes)
     total = sum_over_ranks([distance])
-    distance = total(1)/bearing%pad(1)%film%clearance
+    distance = total(1)/bearing%clearance
     PetscCallA(VecSet(direction, 0.0_wp, ierr))
-    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%pad(1)%film%clearance, direction)
+    call bearing%exchange%add(rate*bearing%unknown_scale/bearing%clearance, direction)
   end subroutine contact_direction
 
   !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is

@@ -62,6 +62,7 @@ contains
     call register_cost_events(bearing%events)
     call complete_pad(foil, bearing%events, bearing%pad(1))
     if (present(place)) call place_pads(place, bearing%pad)
+    bearing%clearance = bearing%pad(1)%film%clearance
     bearing%term = pad_terms()
     bearing%floats = floats
     bearing%dense_rows = floats
@@ -204,7 +205,7 @@ contains
 
     stiffness = -point%inertia(bearing%coordinate, bearing%coordinate)
     if (.not. fixed) return
-    own = bearing%force_scale(point)/bearing%pad(1)%film%clearance*bearing%levers()**2
+    own = bearing%force_scale(point)/bearing%clearance*bearing%levers()**2
     stiffness = 0.0_wp
     do i = 1, size(own)
       stiffness(i, i) = own(i)
@@ -454,7 +455,7 @@ contains
     PetscErrorCode :: ierr
 
     PetscCallA(VecCopy(state, self%state, ierr))
-    if (.not. self%pad(1)%foil%has_contacts()) return
+    if (.not. self%has_contacts()) return
     call self%get_unknowns(unknown)
     do i = 1, size(self%pad)
       call self%pad(i)%foil%settle_at(unknown(self%pad(i)%first + 1:self%pad(i)%last))

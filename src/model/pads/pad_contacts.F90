@@ -59,7 +59,7 @@ contains
     integer :: sleeve_lines, top_lines, i
 
     contacts = bearing%pad(1)%foil%nodal_contacts()
-    if (size(bearing%pad) == 1 .or. .not. bearing%pad(1)%foil%has_contacts()) return
+    if (size(bearing%pad) == 1 .or. .not. bearing%has_contacts()) return
     sleeve_lines = largest_number(pack(contacts%point%line, contacts%point%law == contact_sleeve))
     top_lines = largest_number(pack(contacts%point%line, contacts%point%law == contact_top))
     do i = 2, size(bearing%pad)

@@ -165,7 +165,7 @@ contains
       call solve_with_factors(newton, own, change)
       call edge_direction(bearing, edge, i)
       PetscCallA(VecDot(edge, change, lift, ierr))
-      lift = lift*bearing%pad(1)%film%clearance
+      lift = lift*bearing%clearance
       known(i) = abs(lift) > 0.0_wp
       if (known(i)) stiffness(i) = probe*bearing%force_scale()/lift
     end do

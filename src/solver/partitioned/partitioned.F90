@@ -245,7 +245,7 @@ contains
     PetscErrorCode :: ierr
 
     call complete(self, state)
-    clearance = self%bearing%pad(1)%film%clearance
+    clearance = self%bearing%clearance
     if (self%of_foil) self%bearing%pad(:)%film%clearance = room*clearance
     call self%bearing%evaluate(self%whole, self%whole_residual, valid)
     self%bearing%pad(:)%film%clearance = clearance
@@ -260,7 +260,7 @@ contains
     PetscErrorCode :: ierr
 
     call complete(self, state)
-    clearance = self%bearing%pad(1)%film%clearance
+    clearance = self%bearing%clearance
     if (self%of_foil) self%bearing%pad(:)%film%clearance = room*clearance
     call self%bearing%linearise(self%whole)
     self%bearing%pad(:)%film%clearance = clearance
@@ -441,7 +441,7 @@ contains
         reason = 'the foil under the fixed film in loop '//text(loop)//': '//solved%reason
         exit
       end if
-      size_of_change = largest(sides%asked)/bearing%pad(1)%film%clearance
+      size_of_change = largest(sides%asked)/bearing%clearance
       call show_loop(bearing, sides, loop, size_of_change)
       converged = size_of_change <= sides%foil_newton%settings%step_tolerance
       if (converged) then
@@ -534,7 +534,7 @@ contains
     displacement = sides%asked - deflection(bearing)
     call put_foil(sides, sides%kept)
     displacement = displacement + deflection(bearing)
-    stretch = longest_displacement*bearing%pad(1)%film%clearance/max(largest(displacement), tiny(1.0_wp))
+    stretch = longest_displacement*bearing%clearance/max(largest(displacement), tiny(1.0_wp))
     if (stretch < 1.0_wp) then
       PetscCallA(VecAXPBY(sides%kept, 1.0_wp - stretch, stretch, sides%kept_before, ierr))
     end if
@@ -558,7 +558,7 @@ contains
     real(wp), intent(in) :: change !! that the foil asks for, over the clearance [1]
     real(wp) :: position(2)
 
-    position = bearing%eccentricity()/bearing%pad(1)%film%clearance
+    position = bearing%eccentricity()/bearing%clearance
     call sides%log%detail('loop '//text(loop)//': change '//text(change, 3)//' C, e/C ('//text(position(1), 8)// &
                           ', '//text(position(2), 8)//')')
   end subroutine show_loop

@@ -115,7 +115,7 @@ contains
 
     ahead = 0.0_wp
     outcome = branch_lost
-    most = merge(most_moves, most_smooth_moves, bearing%pad(1)%foil%has_contacts())
+    most = merge(most_moves, most_smooth_moves, bearing%has_contacts())
     call create_bordered_system(bearing, target, path)
     call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
@@ -355,7 +355,7 @@ contains
     ! A film without contacts that closes or is emptied has told its end; beyond it there is only rounding.
     has_told = is_closing(self%bearing)
     if (.not. has_told) has_told = is_emptied(self%bearing, bearing_answer(self%bearing))
-    if (has_told .and. .not. self%bearing%pad(1)%foil%has_contacts()) return
+    if (has_told .and. .not. self%bearing%has_contacts()) return
     self%rescues = self%rescues + 1
     if (self%rescues > most_rescues) return
     call find_end(self, goes_on)
@@ -385,7 +385,7 @@ contains
       call path%accept(path%at)
       path%at = path%at + min(ahead, 1.0_wp - path%smallest)*left ! the target itself is still to be met
     end if
-    if (outcome == branch_lost .and. path%bearing%pad(1)%foil%has_contacts()) call leap(path, goes_on)
+    if (outcome == branch_lost .and. path%bearing%has_contacts()) call leap(path, goes_on)
   end subroutine find_end
 
   !> Where the branch is lost: takes an answer a little farther on that is near enough, with Newton's steps bent at contacts
@@ -460,7 +460,7 @@ contains
     if (is_closing(path%bearing) .and. .not. spent) then
       report%ending = path_closes(answer%minimum_gap, report%ending)
     else if (path%folds) then
-      report%ending = path_folds(trim(merge('top foil', 'shaft   ', path%bearing%pad(1)%foil%has_contacts())))
+      report%ending = path_folds(trim(merge('top foil', 'shaft   ', path%bearing%has_contacts())))
     else if (is_emptied(path%bearing, answer)) then
       report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)
     end if
@@ -470,7 +470,7 @@ contains
   function is_closing(bearing) result(closing)
     type(bearing_system_type), intent(in) :: bearing
     logical :: closing
-    closing = bearing%smallest_gap() < closing_gap*bearing%pad(1)%film%clearance
+    closing = bearing%smallest_gap() < closing_gap*bearing%clearance
     if (closing) closing = .not. bearing%pad(1)%contact%present
   end function is_closing
 

@@ -179,7 +179,7 @@ contains
     map%springs = 2*map%owned*size(map%remembered)
     map%local = 2*map%owned + map%slips + map%springs
     map%share = 1.0_wp/sqrt(real(all, wp))
-    map%length = bearing%pad(1)%film%clearance
+    map%length = bearing%clearance
     map%clock = map%drive%speed
   end subroutine create_map
 
@@ -416,7 +416,7 @@ contains
     logical :: rubs
 
     rubs = .false.
-    if (bearing%pad(1)%foil%has_contacts()) rubs = any(bearing%pad(1)%foil%contacts%law%friction > 0.0_wp)
+    if (bearing%has_contacts()) rubs = any(bearing%pad(1)%foil%contacts%law%friction > 0.0_wp)
   end function rubs
 
   !> Contacts of this rank.

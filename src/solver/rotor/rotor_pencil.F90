@@ -352,7 +352,7 @@ contains
     if (.not. found) return
     pencil%shift = shift
     pencil%scale%clock = shift
-    pencil%scale%length = bearing%pad(1)%film%clearance
+    pencil%scale%length = bearing%clearance
     if (kind /= cylindrical) pencil%scale%length = 2.0_wp*pencil%scale%length/rotor%bearing_distance
     pencil%motion = motion_of(rotor, kind)
     pencil%inertia = inertia_of(rotor, kind)

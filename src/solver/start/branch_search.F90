@@ -93,7 +93,7 @@ contains
     new%answer = bearing_answer(bearing)
     new%pulled_pad = self%pulled_pad
     self%branch = [self%branch, new]
-    associate (answer => new%answer, clearance => bearing%pad(1)%film%clearance)
+    associate (answer => new%answer, clearance => bearing%clearance)
       call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
                            text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
                            '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
@@ -195,7 +195,7 @@ contains
     integer :: pad
     logical :: there
 
-    associate (bearing => problem%bearing, clearance => problem%bearing%pad(1)%film%clearance)
+    associate (bearing => problem%bearing, clearance => problem%bearing%clearance)
       search%given = [size(midplane) > 0, size(ends) > 0]
       allocate (search%wanted(2, size(bearing%pad)), source=0.0_wp)
       if (search%given(1)) search%wanted(1, :) = [(midplane(min(pad, size(midplane))), pad=1, size(bearing%pad))]
@@ -353,7 +353,7 @@ contains
         ' steps, free edge at '//text(lift*micrometres, 4)//' um')
       if (lift < search%lifts(1) .or. lift > search%lifts(2)) exit
       if (.not. moved .or. arc%steps == 1 .or. arc%lambda*arc%lambda_before > 0.0_wp) cycle
-      if (.not. is_worth_it(search, pad, lift, bearing%pad(1)%film%clearance)) cycle
+      if (.not. is_worth_it(search, pad, lift, bearing%clearance)) cycle
       call find_equilibrium(arc, bearing, newton, point, free, pad, here)
       if (here) call search%collect(bearing, newton)
     end do

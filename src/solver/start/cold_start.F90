@@ -162,7 +162,7 @@ contains
     problem%settings = path_settings
     problem%bearing => mesh%bearing
     problem%newton => mesh%newton
-    has_contacts = mesh%bearing%pad(1)%foil%has_contacts()
+    has_contacts = mesh%bearing%has_contacts()
     helped = has_smaller
     if (has_smaller) helped = before%report%converged()
     ! After a mesh in between has failed there is none to begin from; a film alone is cheap, and has answers that its coarse mesh lacks.

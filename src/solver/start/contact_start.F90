@@ -86,7 +86,7 @@ contains
 
     soft = settings
     soft%look_for_folds = .false. ! they would be those of soft contacts
-    soft%touch_down_gap = max(settings%touch_down_gap, closing_gap*bearing%pad(1)%film%clearance) ! from where hard ones go on
+    soft%touch_down_gap = max(settings%touch_down_gap, closing_gap*bearing%clearance) ! from where hard ones go on
     soft%most_cuts = most_soft_cuts
     wanted = newton%settings
     newton%settings%straight_steps = rough%straight_steps

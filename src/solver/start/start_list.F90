@@ -74,7 +74,7 @@ contains
       if (problem%refused .and. problem%bearing%floats) first = [start_smaller_end]
     end if
     associate (bearing => problem%bearing, target => problem%target)
-      if (.not. bearing%pad(1)%foil%has_contacts()) then
+      if (.not. bearing%has_contacts()) then
         starts = [start_from_rest]
         if (bearing%floats .and. norm2(target%load(:2)) > 0.0_wp .and. target%speed > 0.0_wp) starts = [starts, start_laid_down]
       else
@@ -212,7 +212,7 @@ contains
     type(path_report_type), intent(in) :: report !! of the starts before
     logical :: suits
 
-    suits = problem%bearing%floats .and. problem%bearing%pad(1)%foil%has_contacts() .and. .not. &
+    suits = problem%bearing%floats .and. problem%bearing%has_contacts() .and. .not. &
       (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
     if (suits) suits = has_free_edge(problem%bearing)
   end function suits_lighter_load

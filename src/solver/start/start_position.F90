@@ -196,7 +196,7 @@ contains
     there = target
     direction = -target%load(:2)/norm2(target%load(:2))
     near = 0.0_wp
-    far = bearing%pad(1)%film%clearance
+    far = bearing%clearance
     do i = 1, halvings
       middle = 0.5_wp*(near + far)
       there%place(:2) = middle*direction

@@ -86,7 +86,7 @@ contains
   pure function clearance_of(bearing) result(clearance)
     type(bearing_system_type), intent(in) :: bearing !! a bearing
     real(wp) :: clearance
-    clearance = bearing%pad(1)%film%clearance
+    clearance = bearing%clearance
   end function clearance_of
 
   !> Frees a bearing and its solver.

@@ -243,7 +243,7 @@ contains
       call solve_nearby(newton, report)
       if (report%converged) then
         place = place_of(bearing)
-        error = error_of(march, step, place)/(march%settings%tolerance*bearing%pad(1)%film%clearance)
+        error = error_of(march, step, place)/(march%settings%tolerance*bearing%clearance)
         if (march%settings%steps_per_turn > 0.0_wp .or. error < rejected) exit
         step = next_step(step, error)
       else

@@ -87,7 +87,7 @@ contains
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
     call add_result(list, 'determinant_sign', sign_of_determinant)
-    if (.not. bearing%pad(1)%foil%has_contacts()) return
+    if (.not. bearing%has_contacts()) return
     call find_edge_stiffness(bearing, newton, known, stiffness)
     if (any(known)) call add_result(list, 'edge_stiffness', minval(stiffness, known))
     do i = 1, merge(size(known), 0, size(known) > 1)

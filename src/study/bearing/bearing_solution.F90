@@ -215,7 +215,7 @@ contains
       may = .not. (self%partitioned .or. sweep%friction_memory .or. sweep%turn_folds .or. sweep%hold_position .or. &
                    self%scene%capacity%question > 0)
     end associate
-    if (may) may = self%bearing%pad(1)%foil%has_contacts()
+    if (may) may = self%bearing%has_contacts()
     if (may) may = .not. stop_agreed()
   end function may_start_anew
 

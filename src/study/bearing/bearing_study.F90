@@ -76,7 +76,7 @@ contains
       self%factorizations = newton%factorizations
       self%factorizations_finest = newton%factorizations - newton%factorizations_before
       self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
-                                     bearing%pad(1)%film%clearance, bearing%force_scale())
+                                     bearing%clearance, bearing%force_scale())
       if (self%converged .and. allocated(record%limit)) call add_quantity(self%found, record%limit)
       if (.not. self%converged .or. .not. allocated(record%dynamics%point)) return
       if (size(record%dynamics%point) /= 1) return

@@ -244,7 +244,7 @@ contains
     associate (bearing => solution%bearing, record => solution%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing)
       call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, &
-                                                   bearing%pad(1)%film%clearance, bearing%force_scale()))
+                                                   bearing%clearance, bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))
       call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
@@ -254,11 +254,11 @@ contains
       columns = columns_of(scene, solution)
       if (scene%sweep%present) call show_points(scene, record%history, log)
       call show_closing_block(log, summary, converged, place_on_sweep(scene, record%history, converged), answer, &
-                              bearing%pad(1)%film%clearance, result%cost, result%ranks, blas_in_use())
+                              bearing%clearance, result%cost, result%ranks, blas_in_use())
       call show_film_notes(scene, bearing%pad(1)%film%law, bearing%pad(1)%whole, bearing%point%speed, &
                            answer%minimum_gap, [answer%minimum_pressure, answer%maximum_pressure], log)
       if (converged .and. answer%has_foils) then
-        call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%pad(1)%film%clearance, size(bearing%pad) == 1)
+        call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%clearance, size(bearing%pad) == 1)
       end if
       call show_tilt_response(log, record%tilted)
       if (.not. result%plan%upwind) call show_unresolved(log, result%plan, answer%rough_peclet)

@@ -75,10 +75,10 @@ contains
 
     order = by_lift(search)
     call record_branches(scene, context%log, search, order, bearing, newton, record, grids)
-    call show_table(context%log, search, order, record, bearing%pad(1)%film%clearance)
+    call show_table(context%log, search, order, record, bearing%clearance)
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
     call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
-                                                 bearing%pad(1)%film%clearance, bearing%force_scale()))
+                                                 bearing%clearance, bearing%force_scale()))
     call add_result(summary, 'branches', size(order))
     call add_quantity(summary, bearing%pad(1)%foil%sizes())
     call add_quantity(summary, cost_quantities(cost_type( &
@@ -221,7 +221,7 @@ contains
       call self%bound%lift()
     end associate
     if (allocated(error)) return
-    self%search%lifts = [lowest_lift, highest_lift]*self%bearing%pad(1)%film%clearance
+    self%search%lifts = [lowest_lift, highest_lift]*self%bearing%clearance
     if (report%converged()) then
       call find_branches(self%bearing, self%newton, self%search)
     else

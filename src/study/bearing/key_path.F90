@@ -343,6 +343,6 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     logical :: moved
 
-    moved = any(abs(place_of(bearing) - here%place) > longest_move*bearing%pad(1)%film%clearance)
+    moved = any(abs(place_of(bearing) - here%place) > longest_move*bearing%clearance)
   end function has_moved
 end module gfb_key_path
