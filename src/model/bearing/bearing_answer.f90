@@ -6,8 +6,8 @@ module gfb_bearing_answer
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
                                   measures_of, extremes, summed
   use gfb_film_load, only: film_forces
-  use gfb_film_measures, only: force_without_suction, film_drag, film_moment, film_peclet, &
-                               film_midplane_gap
+  use gfb_gas_film, only: force_without_suction, film_drag, film_moment, film_peclet, &
+                          film_midplane_gap
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type

@@ -1,11 +1,12 @@
 !> Speed, load and position of the shaft.
 module gfb_operating_point
+  use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_kinds, only: wp, most_pads
   use gfb_archive, only: archive_type
   use gfb_film_surface, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: point_between, visit_point
+  public :: operating_point, operating_point_type, point_between, visit_point
 
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
@@ -27,6 +28,17 @@ module gfb_operating_point
   end type operating_point_type
 
 contains
+
+  !> Where the scene puts the shaft, in SI.
+  pure function operating_point(operation) result(point)
+    type(operation_case_type), intent(in) :: operation !! the scene's
+    type(operating_point_type) :: point
+
+    point%speed = angular_speed(operation%speed_rpm)
+    point%load(:2) = operation%load
+    point%place(:2) = operation%eccentricity
+    point%place(4:5) = operation%tilt
+  end function operating_point
 
   !> Adds the forces on the sleeve that balance the film's: those of the load, and of inertia.
   pure subroutine add_other_forces(self, coordinate, place, force)

@@ -7,7 +7,7 @@ module gfb_answer_numbers
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
   use gfb_film_surface, only: journal_motions, journal_coordinates
-  use gfb_film_measures, only: film_drag, film_drag_rates, film_moment
+  use gfb_gas_film, only: film_drag, film_drag_rates, film_moment
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type

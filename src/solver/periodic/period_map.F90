@@ -23,7 +23,7 @@ module gfb_period_map
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_shaft_drive, only: shaft_drive_type
-  use gfb_contact_slips, only: slips_of, put_slips, slip_entries
+  use gfb_contact_memory, only: slips_of, put_slips, slip_entries
   use gfb_newton, only: newton_type, newton_report_type
   use gfb_time_march, only: march_type, begin_march, resume_march, take_step, end_march
   implicit none (type)
