@@ -80,13 +80,9 @@ contains
         if (whole) contact(:, i) = contact_sums(pad%foil%contacts)
       end associate
     end do
-    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    call add_up(sums, total)
     if (whole) contact = reshape(sum_over_ranks(pack(contact, .true.)), shape(contact))
     most = reshape(largest_over_ranks(pack(most, .true.)), shape(most))
-    total = sums(:, 1)
-    do i = 2, size(bearing%pad)
-      total = total + sums(:, i)
-    end do
     largest = maxval(most, 2)
     if (size(bearing%pad) > 1) then
       answer%pad_force = sums(1:2, :)
@@ -109,6 +105,19 @@ contains
     answer%maximum_deflection = largest(8)
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
   end function bearing_answer
+
+  !> Sums over the ranks, and over the pads.
+  subroutine add_up(sums, total)
+    real(wp), intent(inout) :: sums(:, :) !! (sums, pads) this rank's before
+    real(wp), intent(out) :: total(:)
+    integer :: i
+
+    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
+    total = sums(:, 1)
+    do i = 2, size(sums, 2)
+      total = total + sums(:, i)
+    end do
+  end subroutine add_up
 
   !> Sums and largest values of this rank's part of a pad's film.
   subroutine read_film(bearing, pad, pressure, gap, position, all_of_it, sums, largest)
@@ -155,11 +164,7 @@ contains
         sums(film_forces + 1, i) = film_moment(film, pressure(first:last))
       end associate
     end do
-    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
-    total = sums(:, 1)
-    do i = 2, size(bearing%pad)
-      total = total + sums(:, i)
-    end do
+    call add_up(sums, total)
     if (allocated(answer%pad_force)) answer%pad_force = answer%pad_force + sums(1:2, :)
     associate (film => bearing%pad(1)%film)
       largest = largest_over_ranks([maxval(pressure)])
@@ -185,11 +190,7 @@ contains
         call add_lifts(pad, -pad%foil%deflection(unknown(pad%first + 1:pad%last)), sums(:, i))
       end associate
     end do
-    sums = reshape(sum_over_ranks(pack(sums, .true.)), shape(sums))
-    total = sums(:, 1)
-    do i = 2, size(bearing%pad)
-      total = total + sums(:, i)
-    end do
+    call add_up(sums, total)
     answer%has_foils = .true.
     answer%leading_edge_lift = total(:2)/total(3:4)
     answer%trailing_edge_lift = total(5:6)/total(7:8)

@@ -250,9 +250,9 @@ contains
         point(i)%derivative(1, 1) = -stiffness(i)
         if (.not. law(point(i)%law)%one_way) point(i)%derivative(2, 2) = -stiffness(i)
       end do
-      call foil%set_lending(.false.)
+      foil%contacts%lends = .false.
       call foil%add_jacobian(unknown, matrix)
-      call foil%set_lending(.true.)
+      foil%contacts%lends = .true.
       do i = 1, size(point)
         point(i)%derivative = kept(:, :, i)
       end do

@@ -62,9 +62,6 @@ module gfb_foil_model
     procedure :: begin_step
     procedure :: settle_at
     procedure :: commit
-    procedure :: set_hardness
-    procedure :: set_adhesion
-    procedure :: set_lending
     procedure :: add_springs
     procedure :: put_damping
     procedure :: softest
@@ -266,28 +263,6 @@ contains
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
     call self%contacts%commit(self%own_part(unknown))
   end subroutine commit
-
-  !> Makes the contacts softer than the scene has them, for a first answer.
-  subroutine set_hardness(self, hardness)
-    class(foil_model_type), intent(inout) :: self !! the foil
-    real(wp), intent(in) :: hardness !! factor of their normal stiffness [1]
-    self%contacts%hardness = hardness
-  end subroutine set_hardness
-
-  !> Makes the contacts two-way (adhesive), for a first answer.
-  subroutine set_adhesion(self, adhesion)
-    class(foil_model_type), intent(inout) :: self !! the foil
-    real(wp), intent(in) :: adhesion !! stiffness against opening over that against closing [1]
-    self%contacts%adhesion = adhesion
-  end subroutine set_adhesion
-
-  !> Whether the matrix has a stiffness at contacts that are open: it keeps Newton's steps short, but
-  !> is no derivative.
-  subroutine set_lending(self, lends)
-    class(foil_model_type), intent(inout) :: self !! the foil
-    logical, intent(in) :: lends !! it has
-    self%contacts%lends = lends
-  end subroutine set_lending
 
   !> Adds the stiffness of springs that have unknowns of their own, and no mesh: here none.
   subroutine add_springs(self, matrix)

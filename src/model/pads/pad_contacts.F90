@@ -18,7 +18,7 @@ contains
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%set_hardness(hardness)
+      bearing%pad(i)%foil%contacts%hardness = hardness
     end do
   end subroutine set_hardness
 
@@ -29,18 +29,18 @@ contains
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%set_adhesion(adhesion)
+      bearing%pad(i)%foil%contacts%adhesion = adhesion
     end do
   end subroutine set_adhesion
 
-  !> Whether the matrix has a stiffness at contacts that are open, see `gfb_foil_model`.
+  !> Whether the matrix has a stiffness at contacts that are open: it keeps Newton's steps short, but is no derivative.
   subroutine set_lending(bearing, lends)
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     logical, intent(in) :: lends !! it has
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%set_lending(lends)
+      bearing%pad(i)%foil%contacts%lends = lends
     end do
   end subroutine set_lending
 

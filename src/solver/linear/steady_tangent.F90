@@ -40,11 +40,11 @@ contains
     integer :: i
 
     do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%set_lending(.false.)
+      bearing%pad(i)%foil%contacts%lends = .false.
     end do
     call bearing%linearise_at(bearing%point, .true., bearing%state)
     do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%set_lending(.true.)
+      bearing%pad(i)%foil%contacts%lends = .true.
     end do
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, steady, ierr))
   end subroutine linearise_exactly
