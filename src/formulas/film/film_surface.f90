@@ -21,7 +21,6 @@
 !> \( \Omega R \). Elsewhere arc and speed are \( r/R \) times that, the stretch: 1 on a cylinder.
 module gfb_film_surface
   use gfb_kinds, only: wp
-  use gfb_film_geometry, only: film_shapes
   implicit none (type, external)
   private
   public :: cylinder, ring, entraining_speed
@@ -29,7 +28,8 @@ module gfb_film_surface
   integer, parameter, public :: shaft_coordinates = 5 !! e_x, e_y, e_z [m], phi_x, phi_y [rad]
   integer, parameter, public :: translations = 3      !! those of them before the tilts
   integer, parameter, public :: journal_motions = 4   !! that change the gap of a journal
-  integer, parameter, public :: journal_coordinates(journal_motions) = [1, 2, 4, 5] !! which these are
+  !> Which these are.
+  integer, parameter, public :: journal_coordinates(journal_motions) = [1, 2, 4, 5]
 
   !> A cylinder, a cone, or a ring.
   type, public :: film_surface_type
@@ -55,7 +55,8 @@ contains
   !> A journal's surface.
   pure function cylinder(radius, offset) result(surface)
     real(wp), intent(in) :: radius !! of the bearing [m]
-    real(wp), intent(in), optional :: offset !! of its midplane from the rotor's centre; default: 0 [m]
+    !> of its midplane from the rotor's centre; default: 0 [m]
+    real(wp), intent(in), optional :: offset
     type(film_surface_type) :: surface
 
     surface = film_surface_type(radius=radius, origin=radius)
@@ -141,43 +142,44 @@ contains
   end function motion_of
 
   !> The same at the Gauss points of an element.
-  pure function point_motions(self, angle, along) result(b)
+  pure function point_motions(self, shapes, angle, along) result(b)
     class(film_surface_type), intent(in) :: self !! the surface
+    real(wp), intent(in) :: shapes(:, :) !! (nodes, points) shape functions [1]
     real(wp), intent(in) :: angle(:)           !! theta of the nodes, unwound [rad]
     real(wp), intent(in) :: along(size(angle)) !! s of the nodes [m]
     real(wp) :: b(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [m]
-    real(wp) :: shapes(size(angle), size(angle))
     integer :: point
 
-    shapes = film_shapes(size(angle))
     do point = 1, size(angle)
       associate (shape => shapes(:, point))
-        b(:, point) = motion_of(self, dot_product(shape, angle), dot_product(shape, self%lever(along)))
+        b(:, point) = motion_of(self, dot_product(shape, angle), &
+                                dot_product(shape, self%lever(along)))
       end associate
     end do
   end function point_motions
 
   !> What these have beyond those that the shape functions make of the nodes' values: a rigid gap is
   !> taken where it is, at the points.
-  pure function motion_excess(self, angle, along) result(excess)
+  pure function motion_excess(self, shapes, angle, along) result(excess)
     class(film_surface_type), intent(in) :: self !! the surface
+    real(wp), intent(in) :: shapes(:, :) !! (nodes, points) shape functions [1]
     real(wp), intent(in) :: angle(:)           !! theta of the nodes, unwound [rad]
     real(wp), intent(in) :: along(size(angle)) !! s of the nodes [m]
     real(wp) :: excess(shaft_coordinates, size(angle)) !! (coordinates, points) [1], [m]
-    real(wp) :: nodal(shaft_coordinates, size(angle)), shapes(size(angle), size(angle))
+    real(wp) :: nodal(shaft_coordinates, size(angle))
     integer :: i
 
-    shapes = film_shapes(size(angle))
     do i = 1, size(angle)
       nodal(:, i) = self%motion(angle(i), along(i))
     end do
-    excess = self%point_motions(angle, along)
+    excess = self%point_motions(shapes, angle, along)
     do i = 1, size(angle)
       excess(:, i) = excess(:, i) - matmul(nodal, shapes(:, i))
     end do
   end function motion_excess
 
-  !> Gap of the rigid sleeve, without a foil's deflection, where the angle is known by its direction.
+  !> Gap of the rigid sleeve, without a foil's deflection, where cosine and sine of the angle are
+  !> known.
   elemental function gap(self, cosine, sine, along, clearance, e_x, e_y, e_z, phi_x, phi_y) &
     result(h)
     class(film_surface_type), intent(in) :: self !! the surface
@@ -189,8 +191,8 @@ contains
     real(wp) :: h !! h_r [m]
 
     associate (lever => self%lever(along))
-      h = clearance + (self%cosine*e_x + lever*phi_y)*cosine + (self%cosine*e_y - lever*phi_x)*sine &
-          - self%sine*e_z
+      h = clearance + (self%cosine*e_x + lever*phi_y)*cosine &
+          + (self%cosine*e_y - lever*phi_x)*sine - self%sine*e_z
     end associate
   end function gap
 

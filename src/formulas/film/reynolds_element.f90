@@ -152,9 +152,9 @@ contains
         z_by_h = 3.0_wp*mobility/state%h*state%p_z
         x_by_slope = 0.0_wp
         if (flow%upwind) then
-          call add_upwind_derivatives(flow_here(flow, stretch(point)), stream_length(point), shape, &
-                                      gradient, state, dot_product(shape, source), x_by_p, x_by_h, &
-                                      x_by_slope)
+          call add_upwind_derivatives(flow_here(flow, stretch(point)), stream_length(point), &
+                                      shape, gradient, state, dot_product(shape, source), &
+                                      x_by_p, x_by_h, x_by_slope)
         end if
         by_excess(:, point) = area*(x_by_h*gradient(1, :) + z_by_h*gradient(2, :))
         do b = 1, nodes

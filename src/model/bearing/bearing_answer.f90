@@ -93,7 +93,8 @@ contains
     answer%eccentricity = bearing%eccentricity()
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
-    answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius + answer%solid_torque
+    answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
+                             + answer%solid_torque
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
     answer%minimum_gap_midplane = -largest(2)
@@ -170,7 +171,8 @@ contains
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.
       answer%solid_force = total(:film_forces)
-      answer%solid_torque = bearing%pad(1)%contact%friction*film%surface%radius*total(film_forces + 1)
+      answer%solid_torque = bearing%pad(1)%contact%friction*film%surface%radius* &
+                            total(film_forces + 1)
       answer%maximum_solid_pressure = largest(1)
     end associate
   end subroutine read_solid_contact

@@ -19,7 +19,7 @@ module gfb_bearing_builder
   use gfb_foil_models, only: build_foil
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_foil_model, only: foil_model_type
-  use gfb_operating_point, only: operating_point
+  use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_pad, only: pad_place_type, create_pad_film, move_crests

@@ -139,14 +139,16 @@ contains
         if (allocated(error)) return
         call widen(film%surface%stretch(matmul(film%axial(nodes), film%shape)), &
                    film%geometry(element))
-        motion = film%surface%point_motions(angle, film%axial(nodes))
-        film%motion_excess(:, :, element) = film%surface%motion_excess(angle, film%axial(nodes))
+        motion = film%surface%point_motions(film%shape, angle, film%axial(nodes))
+        film%motion_excess(:, :, element) = film%surface%motion_excess(film%shape, angle, &
+                                                                       film%axial(nodes))
         call film_force_weights(film%geometry(element), motion, weight)
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
     film%half_torque_weight = film%force_weight(translations + 1:, :)
-    if (film%copies > 1.0_wp) film%force_weight(translations + 1:, :) = 0.0_wp ! the mirrored half cancels it
+    ! The mirrored half cancels it.
+    if (film%copies > 1.0_wp) film%force_weight(translations + 1:, :) = 0.0_wp
   end subroutine measure_elements
 
   !> Takes the height of a bore off the rigid gap; once more where the film has moved around.
@@ -490,8 +492,8 @@ contains
     end do
   end subroutine film_drag_rates
 
-  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it, where what it does counts
-  !> by its radius: torque over the radius R of the surface.
+  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it,
+  !> where what it does counts by its radius: torque over the radius R of the surface.
   pure function film_moment(film, value) result(integral)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the local film nodes, in any unit [SI]
@@ -501,7 +503,8 @@ contains
     integral = 0.0_wp
     do element = 1, size(film%element_nodes, 2)
       associate (here => value(film%element_nodes(:, element)), geometry => film%geometry(element))
-        integral = integral + film%copies*dot_product(matmul(here, film%shape), geometry%area*geometry%stretch)
+        integral = integral + film%copies*dot_product(matmul(here, film%shape), &
+                                                      geometry%area*geometry%stretch)
       end associate
     end do
   end function film_moment
@@ -539,7 +542,8 @@ contains
       associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
         do i = 1, size(film%shape, 2)
-          peclet = max(peclet, abs(general_peclet(film%law, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
+          peclet = max(peclet, abs(general_peclet(film%law, flow_here(flow, geometry%stretch(i)), &
+                                                  geometry%stream_length(i), &
                                                   dot_product(film%shape(:, i), pressure(nodes)), &
                                                   dot_product(film%shape(:, i), gap(nodes)))))
         end do

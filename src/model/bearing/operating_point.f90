@@ -1,17 +1,17 @@
 !> Speed, load and position of the shaft.
 module gfb_operating_point
-  use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_kinds, only: wp, most_pads
   use gfb_archive, only: archive_type
   use gfb_film_surface, only: shaft_coordinates
   implicit none (type, external)
   private
-  public :: operating_point, operating_point_type, point_between, visit_point
+  public :: point_between, visit_point
 
   !> What the bearing is asked to bear; every value may change along a path.
   type, public :: operating_point_type
     real(wp) :: speed = 0.0_wp           !! of the shaft, in +theta [rad/s]
-    !> External forces and torques on the shaft, where it floats; see `shaft_coordinates` [N], [N m].
+    !> External forces and torques on the shaft, where it floats; see `shaft_coordinates`
+    !> [N], [N m].
     real(wp) :: load(shaft_coordinates) = 0.0_wp
     !> Of the sleeve relative to the shaft, where it is fixed; over a step of time, where a shaft
     !> that floats would be without forces [m], [rad].
@@ -28,17 +28,6 @@ module gfb_operating_point
   end type operating_point_type
 
 contains
-
-  !> Where the scene puts the shaft, in SI.
-  pure function operating_point(operation) result(point)
-    type(operation_case_type), intent(in) :: operation !! the scene's
-    type(operating_point_type) :: point
-
-    point%speed = angular_speed(operation%speed_rpm)
-    point%load(:2) = operation%load
-    point%place(:2) = operation%eccentricity
-    point%place(4:5) = operation%tilt
-  end function operating_point
 
   !> Adds the forces on the sleeve that balance the film's: those of the load, and of inertia.
   pure subroutine add_other_forces(self, coordinate, place, force)

@@ -187,7 +187,7 @@ contains
   subroutine add_shaft_weights(film, shaft, fixed, factor, matrix)
     type(gas_film_type), intent(in) :: film
     type(shaft_unknowns_type), intent(in) :: shaft
-    logical, intent(in) :: fixed   
+    logical, intent(in) :: fixed
     real(wp), intent(in) :: factor !! of the weights; 0: makes room [1]
     Mat, intent(in) :: matrix
 

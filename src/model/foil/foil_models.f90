@@ -14,7 +14,7 @@ module gfb_foil_models
   use gfb_foundation_foil, only: foundation_foil_type, build_foundation
   use gfb_shell_foil, only: shell_foil_type, create_shell_foil
   use gfb_beam_foil, only: beam_foil_type, create_beam_foil
-  implicit none (type)
+  implicit none (type, external)
   private
   public :: create_rigid_foil, build_foil
 
@@ -40,7 +40,8 @@ contains
     type(local_mesh_type), intent(in) :: mesh   !! this rank's part of the film
     integer, intent(in) :: element_nodes(:, :)  !! (nodes, elements) its elements, local nodes
     type(division_type), intent(in) :: division !! of film and bumps
-    class(foil_model_type), allocatable, intent(out) :: foil !! of the model asked for, ready for the bearing
+    !> of the model asked for, ready for the bearing
+    class(foil_model_type), allocatable, intent(out) :: foil
     type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
     type(foil_model_type), allocatable :: rigid

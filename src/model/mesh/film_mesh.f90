@@ -19,7 +19,8 @@ module gfb_film_mesh
     logical :: opposite = .false.              !! what is solved changes its sign there
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
-    real(wp), allocatable :: row_axial(:)      !! s of the rows: z, 0 at the midplane, of a cylinder [m]
+    !> s of the rows: z, 0 at the midplane, of a cylinder [m]
+    real(wp), allocatable :: row_axial(:)
   contains
     procedure :: stations => film_stations
     procedure :: rows => film_rows

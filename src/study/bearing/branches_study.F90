@@ -10,7 +10,7 @@ module gfb_branches_study
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_operating_point, only: operating_point
+  use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, destroy_newton
   use gfb_branch_search, only: branch_search_type, take_branch, lifts_of_pads, destroy_branches, find_branches
   use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name
