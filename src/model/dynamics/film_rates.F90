@@ -16,38 +16,18 @@ module gfb_film_rates
   use gfb_bearing_system, only: bearing_system_type, number_by, add_of_foil
   implicit none (type)
   private
-  public :: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, fill_from_foil, fill_friction, squeeze_column
+  public :: fill_film, fill_springs, fill_from_foil, fill_friction, squeeze_column
 
-  integer, parameter :: squeeze = 1, squeeze_by_gap = 2, flow_by_gap = 3 !! derivatives there are
+  !> Derivatives there are: of c by the unknowns; what of it comes by the foil's deflection; the same of the steady film's.
+  integer, parameter, public :: squeeze = 1, squeeze_by_gap = 2, flow_by_gap = 3
 
 contains
 
-  !> Derivative of c by the unknowns.
-  subroutine fill_squeeze(bearing, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
-    Mat, intent(in) :: matrix !! like the bearing's; overwritten
-    call fill_film(bearing, squeeze, matrix)
-  end subroutine fill_squeeze
-
-  !> The part of that which comes by the foil's deflection.
-  subroutine fill_squeeze_by_gap(bearing, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
-    Mat, intent(in) :: matrix !! like the bearing's; overwritten
-    call fill_film(bearing, squeeze_by_gap, matrix)
-  end subroutine fill_squeeze_by_gap
-
-  !> The part of the steady film's derivative which comes by the foil's deflection.
-  subroutine fill_flow_by_gap(bearing, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
-    Mat, intent(in) :: matrix !! like the bearing's; overwritten
-    call fill_film(bearing, flow_by_gap, matrix)
-  end subroutine fill_flow_by_gap
-
   !> Fills a matrix with one of the film's derivatives, element by element.
   subroutine fill_film(bearing, kind, matrix)
-    type(bearing_system_type), intent(in) :: bearing
-    integer, intent(in) :: kind !! `squeeze`, ...
-    Mat, intent(in) :: matrix
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    integer, intent(in) :: kind !! `squeeze`, `squeeze_by_gap` or `flow_by_gap`
+    Mat, intent(in) :: matrix !! like the bearing's; overwritten
 
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes())
     PetscErrorCode :: ierr

@@ -7,7 +7,7 @@ module gfb_pad_contacts
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: set_hardness, set_adhesion, set_lending, set_upwind, pad_contacts
+  public :: set_hardness, set_adhesion, linearise_exactly, set_upwind, pad_contacts
 
 contains
 
@@ -43,6 +43,17 @@ contains
       bearing%pad(i)%foil%contacts%lends = lends
     end do
   end subroutine set_lending
+
+  !> The bearing's matrix at its state, without the artificial stiffness of contacts that are open: that keeps Newton's
+  !> steps short, but is no derivative.
+  subroutine linearise_exactly(bearing, fixed)
+    type(bearing_system_type), intent(inout) :: bearing !! whose contacts are linearised
+    logical, intent(in) :: fixed !! the shaft is fixed
+
+    call set_lending(bearing, .false.)
+    call bearing%linearise_at(bearing%point, fixed, bearing%state)
+    call set_lending(bearing, .true.)
+  end subroutine linearise_exactly
 
   !> SUPG instead of Galerkin for the films of all pads.
   subroutine set_upwind(bearing, upwind)

@@ -18,7 +18,7 @@ module gfb_sensitivity
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type
-  use gfb_pad_contacts, only: set_lending
+  use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
   use gfb_meshed_foil, only: split_motion
   use gfb_newton, only: newton_type, solve_transposed
@@ -76,9 +76,7 @@ contains
     logical :: moved
 
     call bearing%settle(bearing%state, moved)
-    call set_lending(bearing, .false.)
-    call bearing%linearise(bearing%state)
-    call set_lending(bearing, .true.)
+    call linearise_exactly(bearing, bearing%shaft_fixed)
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, tangent, ierr))
   end subroutine keep_tangent
 

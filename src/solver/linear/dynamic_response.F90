@@ -25,15 +25,17 @@ module gfb_dynamic_response
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_surface, only: journal_motions, journal_coordinates
   use gfb_pad, only: pad_type
-  use gfb_steady_tangent, only: linearise_steady, linearise_exactly, measure_asperities
-  use gfb_film_rates, only: fill_squeeze, fill_squeeze_by_gap, fill_flow_by_gap, fill_springs, squeeze_column
+  use gfb_solid_contact, only: contact_pressure_rate
+  use gfb_contacts_in_motion, only: stick_contacts
+  use gfb_pad_contacts, only: linearise_exactly
+  use gfb_film_rates, only: squeeze, squeeze_by_gap, flow_by_gap, fill_film, fill_springs, squeeze_column
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
   use gfb_direct_solver, only: failure_in_words
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
                                  destroy_complex_factors, keep_entries
   implicit none (type)
   private
-  public :: create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
+  public :: linearise_steady, measure_asperities, create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
 
   !> of a journal's motions
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
@@ -119,16 +121,78 @@ contains
     type(dynamic_response_type), intent(out) :: response !! to vibrations of the shaft
     !> the bearing of tilts, where shells are solved on half the width; it moves into the response
     type(bearing_system_type), allocatable, optional, intent(inout) :: opposite
+    PetscErrorCode :: ierr
 
     if (present(opposite)) call move_alloc(opposite, response%opposite_bearing)
     call linearise_steady(bearing, vibration%stick, response%equations%steady, response%opposite_bearing)
     if (allocated(response%opposite_bearing)) then
       allocate (response%opposite)
-      call linearise_exactly(response%opposite_bearing, response%opposite%equations%steady)
+      call linearise_exactly(response%opposite_bearing, .true.)
+      PetscCallA(MatDuplicate(response%opposite_bearing%jacobian, MAT_COPY_VALUES, response%opposite%equations%steady, ierr))
       call complete_response(response%opposite_bearing, vibration, response%opposite)
     end if
     call complete_response(bearing, vibration, response)
   end subroutine create_response
+
+  !> Derivative of the steady equations, the shaft fixed, without what is lent to open contacts.
+  subroutine linearise_steady(bearing, stick, steady, opposite)
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    logical, intent(in) :: stick !! contacts that rub stick
+    Mat, intent(out) :: steady !! like the bearing's own
+    type(bearing_system_type), allocatable, optional, intent(inout) :: opposite !! gets the state, where there is one
+    logical :: moved
+    PetscErrorCode :: ierr
+    integer :: i
+
+    call bearing%settle(bearing%state, moved)
+    do i = 1, size(bearing%pad)
+      associate (foil => bearing%pad(i)%foil)
+        if (stick .and. foil%has_contacts()) call stick_contacts(foil%contacts)
+      end associate
+    end do
+    call linearise_exactly(bearing, .true.)
+    PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, steady, ierr))
+    if (present(opposite)) then
+      if (allocated(opposite)) call lend_state(bearing, opposite)
+    end if
+    call bearing%settle(bearing%state, moved)
+  end subroutine linearise_steady
+
+  !> Gives the bearing of opposite motions the film of an answer and the stiffness of its contacts; its own
+  !> foil stays, for at z = 0 it could not follow.
+  subroutine lend_state(bearing, opposite)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(inout) :: opposite
+    real(wp) :: given(bearing%local_size()), taken(opposite%local_size())
+    integer :: i, k
+
+    call bearing%get_unknowns(given)
+    opposite%point = bearing%point
+    taken = 0.0_wp
+    call opposite%put_pressure(bearing%film_pressure(given), taken)
+    taken(opposite%first_shaft + 1:) = given(bearing%first_shaft + 1:)
+    call opposite%set_unknowns(taken)
+    do k = 1, size(bearing%pad)
+      associate (pad => bearing%pad(k), other => opposite%pad(k))
+        other%held = pad%foil%deflection(given(pad%first + 1:pad%last))
+        do i = 1, size(pad%foil%contacts%point)
+          other%foil%contacts%point(i)%derivative = pad%foil%contacts%point(i)%derivative
+        end do
+      end associate
+    end do
+  end subroutine lend_state
+
+  !> Slope of the asperities' pressure at this rank's nodes.
+  subroutine measure_asperities(bearing, rate)
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    real(wp), allocatable, intent(out) :: rate(:) !! over the gap [Pa/m]
+    real(wp) :: unknown(bearing%local_size())
+
+    allocate (rate(bearing%film_nodes()), source=0.0_wp)
+    if (.not. bearing%pad(1)%contact%present) return
+    call bearing%get_unknowns(unknown)
+    rate = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(unknown))
+  end subroutine measure_asperities
 
   !> What else there is beside the steady equations.
   subroutine complete_response(bearing, vibration, response)
@@ -161,7 +225,7 @@ contains
     equations%vibration = vibration
     equations%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
     call copy_pattern(equations%steady, equations%squeeze)
-    call fill_squeeze(bearing, equations%squeeze)
+    call fill_film(bearing, squeeze, equations%squeeze)
     if (dissipates(equations)) call linearise_springs(bearing, equations)
     call copy_pattern(equations%steady, equations%real_part)
     call copy_pattern(equations%steady, equations%imaginary_part)
@@ -184,8 +248,8 @@ contains
     if (equations%local_springs) then
       call copy_pattern(equations%steady, equations%flow_by_gap)
       call copy_pattern(equations%steady, equations%squeeze_by_gap)
-      call fill_flow_by_gap(bearing, equations%flow_by_gap)
-      call fill_squeeze_by_gap(bearing, equations%squeeze_by_gap)
+      call fill_film(bearing, flow_by_gap, equations%flow_by_gap)
+      call fill_film(bearing, squeeze_by_gap, equations%squeeze_by_gap)
     else
       call copy_pattern(equations%steady, equations%springs)
       call fill_springs(bearing, equations%springs)

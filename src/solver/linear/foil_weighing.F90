@@ -15,10 +15,9 @@ module gfb_foil_weighing
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_rates, only: fill_from_foil
-  use gfb_steady_tangent, only: linearise_steady
   use gfb_inner_motion, only: inner_modes_type
   use gfb_vibration_equations, only: foil_inertia_type
-  use gfb_dynamic_response, only: dynamic_response_type
+  use gfb_dynamic_response, only: dynamic_response_type, linearise_steady
   implicit none (type)
   private
   public :: give_mass, give_momentum
@@ -52,13 +51,12 @@ contains
     integer, intent(in) :: modes    !! kept in each condensed piece, at most
     real(wp), intent(in) :: highest !! frequency that is expected [rad/s]
     type(foil_inertia_type), intent(out) :: inertia !! what was found; to be destroyed
-    type(bearing_system_type), allocatable :: none
     Mat :: steady, mass
     PetscErrorCode :: ierr
 
     inertia%highest = highest
     if (wanted == mass_off .or. .not. bearing%is_meshed()) return
-    call linearise_steady(bearing, .true., steady, none)
+    call linearise_steady(bearing, .true., steady)
     call create_inertia(bearing, steady, wanted, modes, highest, inertia)
     PetscCallA(MatDestroy(steady, ierr))
     if (.not. inertia%present) return

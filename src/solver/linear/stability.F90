@@ -29,7 +29,6 @@ module gfb_stability
 
   character(len=*), parameter :: prefix = 'stability_' !! of PETSc's options
   real(wp), parameter :: neutral = 0.01_wp      !! next to none: p_a/100 moves the mode by all of C [1]
-  real(wp), parameter :: first_shift = 1.0_wp   !! of the eigenvalues, their size where the film is stiff
   real(wp), parameter :: safe_share = 0.5_wp    !! of the shift, that no mode may grow beyond
   real(wp), parameter :: tolerance = 1.0e-11_wp !! of the eigenvalues, relative to the shift
   real(wp), parameter :: too_near = 1.0e-8_wp   !! a real part no larger leaves a determinant's sign open
@@ -160,7 +159,7 @@ contains
     PetscCallA(KSPSetOptionsPrefix(inner, prefix, ierr))
     call use_factors(inner, prefix, .false., dense_rows)
     PetscCallA(KSPSetFromOptions(inner, ierr))
-    shift = first_shift
+    shift = 1.0_wp ! their size where the film is stiff
     do attempt = 1, most_shifts
       call shift_matrix(stiffness, damping, shift, shifted)
       call factor_matrix(inner, shifted, sign_of_shifted, stability%enlargements)

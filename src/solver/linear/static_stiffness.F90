@@ -15,7 +15,7 @@ module gfb_static_stiffness
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_pad_contacts, only: set_lending
+  use gfb_pad_contacts, only: linearise_exactly
   use gfb_newton, only: newton_type, solve_with_factors
   use gfb_direct_solver, only: use_factors, make_factors
   use gfb_bearing_directions, only: edge_direction
@@ -46,7 +46,7 @@ contains
 
     stiffness = ieee_value(1.0_wp, ieee_quiet_nan)
     call bearing%settle(bearing%state, moved)
-    call linearise_exactly(bearing)
+    call linearise_exactly(bearing, bearing%shaft_fixed) ! regular, as the foils are fixed at an edge
     newton%factorizations = newton%factorizations + 1
     call create_solver(bearing, linear)
     PetscCallA(VecDuplicate(bearing%state, change, ierr))
@@ -62,16 +62,6 @@ contains
     PetscCallA(VecDestroy(change, ierr))
     PetscCallA(KSPDestroy(linear, ierr))
   end subroutine angular_stiffness
-
-  !> The bearing's matrix at its state, without what is lent to contacts that are open: that keeps
-  !> Newton's steps short, but is no derivative. The foils are fixed at an edge: it is regular.
-  subroutine linearise_exactly(bearing)
-    type(bearing_system_type), intent(inout) :: bearing
-
-    call set_lending(bearing, .false.)
-    call bearing%linearise(bearing%state)
-    call set_lending(bearing, .true.)
-  end subroutine linearise_exactly
 
   !> A direct solver of the bearing's matrix, with the orderings of Newton's method.
   subroutine create_solver(bearing, linear)

@@ -28,20 +28,20 @@ module gfb_period_map
   use gfb_time_march, only: march_type, begin_march, resume_march, take_step, end_march
   implicit none (type)
   private
-  public :: remembered_by, pack_springs, unpack_springs
+  public :: remembered_by, pack_springs, unpack_springs, create_map, rest_of, release, apply_map, dots, length_of, parameter_of, &
+            period_of, drive_at
 
   integer, parameter :: deflections = 1, dashpots = 2 !! what may be remembered
-
-  public :: create_map, rest_of, let_go, apply_map, dots, parameter_of, period_of, drive_at
-
   integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3 !! what the parameter is
-  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp), parameter, public :: pi = acos(-1.0_wp)
   integer, parameter :: planar = 2                      !! components of a place
   integer, parameter :: shaft_entries = 4*planar !! of a point: places, then velocities, now and one step ago
   integer, parameter, public :: tail = shaft_entries + 2 !! entries that every rank has; the last: period, parameter
 
   !> The map.
   type, public :: period_map_type
+    type(bearing_system_type), pointer :: bearing => null() !! whose shaft is free
+    type(newton_type), pointer :: newton => null()          !! its solver
     type(shaft_drive_type) :: drive  !! but for the parameter
     integer :: parameter = 0         !! `moved_speed`, ...; 0: none
     logical :: free = .false.        !! the period is an unknown; else it is that of turns
@@ -163,12 +163,15 @@ contains
   end function memory_of
 
   !> Sizes of the map's entries; the rest is given.
-  subroutine create_map(bearing, map)
-    type(bearing_system_type), intent(in) :: bearing !! whose shaft is free
+  subroutine create_map(bearing, newton, map)
+    type(bearing_system_type), target, intent(inout) :: bearing !! whose shaft is free
+    type(newton_type), target, intent(inout) :: newton !! its solver
     type(period_map_type), intent(inout) :: map !! with drive, steps and scales
     PetscInt :: owned, all
     PetscErrorCode :: ierr
 
+    map%bearing => bearing
+    map%newton => newton
     PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
     PetscCallA(VecGetSize(bearing%state, all, ierr))
     map%owned = int(owned)
@@ -184,25 +187,21 @@ contains
   end subroutine create_map
 
   !> The point at which the bearing rests in its present state.
-  function rest_of(map, bearing) result(x)
-    type(period_map_type), intent(in) :: map !! created
-    type(bearing_system_type), intent(in) :: bearing !! in equilibrium
+  function rest_of(map) result(x)
+    type(period_map_type), intent(in) :: map !! created, its bearing in equilibrium
     real(wp) :: x(map%local + tail) !! with the drive's parameter and the map's own period [1]
-    real(wp) :: unknown(bearing%local_size(), 2), speed
-    type(pad_history_type) :: rest(size(bearing%pad))
+    real(wp) :: unknown(map%bearing%local_size(), 2), speed
+    type(pad_history_type) :: rest(size(map%bearing%pad))
     integer :: i
 
-    call bearing%get_unknowns(unknown(:, 1))
+    call map%bearing%get_unknowns(unknown(:, 1))
     unknown(:, 2) = unknown(:, 1)
-    call pack_point(map, bearing, unknown, spread([0.0_wp, 0.0_wp], 2, 2), x)
-    if (map%springs > 0) then
-      do i = 1, size(bearing%pad)
-        associate (pad => bearing%pad(i))
-          call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i)%springs)
-        end associate
-      end do
-      call pack_springs(map%remembered, map%share/map%length, bearing, rest, x(map%local - map%springs + 1:map%local))
-    end if
+    do i = 1, merge(size(rest), 0, map%springs > 0)
+      associate (pad => map%bearing%pad(i))
+        call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i)%springs)
+      end associate
+    end do
+    call pack_point(map, unknown, spread([0.0_wp, 0.0_wp], 2, 2), rest, x)
     speed = map%drive%speed
     x(size(x) - 1) = 2.0_wp*pi*map%turns/speed/map%period_scale
     select case (map%parameter)
@@ -217,25 +216,23 @@ contains
     end select
   end function rest_of
 
-  !> Gives a point of rest the past of a shaft that is let go there, as a march over time has it.
-  subroutine let_go(map, bearing, x)
-    type(period_map_type), intent(in) :: map !! created
-    type(bearing_system_type), intent(inout) :: bearing !! in equilibrium, which is kept
+  !> Gives a point of rest the past of a shaft that is released there, as a march over time has it.
+  subroutine release(map, x)
+    type(period_map_type), intent(in) :: map !! created, its bearing in equilibrium, which is kept
     real(wp), intent(inout) :: x(:) !! that equilibrium [1]
     type(march_type) :: march
 
-    call begin_at(map, bearing, x, march)
+    call begin_at(map, x, march)
     associate (shaft => map%local)
       x(shaft + 3:shaft + 4) = x(shaft + 1:shaft + 2) + (march%place(:2, 2) - march%place(:2, 1))/map%length
       x(shaft + 7:shaft + 8) = march%velocity(:2, 2)/(map%length*map%clock)
     end associate
-    call end_march(march, bearing)
-  end subroutine let_go
+    call end_march(march, map%bearing)
+  end subroutine release
 
   !> Begins a march with what drives the shaft at a point, in the map's steps.
-  subroutine begin_at(map, bearing, x, march)
+  subroutine begin_at(map, x, march)
     type(period_map_type), intent(in) :: map
-    type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: x(:)
     type(march_type), intent(out) :: march
     type(march_settings_type) :: settings
@@ -245,7 +242,7 @@ contains
     settings = map%settings
     settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
     settings%end_time = huge(1.0_wp)
-    call begin_march(drive, settings, bearing, march)
+    call begin_march(drive, settings, map%bearing, march)
   end subroutine begin_at
 
   !> The parameter of a point.
@@ -284,10 +281,8 @@ contains
   !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
   !>
   !> A step that would have to be shortened has none: all steps are equal.
-  function apply_map(map, bearing, newton, x, y, keep) result(done)
-    type(period_map_type), intent(inout) :: map !! counts periods; gets the orbit
-    type(bearing_system_type), target, intent(inout) :: bearing !! left at the end of the period
-    type(newton_type), target, intent(inout) :: newton !! its solver
+  function apply_map(map, x, y, keep) result(done)
+    type(period_map_type), intent(inout) :: map !! counts periods; gets the orbit; its bearing is left at the end
     real(wp), intent(in) :: x(:)  !! the point [1]
     real(wp), intent(out) :: y(:) !! one period later [1]
     logical, intent(in) :: keep   !! the smallest gap of the orbit is wanted
@@ -295,7 +290,7 @@ contains
     type(march_type) :: march
     type(newton_report_type) :: report
     type(shaft_drive_type) :: drive
-    real(wp) :: unknown(bearing%local_size(), 2), velocity(2, 2)
+    real(wp) :: unknown(map%bearing%local_size(), 2), velocity(2, 2)
     integer :: i
 
     y = x
@@ -303,34 +298,34 @@ contains
     done = drive%speed > 0.0_wp .and. drive%mass > 0.0_wp .and. period_of(map, x) > 0.0_wp
     map%problem = 'speed, mass and period must be positive'
     if (.not. done) return
-    call unpack_point(map, bearing, x, unknown, velocity)
-    bearing%point%speed = drive%speed
-    call bearing%set_unknowns(unknown(:, 1))
-    call begin_at(map, bearing, x, march)
-    if (map%springs > 0) call unpack_springs(map%remembered, map%length/map%share, &
-                                             x(map%local - map%springs + 1:map%local), unknown, bearing, march%pad)
-    call resume_march(unknown, velocity, bearing, march)
-    map%periods = map%periods + 1
-    map%smallest_gap = huge(1.0_wp)
-    if (allocated(map%orbit)) deallocate (map%orbit)
-    allocate (map%orbit(planar, map%steps + 1))
-    map%orbit(:, 1) = march%place(:2, 1)
-    do i = 1, map%steps
-      call take_step(march, bearing, newton, report)
-      done = report%converged .and. march%rejections == 0
-      if (.not. done) exit
-      map%orbit(:, i + 1) = march%place(:2, 1)
-      if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
-    end do
-    if (done) then
-      call pack_point(map, bearing, march%unknown, march%velocity(:2, :), y)
-      if (map%springs > 0) call pack_springs(map%remembered, map%share/map%length, bearing, march%pad, &
-                                             y(map%local - map%springs + 1:map%local))
-    else
-      map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
-      if (.not. report%converged) map%problem = map%problem//': '//report%reason
-    end if
-    call end_march(march, bearing)
+    associate (bearing => map%bearing)
+      call unpack_point(map, x, unknown, velocity)
+      bearing%point%speed = drive%speed
+      call bearing%set_unknowns(unknown(:, 1))
+      call begin_at(map, x, march)
+      if (map%springs > 0) call unpack_springs(map%remembered, map%length/map%share, &
+                                               x(map%local - map%springs + 1:map%local), unknown, bearing, march%pad)
+      call resume_march(unknown, velocity, bearing, march)
+      map%periods = map%periods + 1
+      map%smallest_gap = huge(1.0_wp)
+      if (allocated(map%orbit)) deallocate (map%orbit)
+      allocate (map%orbit(planar, map%steps + 1))
+      map%orbit(:, 1) = march%place(:2, 1)
+      do i = 1, map%steps
+        call take_step(march, bearing, map%newton, report)
+        done = report%converged .and. march%rejections == 0
+        if (.not. done) exit
+        map%orbit(:, i + 1) = march%place(:2, 1)
+        if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
+      end do
+      if (done) then
+        call pack_point(map, march%unknown, march%velocity(:2, :), march%pad, y)
+      else
+        map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
+        if (.not. report%converged) map%problem = map%problem//': '//report%reason
+      end if
+      call end_march(march, bearing)
+    end associate
   end function apply_map
 
   !> Inner products of columns with a point, over all ranks.
@@ -347,18 +342,26 @@ contains
     product = product + matmul(x(many + 1:), columns(many + 1:, :))
   end function dots
 
+  !> Length of a point, over all ranks.
+  function length_of(map, x) result(length)
+    type(period_map_type), intent(in) :: map !! the map
+    real(wp), intent(in) :: x(:) !! (entries) [1]
+    real(wp) :: length !! [1]
+    length = sqrt(sum(dots(map, reshape(x, [size(x), 1]), x)))
+  end function length_of
+
   !> Unknowns and velocities, now and one step ago, and slips as entries of a point; period and parameter stay.
-  subroutine pack_point(map, bearing, unknown, velocity, x)
-    type(period_map_type), intent(in) :: map
-    type(bearing_system_type), intent(in) :: bearing !! left at the newest state
+  subroutine pack_point(map, unknown, velocity, history, x)
+    type(period_map_type), intent(in) :: map !! its bearing is left at the newest state
     real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) [SI]
     real(wp), intent(in) :: velocity(:, :) !! (2, 2) [m/s]
+    type(pad_history_type), intent(in) :: history(:) !! of all pads, what springs remember
     real(wp), intent(inout) :: x(:)
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
     integer :: k, first
 
-    associate (shaft => map%local)
+    associate (shaft => map%local, bearing => map%bearing)
       do k = 2, 1, -1
         call bearing%set_unknowns(unknown(:, k))
         PetscCallA(GFB_VecGetArrayRead(bearing%state, values, ierr))
@@ -368,10 +371,13 @@ contains
         x(shaft + 2*k + 3:shaft + 2*k + 4) = velocity(:, k)/(map%length*map%clock)
       end do
     end associate
+    if (map%springs > 0) then
+      call pack_springs(map%remembered, map%share/map%length, map%bearing, history, x(map%local - map%springs + 1:map%local))
+    end if
     if (map%slips == 0) return
     first = 2*map%owned
-    do k = 1, size(bearing%pad)
-      associate (contacts => bearing%pad(k)%foil%contacts)
+    do k = 1, size(map%bearing%pad)
+      associate (contacts => map%bearing%pad(k)%foil%contacts)
         x(first + 1:first + slip_entries*size(contacts%point)) = map%share/map%length*slips_of(contacts)
         first = first + slip_entries*size(contacts%point)
       end associate
@@ -379,9 +385,8 @@ contains
   end subroutine pack_point
 
   !> The reverse. The sleeve's place is that of the last entries.
-  subroutine unpack_point(map, bearing, x, unknown, velocity)
-    type(period_map_type), intent(in) :: map
-    type(bearing_system_type), intent(inout) :: bearing !! its state and its contacts are overwritten
+  subroutine unpack_point(map, x, unknown, velocity)
+    type(period_map_type), intent(in) :: map !! its bearing's state and contacts are overwritten
     real(wp), intent(in) :: x(:)
     real(wp), intent(out) :: unknown(:, :) !! (local unknowns, 2) [SI]
     real(wp), intent(out) :: velocity(:, :) !! (2, 2) [m/s]
@@ -389,7 +394,7 @@ contains
     PetscErrorCode :: ierr
     integer :: k, first
 
-    associate (shaft => map%local)
+    associate (shaft => map%local, bearing => map%bearing)
       do k = 1, 2
         PetscCallA(GFB_VecGetArray(bearing%state, values, ierr))
         values(:map%owned) = x((k - 1)*map%owned + 1:k*map%owned)/map%share
@@ -401,8 +406,8 @@ contains
     end associate
     if (map%slips == 0) return
     first = 2*map%owned
-    do k = 1, size(bearing%pad)
-      associate (pad => bearing%pad(k), many => slip_entries*size(bearing%pad(k)%foil%contacts%point))
+    do k = 1, size(map%bearing%pad)
+      associate (pad => map%bearing%pad(k), many => slip_entries*size(map%bearing%pad(k)%foil%contacts%point))
         call put_slips(x(first + 1:first + many)*map%length/map%share, &
                        pad%foil%own_part(unknown(pad%first + 1:pad%last, 1)), pad%foil%contacts)
         first = first + many

@@ -16,13 +16,11 @@ module gfb_shooting
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_linear_solve, only: solve_general
-  use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type
-  use gfb_period_map, only: period_map_type, apply_map, dots, tail, period_of, drive_at, parameter_of
+  use gfb_period_map, only: period_map_type, apply_map, dots, length_of, pi, tail, period_of, drive_at, parameter_of
   use gfb_shaft_drive, only: shaft_drive_type
   implicit none (type)
   private
-  public :: find_eigenvalues, shoot, learn_map, model_step
+  public :: find_eigenvalues, shoot, find_monodromy, model_step, find_onset, fixed_parameter
 
   interface
     !> LAPACK: eigenvalues and eigenvectors of a general matrix.
@@ -67,9 +65,6 @@ module gfb_shooting
     complex(wp), allocatable :: vector(:, :) !! (entries, values), of length 1 [1]
   end type floquet_type
 
-  public :: find_onset, fixed_parameter
-
-  real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: visible = 0.02_wp  !! multiplier of a mode that is looked at [1]
   real(wp), parameter :: slow = 0.05_wp     !! whirl over the speed that is none [1]
   real(wp), parameter :: neutral = 1.0e-7_wp !! growth over the speed that is none [1]
@@ -125,10 +120,8 @@ contains
   end subroutine find_eigenvalues
 
   !> From a point near an orbit to the orbit; `.false.` where none is found.
-  function shoot(map, bearing, newton, condition, derivative, x, y, iterations) result(found)
+  function shoot(map, condition, derivative, x, y, iterations) result(found)
     type(period_map_type), intent(inout) :: map !! the map
-    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
-    type(newton_type), target, intent(inout) :: newton !! its solver
     type(condition_type), intent(in) :: condition !! that close the system
     type(derivative_type), intent(inout) :: derivative !! learns from each iteration
     real(wp), intent(inout) :: x(:) !! the point, then the orbit [1]
@@ -144,14 +137,14 @@ contains
     before = 0.0_wp
     halvings = 0
     do iterations = 1, most_iterations
-      if (apply_map(map, bearing, newton, x, y, .true.)) then
+      if (apply_map(map, x, y, .true.)) then
         if (iterations > 1) call learn_step(map, step, y - step_free(before, x, y), derivative)
         opened = open
         open = opening(map, condition, x, y)
         found = open < merge(nearly, closed, map%parameter > 0 .or. open > round_off*opened)
         if (found) return
         call model_step(map, derivative, y - x, condition%row, condition%value - dots(map, condition%row, x), step)
-        size_of_step = sqrt(sum(dots(map, reshape(step, [size(step), 1]), step)))
+        size_of_step = length_of(map, step)
         if (.not. size_of_step < huge(1.0_wp)) return
         if (size_of_step > longest) step = step*longest/size_of_step
         before = y
@@ -183,7 +176,7 @@ contains
     real(wp), intent(in) :: x(:), y(:)
     real(wp) :: open
 
-    open = sqrt(sum(dots(map, reshape(y - x, [size(x), 1]), y - x)))
+    open = length_of(map, y - x)
     open = max(open, maxval(abs(condition%value - dots(map, condition%row, x))))
   end function opening
 
@@ -198,13 +191,13 @@ contains
     real(wp), allocatable :: share(:)
     integer :: i
 
-    all = sqrt(sum(dots(map, column(step), step)))
+    all = length_of(map, step)
     if (.not. all > 0.0_wp) return
     outside = step
     do i = 1, 2
       outside = outside - matmul(derivative%basis, dots(map, derivative%basis, outside))
     end do
-    length = sqrt(sum(dots(map, column(outside), outside)))
+    length = length_of(map, outside)
     if (length > new*all) call add_column(outside/length, 0.0_wp*outside, derivative)
     share = dots(map, derivative%basis, step)/all
     missing = change/all - matmul(derivative%image, share)
@@ -212,13 +205,6 @@ contains
       derivative%image(:, i) = derivative%image(:, i) + missing*share(i)
     end do
   end subroutine learn_step
-
-  !> A point as a matrix of one column.
-  pure function column(x)
-    real(wp), intent(in) :: x(:)
-    real(wp) :: column(size(x), 1)
-    column(:, 1) = x
-  end function column
 
   !> One more direction and what it is mapped to.
   subroutine add_column(direction, image, derivative)
@@ -271,11 +257,9 @@ contains
     step(last - 1:) = right(many + 1:)
   end subroutine model_step
 
-  !> Learns the map's derivative at an orbit, and its multipliers; `.false.` where the map fails beside it.
-  function learn_map(map, bearing, newton, x, y, derivative, floquet) result(done)
+  !> The map's derivative at an orbit, from nothing, and its multipliers; `.false.` where the map fails beside it.
+  function find_monodromy(map, x, y, derivative, floquet) result(done)
     type(period_map_type), intent(inout) :: map !! the map
-    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
-    type(newton_type), target, intent(inout) :: newton !! its solver
     real(wp), intent(in) :: x(:) !! the orbit [1]
     real(wp), intent(in) :: y(:) !! what it is mapped to [1]
     type(derivative_type), intent(out) :: derivative !! from nothing
@@ -291,7 +275,7 @@ contains
     direction(size(x) - tail + 1:size(x) - 2) = [1.0_wp, 0.5_wp, 1.0_wp, 0.5_wp, 0.3_wp, -0.4_wp, 0.3_wp, -0.4_wp]
     direction = direction/norm2(direction)
     do k = 1, most_basis
-      done = image_of(map, bearing, newton, x, y, direction, image)
+      done = image_of(map, x, y, direction, image)
       if (.not. done) return
       call add_column(direction, image, derivative)
       direction = image
@@ -300,7 +284,7 @@ contains
         inner(:k, k) = inner(:k, k) + share
         direction = direction - matmul(derivative%basis, share)
       end do
-      length = sqrt(sum(dots(map, column(direction), direction)))
+      length = length_of(map, direction)
       call find_multipliers(derivative, inner(:k, :k), length, floquet, beside)
       if (k >= least_basis .and. beside < settled .or. .not. length > difference) exit
       if (k == most_basis) exit
@@ -312,22 +296,20 @@ contains
       if (entry == size(x) .and. map%parameter == 0) cycle
       direction = 0.0_wp
       direction(entry) = 1.0_wp
-      done = image_of(map, bearing, newton, x, y, direction, image)
+      done = image_of(map, x, y, direction, image)
       if (.not. done) return
       call add_column(direction, image, derivative)
     end do
-  end function learn_map
+  end function find_monodromy
 
   !> What a direction is mapped to, by a difference of the map.
-  function image_of(map, bearing, newton, x, y, direction, image) result(done)
+  function image_of(map, x, y, direction, image) result(done)
     type(period_map_type), intent(inout) :: map
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     real(wp), intent(in) :: x(:), y(:), direction(:)
     real(wp), intent(out) :: image(:)
     logical :: done
 
-    done = apply_map(map, bearing, newton, x + difference*direction, image, .false.)
+    done = apply_map(map, x + difference*direction, image, .false.)
     image = (image - y)/difference
     image(size(x) - 1:) = 0.0_wp
   end function image_of
@@ -362,10 +344,8 @@ contains
   end function fixed_parameter
 
   !> The first value of the parameter, from that of a point on, at which the growth of its equilibrium changes its sign.
-  function find_onset(map, bearing, newton, x, final_value, onset) result(found)
+  function find_onset(map, x, final_value, onset) result(found)
     type(period_map_type), intent(inout) :: map !! of one turn, not free
-    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
-    type(newton_type), target, intent(inout) :: newton !! its solver
     real(wp), intent(in) :: x(:) !! equilibrium, to begin with [1]
     real(wp), intent(in) :: final_value !! of the parameter [its unit]
     type(whirl_type), intent(out) :: onset
@@ -374,11 +354,11 @@ contains
     real(wp) :: way, share
     integer :: i
 
-    found = look_at(map, bearing, newton, x, parameter_of(map, x), low)
+    found = look_at(map, x, parameter_of(map, x), low)
     if (.not. found) return
     way = (final_value - parameter_of(map, x))/stretches
     do i = 1, stretches
-      found = look_at(map, bearing, newton, low%x, parameter_of(map, low%x) + way, high)
+      found = look_at(map, low%x, parameter_of(map, low%x) + way, high)
       if (.not. found) return
       if ((low%growth > 0.0_wp) .neqv. (high%growth > 0.0_wp)) exit
       low = high
@@ -388,7 +368,7 @@ contains
     if (.not. found) return
     do i = 1, most_trials
       share = low%growth/(low%growth - high%growth)
-      found = look_at(map, bearing, newton, low%x, (1.0_wp - share)*parameter_of(map, low%x) &
+      found = look_at(map, low%x, (1.0_wp - share)*parameter_of(map, low%x) &
                       + share*parameter_of(map, high%x), trial)
       if (.not. found) return
       trial%slope = sign(1.0_wp, (high%growth - low%growth)*(parameter_of(map, high%x) - parameter_of(map, low%x)))
@@ -399,15 +379,13 @@ contains
         high = trial
       end if
     end do
-    found = refine(map, bearing, newton, (high%growth - low%growth)/(parameter_of(map, high%x) - parameter_of(map, low%x)), trial)
+    found = refine(map, (high%growth - low%growth)/(parameter_of(map, high%x) - parameter_of(map, low%x)), trial)
     onset = trial
   end function find_onset
 
   !> The onset again in steps of which whole ones are a period of the whirl: those of its limit cycles.
-  function refine(map, bearing, newton, slope, onset) result(found)
+  function refine(map, slope, onset) result(found)
     type(period_map_type), intent(inout) :: map !! gets the steps of that period
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     real(wp), intent(in) :: slope !! of the growth over the parameter
     type(whirl_type), intent(inout) :: onset
     logical :: found
@@ -424,7 +402,7 @@ contains
       steps = steps_of_turn*drive%speed/onset%frequency
       map%stretch = steps/nint(steps)
       if (i == times) exit
-      found = look_at(map, bearing, newton, onset%x, parameter_of(map, onset%x) - merge(0.0_wp, onset%growth/slope, i == 0), trial)
+      found = look_at(map, onset%x, parameter_of(map, onset%x) - merge(0.0_wp, onset%growth/slope, i == 0), trial)
       if (.not. found) return
       trial%slope = onset%slope
       onset = trial
@@ -434,10 +412,8 @@ contains
   end function refine
 
   !> The equilibrium at a value of the parameter, and its least damped mode.
-  function look_at(map, bearing, newton, x, value, whirl) result(found)
+  function look_at(map, x, value, whirl) result(found)
     type(period_map_type), intent(inout) :: map
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     real(wp), intent(in) :: x(:) !! an equilibrium near by
     real(wp), intent(in) :: value !! [its unit]
     type(whirl_type), intent(out) :: whirl
@@ -452,9 +428,9 @@ contains
     whirl%x(size(x)) = value/map%parameter_scale
     condition = fixed_parameter(whirl%x)
     allocate (derivative%basis(size(x), 0), derivative%image(size(x), 0))
-    found = shoot(map, bearing, newton, condition, derivative, whirl%x, y, periods)
+    found = shoot(map, condition, derivative, whirl%x, y, periods)
     if (.not. found) return
-    found = learn_map(map, bearing, newton, whirl%x, y, derivative, floquet)
+    found = find_monodromy(map, whirl%x, y, derivative, floquet)
     if (.not. found) return
     call take_mode(map, floquet, whirl)
     found = whirl%frequency > 0.0_wp

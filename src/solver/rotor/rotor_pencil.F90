@@ -47,6 +47,8 @@ module gfb_rotor_pencil
   !> A u of its own.
   type, public :: share_type
     type(bearing_system_type), pointer :: bearing => null()
+    type(dynamic_response_type), pointer :: response => null() !! of it
+    integer :: part = 1 !! of the response
     type(complex_factors_type), pointer :: factors => null() !! of J + sigma E
     logical, pointer :: kept(:) => null() !! owned unknowns that its motions have
     integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; those of u
@@ -74,15 +76,9 @@ module gfb_rotor_pencil
     real(wp) :: foil_share = 0.0_wp     !! of the foil, 0 .. 1 [1]
   end type pencil_mode_type
 
-  !> A share with the response that it is of.
-  type, extends(share_type) :: linked_share_type
-    type(dynamic_response_type), pointer :: response => null()
-    integer :: part = 1 !! of the response
-  end type linked_share_type
-
   !> What the product needs.
   type :: pencil_type
-    type(linked_share_type), allocatable :: share(:)
+    type(share_type), allocatable :: share(:)
     real(wp) :: motion(journal_motions, planar) = 0.0_wp !! T
     real(wp) :: shift = 0.0_wp                !! sigma [1/s]
     type(rotor_scale_type) :: scale
@@ -131,14 +127,14 @@ contains
 
   !> Entries of a vector on this rank that belong to a share.
   elemental function entries_of(share) result(entries)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     integer :: entries
     entries = share%entries*merge(2, 1, share%has_mass)
   end function entries_of
 
   !> Solves with J + sigma E of a part.
   subroutine solve_film(share, right, answer)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: right, answer !! scaled
     Vec :: imaginary_part
     PetscErrorCode :: ierr
@@ -154,7 +150,7 @@ contains
 
   !> Adds m (w + sigma u).
   subroutine add_momentum(share, shift, x, film, sum)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     real(wp), intent(in) :: shift !! sigma [1/s]
     Vec, intent(in) :: x, film, sum !! a vector, its u, and what is added to
     PetscErrorCode :: ierr
@@ -167,7 +163,7 @@ contains
 
   !> The rates of a product: sigma times its u less the u that it is of.
   subroutine put_rates(share, shift, x, film, y)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     real(wp), intent(in) :: shift !! sigma [1/s]
     Vec, intent(in) :: x, film, y !! a vector, the product's u, and the product
     PetscErrorCode :: ierr
@@ -179,7 +175,7 @@ contains
 
   !> A part's film and foil out of a vector.
   subroutine take_film(share, x, film, behind)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: x, film !! the vector, and what is taken
     integer, intent(in), optional :: behind !! entries of u: its rates
     PetscScalar, pointer :: values(:), own(:)
@@ -197,7 +193,7 @@ contains
 
   !> The reverse.
   subroutine put_film(share, film, x, behind)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: film, x !! what is put, and the vector
     integer, intent(in), optional :: behind !! entries of u: its rates
     PetscScalar, pointer :: values(:), own(:)
@@ -217,7 +213,7 @@ contains
   !> \( \overline{(p'/p_a)^2} \); of the foil, strain and, over the square of the rate, kinetic energy,
   !> \( u^T K u \) and \( u^T M u \) [s2] over p_a C A.
   function energies_of(share, x) result(energies)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: x !! the vector
     real(wp) :: energies(3), sums(2), unit, value(share%bearing%local_size()) !! [1], [1], [s2]
     PetscErrorCode :: ierr
@@ -251,7 +247,7 @@ contains
 
   !> p_a C A of the whole bearing [J].
   function energy_unit(share) result(unit)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     real(wp) :: unit !! [J]
     real(wp) :: area(1)
     integer :: i, k
@@ -271,7 +267,7 @@ contains
   !> Values without any order in a vector, the same in each run: multiples of the golden ratio, less their integers. No
   !> mode lacks them, as one of a part of the foil that touches nothing lacks pressures.
   subroutine start_film(share, x)
-    class(share_type), intent(in) :: share !! film and foil of one bearing
+    type(share_type), intent(in) :: share !! film and foil of one bearing
     Vec, intent(in) :: x !! the vector
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
     PetscScalar, pointer :: values(:)
@@ -287,7 +283,7 @@ contains
 
   !> Leaves a bearing's motion of the foil alone.
   subroutine keep_foil(share, film)
-    class(share_type), intent(in) :: share
+    type(share_type), intent(in) :: share
     Vec, intent(in) :: film
     PetscScalar, pointer :: values(:), weight(:)
     PetscErrorCode :: ierr
@@ -301,7 +297,7 @@ contains
 
   !> Where the foil's displacements stand, with the sizes of unknowns and equations.
   subroutine weigh_foil(share)
-    class(share_type), intent(inout) :: share !! film and foil of one bearing
+    type(share_type), intent(inout) :: share !! film and foil of one bearing
     real(wp) :: value(share%bearing%local_size())
     logical :: of_foil(size(value))
     PetscErrorCode :: ierr
@@ -387,7 +383,7 @@ contains
     type(bearing_system_type), target, intent(in) :: bearing
     type(dynamic_response_type), target, intent(inout) :: response
     integer, intent(in) :: number !! of the response's part
-    type(linked_share_type), intent(inout) :: share
+    type(share_type), intent(inout) :: share
     PetscInt :: entries
     PetscErrorCode :: ierr
     integer :: i, k

@@ -55,8 +55,6 @@ module gfb_march_state
     Vec :: state(kept_times) !! scaled, now and before, with all their digits
   contains
     procedure :: turns
-    procedure :: outer_load
-    procedure :: outer_torque
     procedure :: way_in_bearings
   end type march_type
 
@@ -172,20 +170,6 @@ contains
     real(wp) :: number !! [1]
     number = self%drive%angle_at(self%time)/(2.0_wp*pi)
   end function turns
-
-  !> The outer forces at the present time [N].
-  pure function outer_load(self) result(load)
-    class(march_type), intent(in) :: self !! the march
-    real(wp) :: load(2)
-    load = self%drive%load_at(self%time)
-  end function outer_load
-
-  !> The outer torques at the present time [N m].
-  pure function outer_torque(self) result(torque)
-    class(march_type), intent(in) :: self !! the march
-    real(wp) :: torque(2)
-    torque = self%drive%torque_at(self%time)
-  end function outer_torque
 
   !> Saves or restores all but what follows from the states, and fields.
   pure subroutine visit_march(archive, march)

@@ -23,11 +23,12 @@ module gfb_time_march
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
                              place_ahead, error_of, visit_march
   use gfb_operating_point, only: operating_point_type
+  use gfb_contacts_in_motion, only: set_contacts_moving, take_over_friction
   use gfb_bearing_system, only: bearing_system_type, bearing_order
   use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
   private
-  public :: march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past
+  public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
@@ -35,6 +36,24 @@ module gfb_time_march
   real(wp), parameter :: unit(2, 2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
 
 contains
+
+  !> Friction of foils that begin to move: all contacts rub as motions have it from now on; what they rub with stays as it is.
+  subroutine begin_rubbing(bearing, goes_on)
+    type(bearing_system_type), intent(inout) :: bearing !! at rest, or where a restart file has left it
+    logical, intent(in) :: goes_on !! its contacts remember what they did in motion
+    real(wp) :: unknown(bearing%local_size())
+    integer :: i
+
+    if (.not. bearing%is_meshed()) return
+    call bearing%get_unknowns(unknown)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call set_contacts_moving(pad%foil%contacts)
+        if (goes_on) cycle
+        call take_over_friction(pad%foil%own_part(unknown(pad%first + 1:pad%last)), pad%foil%contacts)
+      end associate
+    end do
+  end subroutine begin_rubbing
 
   !> Begins at rest: the present state has been there before.
   subroutine begin_march(drive, settings, bearing, march)

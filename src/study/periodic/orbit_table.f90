@@ -8,6 +8,7 @@ module gfb_orbit_table
 
   integer, parameter :: columns = 13
   integer, parameter, public :: leading = 4 !! multipliers that are kept
+  integer, parameter, public :: in_period = 4, in_ratio = 5, in_gap = 10, in_largest = 11 !! columns of these
   character(len=*), parameter :: names(columns) = [character(len=18) :: &
     'speed', 'unbalance', 'mass', 'period', 'frequency_ratio', 'orbit_x', 'orbit_y', 'center_x', &
     'center_y', &
@@ -27,11 +28,6 @@ module gfb_orbit_table
     real(wp) :: value(columns) = 0.0_wp        !! by `names` [SI]
     complex(wp) :: multiplier(leading) = 0.0_wp !! the largest first [1]
     real(wp), allocatable :: place(:, :)       !! (2, steps + 1) of the sleeve over the period [m]
-  contains
-    procedure :: period
-    procedure :: frequency_ratio
-    procedure :: smallest_gap
-    procedure :: largest
   end type orbit_type
 
   !> The orbits so far.
@@ -43,34 +39,6 @@ module gfb_orbit_table
   end type orbit_table_type
 
 contains
-
-  !> Its period.
-  pure function period(self)
-    class(orbit_type), intent(in) :: self !! the orbit
-    real(wp) :: period !! [s]
-    period = self%value(4)
-  end function period
-
-  !> Its frequency over the speed.
-  pure function frequency_ratio(self) result(ratio)
-    class(orbit_type), intent(in) :: self !! the orbit
-    real(wp) :: ratio !! [1]
-    ratio = self%value(5)
-  end function frequency_ratio
-
-  !> Its smallest film.
-  pure function smallest_gap(self) result(gap)
-    class(orbit_type), intent(in) :: self !! the orbit
-    real(wp) :: gap !! [m]
-    gap = self%value(10)
-  end function smallest_gap
-
-  !> Size of the multiplier that judges it.
-  pure function largest(self)
-    class(orbit_type), intent(in) :: self !! the orbit
-    real(wp) :: largest !! [1]
-    largest = self%value(11)
-  end function largest
 
   !> Adds an orbit.
   subroutine add_orbit(self, orbit)

@@ -9,23 +9,21 @@ module gfb_periodic
   use gfb_periodic_case, only: motion_free, follow_speed, follow_unbalance, follow_mass
   use gfb_bearing_system, only: bearing_system_type
   use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass, drive_at, &
-                            period_of, rest_of, let_go, apply_map, dots, tail
+                            period_of, rest_of, release, apply_map, dots, length_of, pi, tail
   use gfb_shaft_drive, only: shaft_drive_type
-  use gfb_shooting, only: floquet_type, shoot, learn_map, model_step, derivative_type, condition_type, conditions, whirl_type, &
+  use gfb_shooting, only: floquet_type, shoot, find_monodromy, model_step, derivative_type, condition_type, conditions, whirl_type, &
                           find_onset, fixed_parameter
-  use gfb_orbit_table, only: orbit_type, extent_of, leading, orbit_table_type
+  use gfb_orbit_table, only: orbit_type, extent_of, leading, in_period, in_ratio, in_gap, in_largest, orbit_table_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_newton, only: newton_type
-  use gfb_moving_friction, only: begin_rubbing
+  use gfb_time_march, only: begin_rubbing
   use gfb_case_file, only: case_array_type
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
-
-  real(wp), parameter :: pi = acos(-1.0_wp)
 
   real(wp), parameter :: micro = 1.0e6_wp
   real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
@@ -65,9 +63,10 @@ module gfb_periodic
 contains
 
   !> The map of a scene, and the bounds of its parameter.
-  subroutine set_map(scene, bearing, map, bounds)
+  subroutine set_map(scene, bearing, newton, map, bounds)
     type(scene_type), intent(in) :: scene !! with `&periodic`
-    type(bearing_system_type), intent(in) :: bearing !! whose shaft is free
+    type(bearing_system_type), target, intent(inout) :: bearing !! whose shaft is free
+    type(newton_type), target, intent(inout) :: newton !! its solver
     type(period_map_type), intent(out) :: map !! created
     real(wp), intent(out) :: bounds(2) !! of the parameter of a point: begin, end [1]
     real(wp) :: final
@@ -103,7 +102,7 @@ contains
     end associate
     map%parameter_scale = abs(bounds(2) - bounds(1))
     bounds = bounds/map%parameter_scale
-    call create_map(bearing, map)
+    call create_map(bearing, newton, map)
   end subroutine set_map
 
   !> The parameter at an orbit, in words.
@@ -217,9 +216,9 @@ contains
 
     words = 'orbit '//text(extent_of(orbit%place(1, :))*micro, 4)//' x '//text(extent_of(orbit%place(2, :))*micro, 4)// &
             ' um, over C '//text(extent_of(orbit%place(1, :))/clearance, 3)//', frequency ratio ' &
-            //text(orbit%frequency_ratio(), 6)//', smallest film '//text(orbit%smallest_gap()*micro, 4)// &
+            //text(orbit%value(in_ratio), 6)//', smallest film '//text(orbit%value(in_gap)*micro, 4)// &
             ' um'
-    if (.not. ieee_is_nan(orbit%largest())) words = words//', largest multiplier '//text(orbit%largest(), 5)
+    if (.not. ieee_is_nan(orbit%value(in_largest))) words = words//', largest multiplier '//text(orbit%value(in_largest), 5)
     if (loss /= '') words = words//': unstable, '//loss
   end function words_of
 
@@ -242,14 +241,14 @@ contains
     self%lacking = ''
     self%loss = ''
     call begin_rubbing(bearing, .false.)
-    call set_map(scene, bearing, self%map, self%bounds)
-    self%x = rest_of(self%map, bearing)
+    call set_map(scene, bearing, newton, self%map, self%bounds)
+    self%x = rest_of(self%map)
     if (scene%periodic%motion == motion_free) then
-      found = self%begin_free(scene, context, bearing, newton)
+      found = self%begin_free(scene, context)
     else
-      found = self%begin_forced(scene, context, bearing, newton)
+      found = self%begin_forced(scene, context)
     end if
-    if (found .and. self%map%parameter > 0) call self%follow(scene, context, bearing, newton)
+    if (found .and. self%map%parameter > 0) call self%follow(scene, context)
     if (stop_agreed()) then
       reason%code = reason_stopped
       reason%detail = stop_words()//' after '//text(self%map%periods)//' periods'
@@ -259,7 +258,7 @@ contains
       call context%log%tell(reason%words())
     else
       allocate (y(size(self%x)))
-      found = apply_map(self%map, bearing, newton, self%x, y, .true.) ! the bearing's state is of the orbit again
+      found = apply_map(self%map, self%x, y, .true.) ! the bearing's state is of the orbit again
       if (self%lacking /= '') then
         reason%code = reason_not_reached
         reason%detail = 'not reached: '//self%lacking//': '//self%ending
@@ -273,12 +272,10 @@ contains
   end subroutine run_periodic
 
   !> The first forced orbit: some periods from rest, then Newton's method.
-  function begin_forced(self, scene, context, bearing, newton) result(found)
+  function begin_forced(self, scene, context) result(found)
     class(periodic_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     logical :: found
     type(floquet_type) :: floquet
     type(condition_type) :: condition
@@ -286,32 +283,30 @@ contains
     integer :: i, iterations
 
     condition = fixed_parameter(self%x)
-    call let_go(self%map, bearing, self%x)
+    call release(self%map, self%x)
     found = .true.
     do i = 1, scene%periodic%start_turns
-      found = apply_map(self%map, bearing, newton, self%x, y, .false.)
+      found = apply_map(self%map, self%x, y, .false.)
       if (.not. found) return
       self%x = y
     end do
-    found = apply_map(self%map, bearing, newton, self%x, y, .false.)
-    if (found) found = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
-    if (found) found = shoot(self%map, bearing, newton, condition, self%derivative, self%x, y, iterations)
-    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+    found = apply_map(self%map, self%x, y, .false.)
+    if (found) found = find_monodromy(self%map, self%x, y, self%derivative, floquet)
+    if (found) found = shoot(self%map, condition, self%derivative, self%x, y, iterations)
+    if (found) found = self%keep_orbit(scene, context, y, iterations)
     if (.not. found .or. self%map%parameter == 0) return
     none = 0.0_wp
     allocate (self%way(size(self%x)))
     call model_step(self%map, self%derivative, none, condition%row, [0.0_wp, self%bounds(2) - self%bounds(1)], self%way)
-    self%way = self%way/sqrt(sum(dots(self%map, reshape(self%way, [size(self%way), 1]), self%way)))
+    self%way = self%way/length_of(self%map, self%way)
     self%bend = 0.0_wp*self%way
   end function begin_forced
 
   !> The first limit cycle: a small one along the mode at the onset of whirl.
-  function begin_free(self, scene, context, bearing, newton) result(found)
+  function begin_free(self, scene, context) result(found)
     class(periodic_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     logical :: found
     type(shaft_drive_type) :: drive
     type(floquet_type) :: floquet
@@ -319,7 +314,7 @@ contains
     real(wp) :: y(size(self%x))
     integer :: iterations
 
-    found = find_onset(self%map, bearing, newton, self%x, self%bounds(2)*self%map%parameter_scale, self%onset)
+    found = find_onset(self%map, self%x, self%bounds(2)*self%map%parameter_scale, self%onset)
     if (.not. found) return
     self%x = self%onset%x
     drive = drive_at(self%map, self%x)
@@ -328,19 +323,19 @@ contains
     self%map%free = .true.
     self%map%period_scale = 2.0_wp*pi/self%onset%frequency
     self%x(size(self%x) - 1) = 1.0_wp
-    found = apply_map(self%map, bearing, newton, self%x, y, .true.)
-    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, 0)
+    found = apply_map(self%map, self%x, y, .true.)
+    if (found) found = self%keep_orbit(scene, context, y, 0)
     if (.not. found) return
     allocate (condition%row(size(self%x), conditions))
     condition%row(:, 1) = aimag(self%onset%mode)
     condition%row(:, 2) = real(self%onset%mode)
-    self%way = real(self%onset%mode)/sqrt(sum(dots(self%map, condition%row(:, 2:), condition%row(:, 2))))
+    self%way = real(self%onset%mode)/length_of(self%map, condition%row(:, 2))
     self%x = self%x + scene%periodic%first_amplitude*real(self%onset%mode)
     condition%value = dots(self%map, condition%row, self%x)
-    found = apply_map(self%map, bearing, newton, self%x, y, .false.)
-    if (found) found = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
-    if (found) found = shoot(self%map, bearing, newton, condition, self%derivative, self%x, y, iterations)
-    if (found) found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+    found = apply_map(self%map, self%x, y, .false.)
+    if (found) found = find_monodromy(self%map, self%x, y, self%derivative, floquet)
+    if (found) found = shoot(self%map, condition, self%derivative, self%x, y, iterations)
+    if (found) found = self%keep_orbit(scene, context, y, iterations)
     if (.not. found) return
     associate (first => self%table%orbit(2))
       self%first_extent = extent_of(first%place(1, :)) + extent_of(first%place(2, :))
@@ -360,7 +355,7 @@ contains
     row(:, 2) = self%way
     none = 0.0_wp
     call model_step(self%map, self%derivative, none, row, [0.0_wp, 1.0_wp], next)
-    next = next/sqrt(sum(dots(self%map, reshape(next, [size(next), 1]), next)))
+    next = next/length_of(self%map, next)
     if (next(size(next))*self%way(size(next)) < 0.0_wp .and. size(self%table%orbit) > 2) self%folds = self%folds + 1
     if (taken > 0.0_wp) self%bend = (next - self%way)/taken
     self%way = next
@@ -382,16 +377,14 @@ contains
       row(shaft + 1:shaft + 2) = x(shaft + 1:shaft + 2) - x(shaft + 3:shaft + 4)
       row(shaft + 5:shaft + 6) = x(shaft + 5:shaft + 6) - x(shaft + 7:shaft + 8)
     end associate
-    row = row/sqrt(sum(dots(self%map, reshape(row, [size(row), 1]), row)))
+    row = row/length_of(self%map, row)
   end function phase
 
   !> From orbit to orbit by arc length, until the parameter has come to one of its bounds.
-  subroutine follow(self, scene, context, bearing, newton)
+  subroutine follow(self, scene, context)
     class(periodic_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
     type(condition_type) :: condition
     type(derivative_type) :: learnt
     real(wp) :: x(size(self%x)), y(size(self%x)), step, taken
@@ -411,7 +404,7 @@ contains
       condition%value = dots(self%map, condition%row, x)
       if (.not. at_bound) x = x + 0.5_wp*taken**2*self%bend
       learnt = self%derivative
-      found = shoot(self%map, bearing, newton, condition, learnt, x, y, iterations)
+      found = shoot(self%map, condition, learnt, x, y, iterations)
       if (stop_agreed()) return
       if (found) then
         if (self%map%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
@@ -423,7 +416,7 @@ contains
       end if
       if (found) then
         call swap(self%x, x)
-        found = self%keep_orbit(scene, context, bearing, newton, y, iterations)
+        found = self%keep_orbit(scene, context, y, iterations)
         if (.not. found) call swap(self%x, x)
       end if
       if (found) then
@@ -455,7 +448,7 @@ contains
     real(wp) :: off(size(x))
 
     off = x - self%x - taken*self%way
-    near = sqrt(sum(dots(self%map, reshape(off, [size(off), 1]), off))) < max(taken, 1.0e-3_wp)
+    near = length_of(self%map, off) < max(taken, 1.0e-3_wp)
     if (.not. near) self%map%problem = 'the orbit found is on another branch'
   end function is_near
 
@@ -473,12 +466,10 @@ contains
   end function is_small
 
   !> Learns the map at an orbit that was found, and keeps the orbit; `.false.` where the map fails beside it.
-  function keep_orbit(self, scene, context, bearing, newton, y, iterations) result(done)
+  function keep_orbit(self, scene, context, y, iterations) result(done)
     class(periodic_type), intent(inout) :: self !! at the orbit
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
-    type(bearing_system_type), target, intent(inout) :: bearing !! what is mapped
-    type(newton_type), target, intent(inout) :: newton !! its solver
     real(wp), intent(in) :: y(:) !! what the orbit is mapped to [1]
     integer, intent(in) :: iterations !! that found it
     logical :: done
@@ -493,7 +484,7 @@ contains
     if (self%map%rubs) then ! differences of the map tell of one side of a contact's stick and slip alone
       allocate (floquet%value(0))
     else
-      done = learn_map(self%map, bearing, newton, self%x, y, self%derivative, floquet)
+      done = find_monodromy(self%map, self%x, y, self%derivative, floquet)
     end if
     if (.not. done) return
     neutral = 0
@@ -501,7 +492,7 @@ contains
     call judge_orbit(self%map, self%x, gap, floquet, neutral, orbit, self%loss)
     if (neutral > 1) then ! Krylov's method cannot part a pair that is equal: by the map of a turn
       associate (rate => cmplx(self%onset%growth*orbit%value(1), self%onset%frequency, wp))
-        orbit%multiplier(:2) = [exp(rate*orbit%period()), exp(conjg(rate)*orbit%period())]
+        orbit%multiplier(:2) = [exp(rate*orbit%value(in_period)), exp(conjg(rate)*orbit%value(in_period))]
       end associate
     end if
     call self%table%add(orbit)
@@ -527,11 +518,11 @@ contains
     allocate (found(0))
     if (.not. allocated(self%table%orbit)) return
     associate (last => self%table%orbit(size(self%table%orbit)))
-      call add_result(found, 'frequency_ratio', last%frequency_ratio())
+      call add_result(found, 'frequency_ratio', last%value(in_ratio))
       call add_result(found, 'orbit_x', extent_of(last%place(1, :)))
       call add_result(found, 'orbit_y', extent_of(last%place(2, :)))
-      call add_result(found, 'minimum_gap_over_time', last%smallest_gap())
-      if (.not. self%map%rubs) call add_result(found, 'largest_multiplier', last%largest())
+      call add_result(found, 'minimum_gap_over_time', last%value(in_gap))
+      if (.not. self%map%rubs) call add_result(found, 'largest_multiplier', last%value(in_largest))
     end associate
     if (.not. self%map%rubs) call add_result(found, 'orbit_stable', self%loss == '')
     if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)

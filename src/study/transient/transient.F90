@@ -6,7 +6,7 @@ module gfb_transient
   use gfb_petsc_session, only: sum_over_ranks, wall_time
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_time_march, only: march_type, march_settings_type, begin_march, take_step, end_march, visit_past, rebuild_past
+  use gfb_time_march, only: march_type, march_settings_type, begin_march, begin_rubbing, take_step, end_march, visit_past, rebuild_past
   use gfb_newton, only: newton_type, newton_report_type, forget_factors
   use gfb_case_file, only: case_array_type, add_array
   use gfb_spectra, only: spectra_type, spectra_of, points_a_turn
@@ -18,7 +18,6 @@ module gfb_transient
   use gfb_run_log, only: run_log_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_moving_friction, only: begin_rubbing
   use gfb_foil_mass_choice, only: choose_momentum, resume_momentum
   use gfb_grid_series, only: grid_series_type
   use gfb_result_set, only: result_grid_type, add_series_step
@@ -137,12 +136,12 @@ contains
     self%lines = self%lines + 1
     self%smallest_gap = min(self%smallest_gap, answer%minimum_gap)
     self%values(:planar, self%lines) = [march%time, march%turns(), bearing%point%speed, march%place(:2, 1), march%velocity(:2, 1), &
-                                  answer%force(:2), march%outer_load(), answer%minimum_gap, answer%maximum_pressure, &
+                                  answer%force(:2), march%drive%load_at(march%time), answer%minimum_gap, answer%maximum_pressure, &
                                   answer%minimum_pressure, answer%friction_torque, march%step, gas, &
                                   real([march%steps, newton%iterations, newton%factorizations], wp)]
     if (.not. self%tilts) return
     pads = size(bearing%pad)/2
-    self%values(planar + 1:, self%lines) = [march%place(4:, 1), march%velocity(4:, 1), answer%force(4:), march%outer_torque(), &
+    self%values(planar + 1:, self%lines) = [march%place(4:, 1), march%velocity(4:, 1), answer%force(4:), march%drive%torque_at(march%time), &
                                             pack(march%way_in_bearings(march%place(:, 1)), .true.), &
                                             minval(answer%pad_gap(:pads)), minval(answer%pad_gap(pads + 1:))]
   end subroutine add_line
