@@ -106,6 +106,7 @@ contains
     if (shares >= 0) call show_partition(scene, plan, foil_plan, ranks, log, error)
     if (allocated(error)) return
     call log%line('')
+    if (scene%hints /= '') call log%tell(scene%hints)
     if (scene%warnings /= '') call log%tell(scene%warnings)
     call log%tell(scene%file//' is in order')
   end subroutine check_scene

@@ -231,6 +231,7 @@ contains
       call log%line('options given to PETSc: '//context%petsc_options)
     end if
     do i = 1, size(scenes)
+      if (scenes(i)%hints /= '') call log%line(scenes(i)%hints)
       if (scenes(i)%warnings /= '') call log%warned(scenes(i)%warnings)
     end do
     if (size(scenes) == 1) then

@@ -110,6 +110,7 @@ contains
     if (context%petsc_options /= '') then
       call context%log%line('options given to PETSc: '//context%petsc_options)
     end if
+    if (scene%hints /= '') call context%log%line(scene%hints)
     if (scene%warnings /= '') call context%log%warned(scene%warnings)
     call start_blas()
     context%reduction = ''

@@ -207,7 +207,7 @@ contains
       words = words//'&dynamics frequency_ratios=0.5, 1.0 /'//next//'&rotor mass=1.0 /'//next
     case ('transient')
       words = words//'&rotor mass=1.0 /'//next// &
-              '&transient turns=0.2 unbalance=2.0e-6 /'//next
+              '&transient turns=0.2 /'//next//'&unbalance unbalance=2.0e-6 /'//next
     case ('load_capacity')
       words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
               "&accuracy quantity='load_capacity' /"//next
@@ -241,7 +241,9 @@ contains
             '&mesh circumferential_elements=48 axial_elements=6 /'//next// &
             '&operation speed_rpm=30000.0 load=-60.0, 0.0 /'//next// &
             '&rotor mass=1.5 /'//next// &
-            '&periodic unbalance=1.5e-6 steps_per_turn=40 foundation_damping=3.0e5 /'//next
+            '&periodic steps_per_turn=40 /'//next// &
+            '&unbalance unbalance=1.5e-6 /'//next// &
+            '&foil_damping foundation_damping=3.0e5 /'//next
   end function periodic_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.

@@ -217,8 +217,8 @@ contains
     pieces = 3.0_wp*real(scene%bump_foil%bumps, wp)*real(scene%bump_foil%strips, wp)*pads(scene)
     call check('modes', 'substructure_modes', scene%modes%substructure_modes, &
                scene%general%analysis == analysis_modes)
-    call check('dynamics', 'foil_modes', scene%dynamics%foil_modes, scene%dynamics%present)
-    call check('transient', 'foil_modes', scene%transient%foil_modes, scene%transient%present)
+    call check('foil_damping', 'foil_modes', scene%foil_damping%foil_modes, &
+               scene%dynamics%present .or. scene%transient%present)
 
   contains
 

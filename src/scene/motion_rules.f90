@@ -5,7 +5,7 @@ module gfb_motion_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_law, only: law_tanh_reset
   use gfb_dynamics_case, only: tangent_stick
-  use gfb_foil_motion_keys, only: mass_auto, mass_on, mass_off
+  use gfb_foil_damping_case, only: mass_auto, mass_on, mass_off
   use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
                             foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils
   use gfb_operation_case, only: angular_speed
@@ -20,7 +20,6 @@ module gfb_motion_rules
   private
   public :: check_dynamics, check_foil_mass, check_rotor, check_transient, check_periodic
 
-  character(len=*), parameter :: on_springs = "needs foil = 'elastic_foundation' in &model"
   real(wp), parameter :: least_steps = 20.0_wp !! of a turn, or of a pulse [1]
 
 contains
@@ -47,8 +46,8 @@ contains
         call keys%rule(group, 'vibration_amplitudes', amplitudes, &
                        'has no error estimate: leave &accuracy out and give the mesh')
         call keys%rule(group, 'foil_mass', meshes_foils(model%foil) .and. &
-                       asked%foil_mass == mass_auto, "must be 'on' or 'off' with &accuracy: "// &
-                       "'auto' may choose differently on each mesh")
+                       scene%foil_damping%foil_mass == mass_auto, "must be 'on' or 'off' with "// &
+                       "&accuracy, in &foil_damping: 'auto' may choose differently on each mesh")
       end if
       if (sweep%parameter == sweep_speed .and. ratios) then
         call keys%rule(group, 'frequency_ratios', any(.not. sweep%values > 0.0_wp), &
@@ -60,7 +59,7 @@ contains
                          needs_meshes//'nothing else rubs')
         call keys%rule(group, 'loss_factor', asked%loss_factor > 0.0_wp .and. &
                        model%foil == foil_rigid, "has no use with foil = 'rigid': nothing deflects")
-        call check_damping(keys, group, asked%foundation_damping, model%foil)
+        call check_damping(keys, scene)
       end if
       if (amplitudes) call check_amplitudes(keys, scene)
     end associate
@@ -100,39 +99,32 @@ contains
   end subroutine check_coupling
 
   !> Dampers and Maxwell arms stand beside the springs of an elastic foundation.
-  subroutine check_damping(keys, group, damping, foil)
+  subroutine check_damping(keys, scene)
     type(case_keys_type), intent(inout) :: keys
-    character(len=*), intent(in) :: group !! that has the keys
-    real(wp), intent(in) :: damping       !! [N s/m^3]
-    integer, intent(in) :: foil           !! the model's, 0 where it is not known
-    character(len=*), parameter :: stiffness = 'maxwell_stiffness', time = 'maxwell_time'
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'foil_damping', stiffness = 'maxwell_stiffness', &
+                                   time = 'maxwell_time'
+    character(len=*), parameter :: on_springs = "needs foil = 'elastic_foundation' in &model"
 
-    call keys%rule(group, 'foundation_damping', damping > 0.0_wp .and. &
-                   foil /= foil_elastic_foundation, on_springs)
+    call keys%rule(group, 'foundation_damping', scene%model%foil /= foil_elastic_foundation .and. &
+                   scene%foil_damping%foundation_damping > 0.0_wp, on_springs)
     call keys%refuse(group, stiffness, .not. keys%meant(group, time), &
                      'needs '//time//' beside it')
-    call keys%refuse(group, stiffness, all(foil /= [0, foil_elastic_foundation]), on_springs)
     call keys%refuse(group, time, .not. keys%meant(group, stiffness), &
                      'needs '//stiffness//' beside it')
-    call keys%refuse(group, time, all(foil /= [0, foil_elastic_foundation]), on_springs)
+    call keys%refuse(group, stiffness//', '//time, &
+                     all(scene%model%foil /= [0, foil_elastic_foundation]), on_springs)
   end subroutine check_damping
 
   !> The keys of the foil's mass have a use, and the foils a density.
   subroutine check_foil_mass(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: group = 'foil_damping'
 
     if (scene%model%foil == 0) return
-    if (scene%transient%present) call check_mass('transient', scene%transient%foil_mass)
-    if (scene%dynamics%present) call check_mass('dynamics', scene%dynamics%foil_mass)
-
-  contains
-
-    !> The foil has a mass that can be asked for.
-    subroutine check_mass(group, wanted)
-      character(len=*), intent(in) :: group
-      integer, intent(in) :: wanted !! `mass_auto`, ...
-
+    if (.not. (scene%transient%present .or. scene%dynamics%present)) return
+    associate (wanted => scene%foil_damping%foil_mass)
       if (keys%meant(group, 'foil_mass') .and. .not. meshes_foils(scene%model%foil)) then
         call keys%complain(group, 'foil_mass', needs_meshes//'no other foil has a mass')
       else
@@ -148,7 +140,7 @@ contains
         call keys%refuse(group, 'foil_modes', wanted == mass_off, &
                          "has no use with foil_mass = 'off'")
       end if
-    end subroutine check_mass
+    end associate
   end subroutine check_foil_mass
 
   !> Checks a scene with a rotor. Conical modes need bearings that mirror each other.
@@ -207,7 +199,7 @@ contains
       call check_neighbours(keys, group, ': final_speed_rpm in &transient changes the speed '// &
                             'over the time')
       call check_coupling(keys, scene, group, 'film, foil and shaft take their steps together')
-      call check_damping(keys, group, transient%foundation_damping, scene%model%foil)
+      call check_damping(keys, scene)
     end associate
   end subroutine check_transient
 
@@ -217,6 +209,8 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: group = 'transient'
+    character(len=*), parameter :: needs_tilt = 'needs transverse_inertia and bearing_distance '// &
+                                   'in &rotor: a rotor that tilts on two bearings'
     logical :: tilts
 
     tilts = keys%meant('rotor', 'bearing_distance')
@@ -227,22 +221,24 @@ contains
                      'needs an eccentricity in &operation instead of a load')
     call keys%rule('model', 'half_width', tilts .and. scene%model%half_width == half_width_yes, &
                    "must not be 'yes' where a rotor tilts on two bearings over time")
-    call keys%refuse(group, 'couple_unbalance, couple_unbalance_angle, couple_pulse', .not. tilts, &
-                     'needs transverse_inertia and bearing_distance in &rotor: a rotor that '// &
-                     'tilts on two bearings')
+    call keys%refuse('unbalance', 'couple_unbalance, couple_unbalance_angle', .not. tilts, &
+                     needs_tilt)
+    call keys%refuse(group, 'couple_pulse', .not. tilts, needs_tilt)
   end subroutine check_free_shaft
 
   !> A shaft whose place is given feels no force.
   subroutine check_given_orbit(keys)
     type(case_keys_type), intent(inout) :: keys
     character(len=*), parameter :: group = 'transient'
+    character(len=*), parameter :: needs_forces = 'needs a load in &operation, and a mass in &rotor'
 
     call keys%rule(group, 'orbit_radius', keys%meant(group, 'orbit_radius') .neqv. &
                    keys%meant(group, 'orbit_frequency'), 'and orbit_frequency need each other')
     call keys%refuse('rotor', 'mass', .true., 'has no use where the place of the shaft is given')
-    call keys%refuse(group, 'start_load, unbalance, couple_unbalance, couple_unbalance_angle, '// &
-                     'pulse, couple_pulse, base_time, steady_tolerance, largest_orbit', .true., &
-                     'needs a load in &operation, and a mass in &rotor')
+    call keys%refuse(group, 'start_load, pulse, couple_pulse, base_time, steady_tolerance, '// &
+                     'largest_orbit', .true., needs_forces)
+    call keys%refuse('unbalance', 'unbalance, couple_unbalance, couple_unbalance_angle', .true., &
+                     needs_forces)
   end subroutine check_given_orbit
 
   !> A pulse has a length, a table its columns.
@@ -311,7 +307,7 @@ contains
                   angular_speed(transient%final_speed_rpm))
       steps = transient%pulse_length*speed/angular_speed(60.0_wp)*transient%steps_per_turn
       slow = steps >= least_steps .and. size(transient%base_time) == 0 .and. .not. &
-             max(transient%unbalance, transient%couple_unbalance, transient%orbit_radius) > 0.0_wp
+             max(scene%unbalance%static, scene%unbalance%couple, transient%orbit_radius) > 0.0_wp
       call keys%rule('transient', 'steps_per_turn', .not. slow, 'must be at least 20: fewer '// &
                      'steps do not resolve a turn; or give a pulse alone, of 20 steps or more')
     end associate
@@ -347,7 +343,7 @@ contains
                        "analysis = 'periodic': the shaft moves in x and y alone")
       call check_motion(keys, scene)
       call check_branch(keys, scene)
-      call check_damping(keys, group, periodic%foundation_damping, scene%model%foil)
+      call check_damping(keys, scene)
       call keys%rule('model', 'foil', meshes_foils(scene%model%foil) .and. &
                      scene%contact%may_rub .and. (periodic%motion == motion_free .or. &
                      periodic%parameter /= follow_nothing), 'needs friction_top and '// &
@@ -364,11 +360,12 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: group = 'periodic'
+    character(len=*), parameter :: no_use = "has no use with motion = 'free'"
 
     associate (periodic => scene%periodic)
       if (periodic%motion == motion_free) then
-        call keys%refuse(group, 'unbalance, unbalance_angle, period_turns, start_turns', .true., &
-                         "has no use with motion = 'free'")
+        call keys%refuse('unbalance', 'unbalance, unbalance_angle', .true., no_use)
+        call keys%refuse(group, 'period_turns, start_turns', .true., no_use)
         call keys%rule(group, 'parameter', all(periodic%parameter /= [0, follow_speed, &
                        follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
                        'limit cycles are followed from the onset of whirl on')
@@ -376,7 +373,7 @@ contains
         call keys%refuse(group, 'first_amplitude', .true., "needs motion = 'free'")
         call keys%rule(group, 'unbalance', .not. keys%meant(group, 'unbalance') .and. &
                        periodic%parameter /= follow_unbalance, &
-                       "must be given with motion = 'forced'")
+                       "must be given with motion = 'forced', in &unbalance")
       end if
     end associate
   end subroutine check_motion
@@ -395,7 +392,7 @@ contains
         return
       end if
       begin = scene%operation%speed_rpm
-      if (periodic%parameter == follow_unbalance) begin = periodic%unbalance
+      if (periodic%parameter == follow_unbalance) begin = scene%unbalance%static
       if (periodic%parameter == follow_mass) begin = scene%rotor%mass
       if (.not. keys%meant(group, 'final_value')) then
         call keys%complain(group, 'final_value', 'must be given with parameter')

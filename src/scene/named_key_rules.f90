@@ -3,7 +3,8 @@ module gfb_named_key_rules
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_foil_motion_keys, only: mass_off
+  use gfb_foil_damping_case, only: mass_off
+  use gfb_moved_keys, only: home_of
   use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
@@ -123,7 +124,7 @@ contains
     character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
 
     call keys%book%look_up_real(key%group, key%name, key%element /= 0, unit, problem)
-    if (problem == '') problem = use_problem(keys, scene, key%group, key%name)
+    if (problem == '') problem = use_problem(keys, scene, key)
     if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
   end subroutine look_up
 
@@ -145,12 +146,16 @@ contains
   end subroutine check_beside_keys
 
   !> Why a key has no effect on the answers of this scene; empty where it has one.
-  function use_problem(keys, scene, group, key) result(problem)
+  function use_problem(keys, scene, named) result(problem)
     type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), intent(in) :: group, key !! names in the case file
+    type(swept_key_type), intent(in) :: named !! the key, as it was typed
     character(len=:), allocatable :: problem
+    character(len=:), allocatable :: group, key
     logical :: foils, springs, computed
+
+    key = named%name
+    group = home_of(named%group, key)
 
     foils = meshes_foils(scene%model%foil)
     springs = scene%model%foil == foil_elastic_foundation
@@ -186,15 +191,17 @@ contains
       if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
     case ('capacity')
       if (scene%capacity%question == 0) problem = 'no limit is looked for'
-    case ('dynamics')
+    case ('dynamics', 'foil_damping')
       if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
     case ('model')
       if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
     case default
       problem = 'it does not belong to the bearing, but to how it is computed'
     end select
-    if (key == 'density' .and. scene%dynamics%foil_mass == mass_off) problem = "foil_mass = 'off'"
-    if (key == 'density' .and. .not. scene%dynamics%present) problem = 'nothing vibrates'
+    if (key == 'density') then
+      if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
+      if (.not. scene%dynamics%present) problem = 'nothing vibrates'
+    end if
     if (problem /= '') problem = group//'%'//key//' has no effect here: '//problem
 
   contains
@@ -326,7 +333,7 @@ contains
     value = 0.0_wp
     do i = 1, keys%notes%count
       associate (met => keys%notes%met(i))
-        if (met%group /= key%group .or. met%key%name /= key%name) cycle
+        if (met%group /= home_of(key%group, key%name) .or. met%key%name /= key%name) cycle
         read (met%value, *, iostat=status) value
         if (status /= 0) value = 0.0_wp
       end associate

@@ -113,9 +113,9 @@ module gfb_plausible_values
     range_type('dynamics', 'frequencies', 0.0_wp, 1.0e7_wp, 'rad/s', 'rpm'), &
     range_type('dynamics', 'frequency_ratios', 0.0_wp, 100.0_wp, '1', '%'), &
     range_type('dynamics', 'loss_factor', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('dynamics', 'foundation_damping', 1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3'), &
-    range_type('dynamics', 'maxwell_stiffness', 1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('dynamics', 'maxwell_time', 1.0e-9_wp, 1.0e2_wp, 's', 'ms,us'), &
+    range_type('foil_damping', 'foundation_damping', 1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3'), &
+    range_type('foil_damping', 'maxwell_stiffness', 1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
+    range_type('foil_damping', 'maxwell_time', 1.0e-9_wp, 1.0e2_wp, 's', 'ms,us'), &
     range_type('dynamics', 'vibration_amplitudes', 1.0e-13_wp, 1.0e-4_wp, 'm', 'um,mm'), &
     range_type('rotor', 'mass', 1.0e-4_wp, 1.0e4_wp, 'kg', 'g'), &
     range_type('rotor', 'transverse_inertia', 1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2'), &
@@ -128,11 +128,11 @@ module gfb_plausible_values
     range_type('transient', 'start_load', 0.0_wp, 1.0e6_wp, 'N', 'mN'), &
     range_type('transient', 'final_speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
     range_type('transient', 'ramp_time', 1.0e-8_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('transient', 'unbalance', 1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm'), &
-    range_type('transient', 'unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('transient', 'couple_unbalance', 1.0e-14_wp, 1.0e-2_wp, 'kg m^2', &
+    range_type('unbalance', 'unbalance', 1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm'), &
+    range_type('unbalance', 'unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('unbalance', 'couple_unbalance', 1.0e-14_wp, 1.0e-2_wp, 'kg m^2', &
                'kg mm^2,g mm^2'), &
-    range_type('transient', 'couple_unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
+    range_type('unbalance', 'couple_unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
     range_type('transient', 'pulse', 0.0_wp, 1.0e3_wp, 'N s', 'mN s'), &
     range_type('transient', 'couple_pulse', 0.0_wp, 1.0e2_wp, 'N m s', 'N mm s'), &
     range_type('transient', 'pulse_start', 0.0_wp, 1.0e3_wp, 's', 'ms,us'), &
@@ -142,20 +142,12 @@ module gfb_plausible_values
     range_type('transient', 'base_acceleration_y', 0.0_wp, 1.0e5_wp, 'm/s^2', 'mm/s^2'), &
     range_type('transient', 'orbit_radius', 1.0e-13_wp, 1.0e-3_wp, 'm', 'um,mm'), &
     range_type('transient', 'orbit_frequency', 0.0_wp, 1.0e7_wp, 'rad/s', 'rpm'), &
-    range_type('transient', 'foundation_damping', 1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3'), &
-    range_type('transient', 'maxwell_stiffness', 1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('transient', 'maxwell_time', 1.0e-9_wp, 1.0e2_wp, 's', 'ms,us'), &
     range_type('transient', 'field_interval', 1.0e-9_wp, 1.0e3_wp, 's', 'ms,us'), &
     range_type('transient', 'field_start', 0.0_wp, 1.0e3_wp, 's', 'ms,us'), &
     range_type('transient', 'steady_tolerance', 0.0_wp, 0.5_wp, '1', '%'), &
     range_type('transient', 'largest_orbit', 1.0e-10_wp, 2.0e-3_wp, 'm', 'um,mm'), &
     range_type('periodic', 'step', 1.0e-6_wp, 10.0_wp, '1', '%'), &
-    range_type('periodic', 'first_amplitude', 1.0e-6_wp, 0.9_wp, '1', '%'), &
-    range_type('periodic', 'unbalance', 1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm'), &
-    range_type('periodic', 'unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('periodic', 'foundation_damping', 1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3'), &
-    range_type('periodic', 'maxwell_stiffness', 1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('periodic', 'maxwell_time', 1.0e-9_wp, 1.0e2_wp, 's', 'ms,us')]
+    range_type('periodic', 'first_amplitude', 1.0e-6_wp, 0.9_wp, '1', '%')]
 
   type(reason_type), parameter, public :: reasons(*) = [ &
     reason_type('operation', 'load', 'judged against what films carry'), &
@@ -261,7 +253,7 @@ contains
     do i = 1, size(ranges)
       associate (group => ranges(i)%group, key => ranges(i)%key)
         if ((parameter == follow_speed .and. group == 'operation' .and. key == 'speed_rpm') .or. &
-            (parameter == follow_unbalance .and. group == 'periodic' .and. &
+            (parameter == follow_unbalance .and. group == 'unbalance' .and. &
              key == 'unbalance') .or. &
             (parameter == follow_mass .and. group == 'rotor' .and. key == 'mass')) then
           call check_values(keys, 'periodic', 'final_value', ranges(i))

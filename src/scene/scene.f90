@@ -7,6 +7,7 @@ module gfb_scene
   use gfb_capacity_case, only: capacity_case_type
   use gfb_contact_case, only: contact_case_type
   use gfb_dynamics_case, only: dynamics_case_type
+  use gfb_foil_damping_case, only: foil_damping_case_type
   use gfb_gas_case, only: gas_case_type
   use gfb_mesh_case, only: mesh_case_type
   use gfb_model_case, only: model_case_type
@@ -14,7 +15,7 @@ module gfb_scene
   use gfb_operation_case, only: operation_case_type
   use gfb_output_case, only: output_case_type
   use gfb_periodic_case, only: periodic_case_type
-  use gfb_rotor_case, only: rotor_case_type
+  use gfb_rotor_case, only: rotor_case_type, unbalance_case_type
   use gfb_sample_case, only: sample_case_type
   use gfb_scene_case, only: scene_case_type
   use gfb_sensitivity_case, only: sensitivity_case_type
@@ -34,6 +35,7 @@ module gfb_scene
     character(len=:), allocatable :: verbatim  !! text of the file
     character(len=:), allocatable :: echo      !! the same with every value used; can be run again
     character(len=:), allocatable :: warnings  !! of values that are hardly meant, one a line
+    character(len=:), allocatable :: hints     !! of keys that have moved, one a line
     type(scene_case_type) :: general
     type(bearing_case_type) :: bearing
     type(bore_case_type) :: bore
@@ -44,6 +46,8 @@ module gfb_scene
     type(rotor_case_type) :: rotor
     type(transient_case_type) :: transient
     type(periodic_case_type) :: periodic
+    type(unbalance_case_type) :: unbalance
+    type(foil_damping_case_type) :: foil_damping
     type(capacity_case_type) :: capacity
     type(sensitivity_case_type) :: sensitivity
     type(accuracy_case_type) :: accuracy

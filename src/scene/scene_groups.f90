@@ -8,6 +8,7 @@ module gfb_scene_groups
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_case, only: read_contact_case
   use gfb_dynamics_case, only: read_dynamics_case, analysis_of_state
+  use gfb_foil_damping_case, only: read_foil_damping_case
   use gfb_gas_case, only: read_gas_case
   use gfb_mesh_case, only: read_mesh_case
   use gfb_model_case, only: meshes_foils, read_model_case
@@ -15,7 +16,7 @@ module gfb_scene_groups
   use gfb_operation_case, only: read_operation_case
   use gfb_output_case, only: read_output_case
   use gfb_periodic_case, only: read_periodic_case
-  use gfb_rotor_case, only: read_rotor_case
+  use gfb_rotor_case, only: read_rotor_case, read_unbalance_case
   use gfb_sample_case, only: read_sample_case
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: needs_type, analysis_strip, read_scene_case, is_bearing, &
@@ -58,6 +59,8 @@ contains
       call read_rotor_case(keys, scene%rotor, analysis)
       call read_transient_case(keys, scene%transient, scene%operation, analysis)
       call read_periodic_case(keys, scene%periodic, analysis)
+      call read_unbalance_case(keys, scene%unbalance, analysis)
+      call read_foil_damping_case(keys, scene%foil_damping, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis == analysis_misalignment
       call read_sweep_case(keys, scene%sweep, analysis)

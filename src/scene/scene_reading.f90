@@ -59,6 +59,7 @@ contains
     if (sweeps_keys) call check_swept_values(keys, scene, strict)
     scene%echo = keys%notes%echo()
     scene%warnings = keys%warning_lines()
+    scene%hints = keys%hint_lines()
     call keys%report(error)
   end subroutine read_scene_text
 
@@ -146,6 +147,8 @@ contains
     there%rotor = changed%rotor
     there%transient = changed%transient
     there%periodic = changed%periodic
+    there%unbalance = changed%unbalance
+    there%foil_damping = changed%foil_damping
     there%capacity = changed%capacity
     there%gas = changed%gas
     there%operation = changed%operation

@@ -150,11 +150,11 @@ contains
         if (scene%model%foil == foil_rigid) room = room - norm2(scene%operation%eccentricity)
         call must_be_less(keys, 'transient', 'orbit_radius', scene%transient%orbit_radius, room, &
                           'what the position leaves of the clearance')
-        call check_unbalance('transient', 'unbalance', scene%transient%unbalance, mass, clearance)
-        call check_couple(scene%transient%couple_unbalance, scene%rotor, clearance)
+        call check_unbalance('unbalance', 'unbalance', scene%unbalance%static, mass, clearance)
+        call check_couple(scene%unbalance%couple, scene%rotor, clearance)
       end if
       if (.not. scene%periodic%present) return
-      call check_unbalance('periodic', 'unbalance', scene%periodic%unbalance, mass, clearance)
+      call check_unbalance('unbalance', 'unbalance', scene%unbalance%static, mass, clearance)
       if (scene%periodic%parameter == follow_unbalance) then
         call check_unbalance('periodic', 'final_value', scene%periodic%final_value, mass, clearance)
       end if
@@ -186,7 +186,7 @@ contains
       if (.not. rotor%transverse_inertia > 0.0_wp) return
       offset = 0.5_wp*rotor%bearing_distance*couple/rotor%transverse_inertia
       if (offset < clearance) return
-      call keys%complain('transient', 'couple_unbalance', 'puts the principal axis '// &
+      call keys%complain('unbalance', 'couple_unbalance', 'puts the principal axis '// &
                          text(offset)//' m or more off the axis at the bearings; this must be '// &
                          'less than '//text(clearance)//' m, the clearance')
     end subroutine check_couple

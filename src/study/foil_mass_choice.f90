@@ -7,7 +7,7 @@ module gfb_foil_mass_choice
   use gfb_model_case, only: foil_rigid, meshes_foils
   use gfb_operation_case, only: angular_speed
   use gfb_dynamics_case, only: frequencies_at
-  use gfb_foil_motion_keys, only: mass_on, mass_off
+  use gfb_foil_damping_case, only: mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
   use gfb_vibration_equations, only: foil_inertia_type, destroy_inertia
@@ -28,7 +28,7 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(dynamic_response_type), intent(inout) :: response !! of it
 
-    call give_mass(bearing, response, mass_wanted(scene), scene%dynamics%foil_modes, &
+    call give_mass(bearing, response, mass_wanted(scene), scene%foil_damping%foil_modes, &
                    highest_frequency(scene, bearing%point%speed))
   end subroutine choose_mass
 
@@ -40,7 +40,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at rest
     type(foil_inertia_type) :: inertia
 
-    call give_momentum(bearing, mass_wanted(scene), scene%transient%foil_modes, &
+    call give_momentum(bearing, mass_wanted(scene), scene%foil_damping%foil_modes, &
                        fastest_motion(scene), inertia)
     if (meshes_foils(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
     call destroy_inertia(inertia)
@@ -52,7 +52,7 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! where the file has left it
     type(foil_inertia_type) :: inertia
 
-    call give_momentum(bearing, mass_on, scene%transient%foil_modes, fastest_motion(scene), inertia)
+    call give_momentum(bearing, mass_on, scene%foil_damping%foil_modes, fastest_motion(scene), inertia)
     call destroy_inertia(inertia)
   end subroutine resume_momentum
 
@@ -61,18 +61,9 @@ contains
     type(scene_type), intent(in) :: scene
     integer :: wanted
 
-    wanted = mass_asked(scene)
+    wanted = scene%foil_damping%foil_mass
     if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) wanted = mass_off
   end function mass_wanted
-
-  !> What the key of the analysis says.
-  pure function mass_asked(scene) result(asked)
-    type(scene_type), intent(in) :: scene
-    integer :: asked
-
-    asked = scene%dynamics%foil_mass
-    if (scene%transient%present) asked = scene%transient%foil_mass
-  end function mass_asked
 
   !> The highest frequency with which something moves the shaft, or it moves by itself [rad/s].
   pure function fastest_motion(scene) result(highest)
@@ -110,7 +101,7 @@ contains
     highest = hertz(inertia%highest)
     if (.not. meshes_foils(scene%model%foil)) then
       line = 'left out'
-    else if (mass_asked(scene) == mass_off) then
+    else if (scene%foil_damping%foil_mass == mass_off) then
       line = "left out by foil_mass = 'off'"
     else if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) then
       line = 'left out, for a foil has no density'

@@ -3,7 +3,7 @@ module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_heights, only: crest_gaps, normal_deviations
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, unless
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_foil_sizes, only: size_type, of_bump, of_strip, bump_list_key, complain_of_sizes
   use gfb_scene_case, only: needs_type
@@ -361,7 +361,8 @@ contains
     real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
     type(height_deviation_type), intent(out) :: law !! of the heights, where they are random
     real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
-    character(len=:), allocatable :: key
+    character(len=:), allocatable :: key, useless
+    integer :: word !! number of the law
     logical :: random, right
 
     key = 'crest_gap'
@@ -369,7 +370,14 @@ contains
                        'bumps'' heights; at rest the highest crest touches', positive, &
                        default=no_default, given=random)
     right = keys%last_key_is_right()
-    call read_law(keys, in_file .and. .not. random, law%seed, right)
+    useless = unless(random .or. .not. in_file, 'needs height_deviation')
+    call keys%integer_key('seed', law%seed, 'chooses the random heights: the same seed gives '// &
+                          'the same ones', at_least(0.0_wp), useless=useless)
+    right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
+    word = 1
+    call keys%choice_key('deviation_law', word, law_words, 'law of the random heights', &
+                         useless=useless)
+    right = right .and. word > 0
     if (gaps .and. random) then
       call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
                          'from the heights; give one of them')
@@ -389,27 +397,4 @@ contains
                        'which must be less than the height of the bumps, '//text(height)//' m')
   end subroutine read_height_deviation
 
-  !> The law of random heights, and what chooses them.
-  subroutine read_law(keys, useless, seed, right)
-    type(case_keys_type), intent(inout) :: keys
-    logical, intent(in) :: useless   !! heights do not deviate
-    integer, intent(out) :: seed
-    logical, intent(inout) :: right  !! the heights are known so far
-    character(len=*), parameter :: seed_meaning = 'chooses the random heights: the same seed '// &
-      'gives the same ones'
-    character(len=*), parameter :: law_meaning = 'law of the random heights'
-    integer :: law
-
-    seed = 1
-    law = 1
-    if (useless) then
-      call keys%useless_key('seed', seed_meaning, 'needs height_deviation')
-      call keys%useless_key('deviation_law', law_meaning, 'needs height_deviation')
-      return
-    end if
-    call keys%integer_key('seed', seed, seed_meaning, at_least(0.0_wp))
-    right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
-    call keys%choice_key('deviation_law', law, law_words, law_meaning)
-    right = right .and. law > 0
-  end subroutine read_law
 end module gfb_bump_foil_case

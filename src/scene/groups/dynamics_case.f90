@@ -2,14 +2,11 @@
 module gfb_dynamics_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list
-  use gfb_foil_motion_keys, only: mass_auto, mass_words, foil_modes_words, most_foil_modes, &
-                                  read_damping_keys
-  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, analysis_transient, analysis_periodic, &
                             asks_limit, misplaced_group
-  use gfb_value_rules, only: from_to, positive, not_negative
+  use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)
   private
   public :: dynamics_case_type, read_dynamics_case, analysis_of_state, &
@@ -26,10 +23,6 @@ module gfb_dynamics_case
     real(wp), allocatable :: ratios(:)        !! the same over the speed of the shaft, or none [1]
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
-    real(wp) :: foundation_damping = 0.0_wp   !! viscous, of the elastic foundation [N s/m^3]
-    type(maxwell_arm_type) :: arm             !! beside the springs of the elastic foundation
-    integer :: foil_mass = mass_auto
-    integer :: foil_modes = 2                 !! kept inside each condensed bump
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
     logical :: stability = .true.             !! critical mass and modes too; not a key
   end type dynamics_case_type
@@ -74,12 +67,6 @@ contains
     call keys%real_key('loss_factor', dynamics%loss_factor, '1', &
                        'loss factor of the foil: its stiffness times 1 + i loss_factor', &
                        not_negative)
-    call read_damping_keys(keys, dynamics%foundation_damping, dynamics%arm)
-    call keys%choice_key('foil_mass', dynamics%foil_mass, mass_words, &
-                         'whether top foil and bumps have their mass: where the frequencies '// &
-                         'ask for it, always, never')
-    call keys%integer_key('foil_modes', dynamics%foil_modes, foil_modes_words, &
-                          from_to(0.0_wp, most_foil_modes))
     call keys%real_list_key('vibration_amplitudes', dynamics%amplitudes, longest_list, 'm', &
                             'amplitudes of the shaft along x and along y at which stiffness '// &
                             'and damping are asked for too, contacts sliding to and fro', &

@@ -1,7 +1,7 @@
 !> `&model`: how the bearing is modelled.
 module gfb_model_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, unless
   use gfb_scene_case, only: is_bearing, is_structure
   use gfb_value_rules, only: positive, from_to
   implicit none (type, external)
@@ -85,14 +85,24 @@ contains
                          is_bearing(analysis))
     call keys%rule('model', 'foil', is_structure(analysis) .and. model%foil /= foil_shell .and. &
                    model%foil /= 0, "must be 'shell' for strips and modes")
-    call read_reduction(keys, model)
+    call keys%choice_key('reduction', model%reduction, reduction_words, 'condense the bumps of '// &
+                         'shells onto the lines that can be loaded; `auto`: where that costs '// &
+                         'less', useless=unless(any(model%foil == [0, foil_shell]), &
+                         "needs foil = 'shell': no other foil is condensed"))
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane')
     call keys%choice_key('coupling', model%coupling, coupling_words, &
                          'solve film and foil together, or in turns for comparison')
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
-    call read_film_order(keys, model, is_structure(analysis))
+    call keys%integer_key('film_order', model%film_order, '1: bilinear film elements; 2: '// &
+                          'biquadratic ones, with twice as many node intervals each way as '// &
+                          'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
+                          useless=unless(.not. is_structure(analysis), &
+                                         'needs a film: strips and modes have none'))
+    call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
+                   model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &
+                   "'supg': upwinding is for bilinear elements")
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
@@ -106,42 +116,6 @@ contains
                    'pressure have no equations of their own')
     call keys%finish_group()
   end subroutine read_model_case
-
-  !> Whether bumps are condensed. Other foils than shells have nothing to condense.
-  subroutine read_reduction(keys, model)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(inout) :: model
-    character(len=*), parameter :: name = 'reduction'
-    character(len=*), parameter :: meaning = &
-      'condense the bumps of shells onto the lines that can be loaded; `auto`: where that '// &
-      'costs less'
-
-    if (model%foil == foil_shell .or. model%foil == 0) then
-      call keys%choice_key(name, model%reduction, reduction_words, meaning)
-    else
-      call keys%useless_key(name, meaning, "needs foil = 'shell': no other foil is condensed")
-    end if
-  end subroutine read_reduction
-
-  !> Order of the film elements. Upwinding is for bilinear ones; strips and modes have no film.
-  subroutine read_film_order(keys, model, no_film)
-    type(case_keys_type), intent(inout) :: keys
-    type(model_case_type), intent(inout) :: model
-    logical, intent(in) :: no_film
-    character(len=*), parameter :: name = 'film_order'
-    character(len=*), parameter :: meaning = &
-      '1: bilinear film elements; 2: biquadratic ones, with twice as many node intervals each '// &
-      'way as elements (film and foils share the nodes)'
-
-    if (no_film) then
-      call keys%useless_key(name, meaning, 'needs a film: strips and modes have none')
-      return
-    end if
-    call keys%integer_key(name, model%film_order, meaning, from_to(1.0_wp, 2.0_wp))
-    call keys%rule('model', name, model%film_order == film_order_biquadratic .and. &
-                   model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &
-                   "'supg': upwinding is for bilinear elements")
-  end subroutine read_film_order
 
   !> Whether top foil and bumps have meshes of their own.
   elemental function meshes_foils(foil) result(meshes)

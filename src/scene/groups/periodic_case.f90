@@ -2,10 +2,8 @@
 module gfb_periodic_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default
-  use gfb_foil_motion_keys, only: read_damping_keys
-  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_scene_case, only: analysis_periodic, misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative, at_least, between, from_to
+  use gfb_value_rules, only: positive, not_negative, at_least, between, from_to
   implicit none (type, external)
   private
   public :: periodic_case_type, read_periodic_case
@@ -30,10 +28,6 @@ module gfb_periodic_case
     integer :: steps_per_turn = 100
     integer :: period_turns = 1             !! of a forced motion
     integer :: start_turns = 2              !! marched before the first orbit is looked for
-    real(wp) :: unbalance = 0.0_wp          !! [kg m]
-    real(wp) :: unbalance_angle = 0.0_wp    !! [rad]
-    real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
-    type(maxwell_arm_type) :: arm           !! beside the springs of an elastic foundation
   end type periodic_case_type
 
 contains
@@ -54,7 +48,7 @@ contains
                          'limit cycle, from the onset of whirl on')
     call keys%choice_key('parameter', periodic%parameter, parameter_words, &
                          'over what the orbits are followed, through folds: from its value in '// &
-                         '&operation, &periodic or &rotor to `final_value`')
+                         '&operation, &unbalance or &rotor to `final_value`')
     call keys%real_key('final_value', periodic%final_value, 'of the parameter', &
                        'value of the parameter at which the branch ends', not_negative, &
                        default=no_default)
@@ -74,13 +68,6 @@ contains
     call keys%integer_key('start_turns', periodic%start_turns, &
                           'periods of a forced motion that are marched from rest before the '// &
                           'first orbit is looked for', at_least(0.0_wp))
-    call keys%real_key('unbalance', periodic%unbalance, 'kg m', &
-                       'unbalance that this bearing carries: mass times its distance from '// &
-                       'the axis', not_negative)
-    call keys%real_key('unbalance_angle', periodic%unbalance_angle, 'rad', &
-                       'direction of the unbalance where a period begins, from x towards y', &
-                       any_value)
-    call read_damping_keys(keys, periodic%foundation_damping, periodic%arm)
     call keys%finish_group()
   end subroutine read_periodic_case
 end module gfb_periodic_case

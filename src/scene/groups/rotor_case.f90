@@ -1,13 +1,13 @@
-!> `&rotor`: the rigid rotor whose modes, or whose way over time, are asked for.
+!> `&rotor` and `&unbalance`: the rigid rotor whose modes, or whose path over time, are asked for.
 module gfb_rotor_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, unless
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, &
                             misplaced_group
-  use gfb_value_rules, only: positive, not_negative
+  use gfb_value_rules, only: any_value, positive, not_negative
   implicit none (type, external)
   private
-  public :: rotor_case_type, read_rotor_case
+  public :: rotor_case_type, read_rotor_case, unbalance_case_type, read_unbalance_case
 
   character(len=*), parameter :: group = 'rotor', mass = 'mass', polar = 'polar_inertia', &
                                  transverse = 'transverse_inertia', distance = 'bearing_distance'
@@ -21,6 +21,14 @@ module gfb_rotor_case
     real(wp) :: bearing_distance = 0.0_wp   !! from midplane to midplane [m]
     real(wp) :: distance_in_time = 0.0_wp   !! the same where it is followed over time, else 0 [m]
   end type rotor_case_type
+
+  !> Its unbalance, of orbits and over time.
+  type :: unbalance_case_type
+    real(wp) :: static = 0.0_wp       !! that this bearing carries [kg m]
+    real(wp) :: angle = 0.0_wp        !! of it at the beginning [rad]
+    real(wp) :: couple = 0.0_wp       !! of a rotor that tilts [kg m^2]
+    real(wp) :: couple_angle = 0.0_wp !! of that at +z at the beginning [rad]
+  end type unbalance_case_type
 
 contains
 
@@ -48,4 +56,32 @@ contains
     if (analysis == analysis_transient) rotor%distance_in_time = rotor%bearing_distance
     call keys%finish_group()
   end subroutine read_rotor_case
+
+  !> Reads `&unbalance`.
+  subroutine read_unbalance_case(keys, unbalance, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(unbalance_case_type), intent(out) :: unbalance !! what `&unbalance` says
+    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    character(len=:), allocatable :: no_couple
+    logical :: drives
+
+    drives = any(analysis == [analysis_transient, analysis_periodic])
+    no_couple = unless(analysis /= analysis_periodic, "has no use with analysis = 'periodic': "// &
+                       'the shaft moves in x and y alone')
+    call keys%start_group('unbalance', optional=.not. drives, &
+                          misplaced=misplaced_group(analysis, drives))
+    call keys%real_key('unbalance', unbalance%static, 'kg m', &
+                       'unbalance that this bearing carries: mass times its distance from '// &
+                       'the axis', not_negative)
+    call keys%real_key('unbalance_angle', unbalance%angle, 'rad', 'direction of the unbalance '// &
+                       'at the beginning, of the time or of a period, from x towards y', any_value)
+    call keys%real_key('couple_unbalance', unbalance%couple, 'kg m^2', &
+                       'of a rotor that tilts on two bearings: an unbalance times its distance '// &
+                       'along the axis from an equal and opposite one', not_negative, &
+                       useless=no_couple)
+    call keys%real_key('couple_unbalance_angle', unbalance%couple_angle, 'rad', &
+                       'direction of the one at +z at the beginning, from x towards y', &
+                       any_value, useless=no_couple)
+    call keys%finish_group()
+  end subroutine read_unbalance_case
 end module gfb_rotor_case

@@ -3,7 +3,7 @@ module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type, solid_width
   use gfb_curved_bump, only: walowit_anno_stiffness
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, unless
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
   use gfb_value_rules, only: any_value, from_to, positive
@@ -57,7 +57,10 @@ contains
                           misplaced=misplaced_group(analysis, needed))
     call keys%choice_key('kind', load%kind, kind_words, 'how the strip is loaded: pressure on '// &
                          'its crests, or two rigid plates')
-    call read_distribution(keys, load)
+    ! Plates have none, and their echo must not show one.
+    call keys%choice_key('distribution', load%distribution, distribution_words, 'distribution '// &
+                         'of the crest pressure over the bumps', &
+                         useless=unless(load%kind /= load_plates, not_with_plates))
     call read_pressures(keys, load, bumps, needed .and. load%kind == load_crest_pressure)
     call read_maximum('maximum_force', load%maximum_force, 'N', 'largest force on the upper plate')
     call read_maximum('maximum_displacement', load%maximum_displacement, 'm', &
@@ -86,20 +89,6 @@ contains
                      "needs kind = 'plates'")
     end subroutine read_maximum
   end subroutine read_strip_load_case
-
-  !> How the crest pressure is spread; plates have none, so that their echo must not show one.
-  subroutine read_distribution(keys, load)
-    type(case_keys_type), intent(inout) :: keys
-    type(strip_load_case_type), intent(inout) :: load
-    character(len=*), parameter :: name = 'distribution'
-    character(len=*), parameter :: meaning = 'distribution of the crest pressure over the bumps'
-
-    if (load%kind == load_plates) then
-      call keys%useless_key(name, meaning, not_with_plates)
-    else
-      call keys%choice_key(name, load%distribution, distribution_words, meaning)
-    end if
-  end subroutine read_distribution
 
   !> The crest pressures.
   subroutine read_pressures(keys, load, bumps, needed)

@@ -2,12 +2,9 @@
 module gfb_transient_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
-  use gfb_foil_motion_keys, only: mass_auto, mass_words, foil_modes_words, most_foil_modes, &
-                                  read_damping_keys
-  use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_transient, misplaced_group
-  use gfb_value_rules, only: any_value, from_to, positive, not_negative
+  use gfb_value_rules, only: any_value, positive, not_negative
   implicit none (type, external)
   private
   public :: transient_case_type, read_transient_case, duration_of
@@ -27,10 +24,6 @@ module gfb_transient_case
     real(wp) :: final_speed_rpm = 0.0_wp   !! [rpm]
     logical :: speed_changes = .false.     !! to that one
     real(wp) :: ramp_time = 0.0_wp         !! in which it is reached; 0: the whole time [s]
-    real(wp) :: unbalance = 0.0_wp         !! [kg m]
-    real(wp) :: unbalance_angle = 0.0_wp   !! [rad]
-    real(wp) :: couple_unbalance = 0.0_wp  !! [kg m^2]
-    real(wp) :: couple_unbalance_angle = 0.0_wp !! [rad]
     real(wp) :: pulse(2) = 0.0_wp          !! [N s]
     real(wp) :: couple_pulse(2) = 0.0_wp   !! [N m s]
     real(wp) :: pulse_start = 0.0_wp       !! [s]
@@ -40,10 +33,6 @@ module gfb_transient_case
     real(wp), allocatable :: base_acceleration_y(:) !! [m/s^2]
     real(wp) :: orbit_radius = 0.0_wp       !! of a sleeve whose position is given [m]
     real(wp) :: orbit_frequency = 0.0_wp    !! [rad/s]
-    real(wp) :: foundation_damping = 0.0_wp !! [N s/m^3]
-    type(maxwell_arm_type) :: arm           !! beside the springs of an elastic foundation
-    integer :: foil_mass = mass_auto
-    integer :: foil_modes = 2               !! kept inside each condensed bump
     integer :: output_every = 1             !! steps
     real(wp) :: field_interval = 0.0_wp     !! between stored fields; 0: the last ones alone [s]
     real(wp) :: field_start = 0.0_wp        !! first of these times [s]
@@ -71,12 +60,6 @@ contains
                        'given: it begins at +x from there', not_negative)
     call keys%real_key('orbit_frequency', transient%orbit_frequency, 'rad/s', &
                        'circular frequency of that motion, with the shaft''s sense', any_value)
-    call read_damping_keys(keys, transient%foundation_damping, transient%arm)
-    call keys%choice_key('foil_mass', transient%foil_mass, mass_words, &
-                         'whether top foil and bumps have their mass: where the shaft moves '// &
-                         'fast enough for it to count, always, never')
-    call keys%integer_key('foil_modes', transient%foil_modes, foil_modes_words, &
-                          from_to(0.0_wp, most_foil_modes))
     call keys%integer_key('output_every', transient%output_every, &
                           'steps from one line of the history to the next', positive)
     call keys%real_key('field_interval', transient%field_interval, 's', &
@@ -130,16 +113,6 @@ contains
     call keys%real_key('ramp_time', transient%ramp_time, 's', &
                        'time in which it reaches that speed, evenly', positive, &
                        default='the whole time')
-    call keys%real_key('unbalance', transient%unbalance, 'kg m', &
-                       'unbalance that this bearing carries: mass times its distance from '// &
-                       'the axis', not_negative)
-    call keys%real_key('unbalance_angle', transient%unbalance_angle, 'rad', &
-                       'direction of the unbalance at the beginning, from x towards y', any_value)
-    call keys%real_key('couple_unbalance', transient%couple_unbalance, 'kg m^2', &
-                       'of a rotor that tilts on two bearings: an unbalance times its distance '// &
-                       'along the axis from an equal and opposite one', not_negative)
-    call keys%real_key('couple_unbalance_angle', transient%couple_unbalance_angle, 'rad', &
-                       'direction of the one at +z at the beginning, from x towards y', any_value)
     call keys%real_vector_key('pulse', transient%pulse, 'N s', &
                               'push on the shaft, force times time, x and y: a smooth one; on '// &
                               'two bearings what each of them carries')

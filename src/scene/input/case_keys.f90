@@ -13,7 +13,7 @@ module gfb_case_keys
   use gfb_value_rules, only: rule_type, broken_rule
   implicit none (type, external)
   private
-  public :: case_keys_type, longest_list, no_default
+  public :: case_keys_type, longest_list, no_default, unless
 
   integer, parameter :: single = 0            !! values of a key that takes no list
   integer, parameter :: longest_string = 500  !! characters
@@ -33,14 +33,25 @@ module gfb_case_keys
     procedure :: words_key
     procedure :: names_key
     procedure :: useless_key
+    procedure, private :: has_no_use
     procedure :: rule
     procedure :: refuse
   end type case_keys_type
 
 contains
 
+  !> Why something has no use; empty where it has one.
+  pure function unless(has_use, why) result(words)
+    logical, intent(in) :: has_use !! a key, or a group
+    character(len=*), intent(in) :: why !! it has none else
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (.not. has_use) words = why
+  end function unless
+
   !> One real number.
-  subroutine real_key(self, name, value, unit, meaning, rule, required, default, given)
+  subroutine real_key(self, name, value, unit, meaning, rule, required, default, given, useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), intent(inout) :: value !! [its unit] the default on entry
@@ -49,10 +60,13 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+    character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
     character(len=:), allocatable :: words
     integer, allocatable :: elements(:)
     real(wp) :: before
 
+    if (present(given)) given = .false.
+    if (self%has_no_use(name, meaning, useless)) return
     before = value
     call self%describe(name, real_words, unit, meaning)
     words = self%notes%numbers_shown([value])
@@ -120,7 +134,7 @@ contains
   end subroutine real_list_key
 
   !> One whole number.
-  subroutine integer_key(self, name, value, meaning, rule, required, default, given)
+  subroutine integer_key(self, name, value, meaning, rule, required, default, given, useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry
@@ -129,10 +143,13 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+    character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
     integer, allocatable :: elements(:)
     character(len=:), allocatable :: problem
     integer :: number, before
 
+    if (present(given)) given = .false.
+    if (self%has_no_use(name, meaning, useless)) return
     before = value
     call self%describe(name, 'integer', '1', meaning)
     call self%begin_key(text(value), single, elements, required, default, given)
@@ -201,16 +218,18 @@ contains
   end subroutine string_key
 
   !> One of several words, as its number in their list.
-  subroutine choice_key(self, name, value, words, meaning, required)
+  subroutine choice_key(self, name, value, words, meaning, required, useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     integer, intent(inout) :: value             !! the default on entry; 0 where none was read
     character(len=*), intent(in) :: words(:)    !! blank-padded
     character(len=*), intent(in) :: meaning !! of the key, a sentence
     logical, intent(in), optional :: required !! a case without it is wrong
+    character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
     integer, allocatable :: elements(:)
     integer :: before
 
+    if (self%has_no_use(name, meaning, useless)) return
     before = value
     call self%describe(name, '`'//choices(words)//'`', '', meaning)
     call self%begin_key(chosen_word(words, value), single, elements, required)
@@ -314,6 +333,18 @@ contains
     if (self%key%given) call self%complain(self%notes%group, name, why)
     call self%end_key('', .false., .false.)
   end subroutine useless_key
+
+  !> Reads a key that has no use as such, where a reason says that it is one.
+  function has_no_use(self, name, meaning, why) result(useless)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name, meaning !! of the key; what it means
+    character(len=*), intent(in), optional :: why !! it must not be given; empty where it may
+    logical :: useless
+
+    useless = .false.
+    if (present(why)) useless = why /= ''
+    if (useless) call self%useless_key(name, meaning, why)
+  end function has_no_use
 
   !> A rule between keys: complains of a key, or of an element of its list, where it is broken.
   subroutine rule(self, group, key, broken, words, element)

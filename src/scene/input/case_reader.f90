@@ -6,7 +6,8 @@ module gfb_case_reader
   use gfb_errors, only: error_type, fail, status_input
   use gfb_foreign_characters, only: is_spoilt
   use gfb_key_notes, only: key_type, real_words, list_words, key_notes_type, no_default, choices
-  use gfb_namelist_file, only: find_elements, is_entry_of, namelist_file_type
+  use gfb_moved_keys, only: home_of
+  use gfb_namelist_file, only: entry_at, find_elements, is_entry_of, moves_to, namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_namelist_values, only: read_real, value_string, value_number
   use gfb_text, only: join, lower_case, nearest_word, text
@@ -58,6 +59,7 @@ module gfb_case_reader
     type(namelist_file_type) :: file
     type(complaints_type) :: complaints
     type(complaints_type) :: warnings      !! what need not be a mistake
+    type(complaints_type) :: hints         !! what is no mistake, and will be one
     type(key_notes_type) :: notes          !! the echo and the table of keys
     type(key_type) :: key                  !! the one that is being read
     type(key_book_type) :: book            !! the groups and keys there are
@@ -75,6 +77,7 @@ module gfb_case_reader
     procedure :: warn
     procedure :: warn_of_line
     procedure :: warning_lines
+    procedure :: hint_lines
     procedure :: add_new
     procedure :: meant
     procedure :: holds
@@ -137,8 +140,11 @@ contains
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: unread
+    character(len=:), allocatable :: home
+
+    home = home_of(group, key)
     associate (n => self%count)
-      unread = any(self%key_groups(:n) == group .and. self%key_names(:n) == key .and. &
+      unread = any(self%key_groups(:n) == home .and. self%key_names(:n) == key .and. &
                    self%keys(:n)%unread)
     end associate
   end function is_unread
@@ -190,7 +196,7 @@ contains
     unit = ''
     problem = ''
     is_key = self%key_names == key
-    i = findloc(is_key .and. self%key_groups == group, .true., dim=1)
+    i = findloc(is_key .and. self%key_groups == home_of(group, key), .true., dim=1)
     if (i == 0) then
       do i = 1, size(known)
         known(i) = trim(self%key_groups(i))//'%'//trim(self%key_names(i))
@@ -222,7 +228,7 @@ contains
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: meant
-    meant = any(self%key_groups == group .and. self%key_names == key .and. &
+    meant = any(self%key_groups == home_of(group, key) .and. self%key_names == key .and. &
                 ((self%keys%given .and. .not. self%keys%is_default) .or. self%keys%misspelt))
   end function is_meant
 
@@ -304,9 +310,9 @@ contains
     logical :: in_group(size(self%keys))
     integer :: j
 
-    group = file%group_name(file%entries(i)%group)
-    if (.not. any(self%group_names == group)) return
     key = file%key_name(i)
+    group = home_of(file%group_name(file%entries(i)%group), key)
+    if (.not. any(self%group_names == group)) return
     in_group = self%key_groups == group
     if (any(in_group .and. self%key_names == key)) return
     if (is_spoilt(key)) then ! its characters outside ASCII have been complained about
@@ -355,6 +361,7 @@ contains
 
     self%complaints%file = trim(file)
     self%warnings%file = trim(file)
+    self%hints%file = trim(file)
     if (present(strict)) self%strict = strict
     if (present(noted)) self%notes%kept = noted
     call scan_namelist(words, self%file, self%complaints)
@@ -397,7 +404,19 @@ contains
   !> After the last group: complains about names that do not exist, and about what is missing.
   subroutine finish(self)
     class(case_reader_type), intent(inout) :: self !! the case file being read
+    character(len=:), allocatable :: home
+    integer :: entry
+
     call self%book%check_names(self%file, self%complaints)
+    do entry = 1, size(self%file%entries)
+      home = moves_to(self%file, entry)
+      if (home == '') cycle
+      associate (item => self%file%entries(entry))
+        call self%hints%add(item%line, '&'//self%file%group_name(item%group)//': '// &
+                            self%file%key_name(entry)//' belongs into &'//home// &
+                            ' now; where it stands it is read by this version for the last time')
+      end associate
+    end do
   end subroutine finish
 
   !> All mistakes as one error, with the warnings, which may tell why; none where the file is right.
@@ -411,6 +430,13 @@ contains
     if (self%warnings%count > 0) words = words//new_line('a')//self%warning_lines()
     call fail(error, words, status_input)
   end subroutine report
+
+  !> All hints, one a line; empty where there are none.
+  pure function hint_lines(self) result(words)
+    class(case_reader_type), intent(in) :: self !! the case file being read
+    character(len=:), allocatable :: words
+    words = self%hints%report('note: ')
+  end function hint_lines
 
   !> All warnings, one a line; empty where there are none.
   pure function warning_lines(self) result(words)
@@ -506,9 +532,9 @@ contains
 
     place = '&'//group//': '//key
     do entry = 1, size(self%file%entries)
+      if (.not. is_entry_of(self%file, entry, group, key)) cycle
       associate (item => self%file%entries(entry))
-        if (self%file%group_name(item%group) /= group) cycle
-        if (self%file%key_name(entry) /= key) cycle
+        place = '&'//self%file%group_name(item%group)//': '//key
         if (present(element)) then
           call find_elements(self%file, group, key, longest_list, elements)
           value = 0
@@ -672,7 +698,9 @@ contains
 
     if (problem == '' .or. self%file%values(item)%wrong) return
     self%file%values(item)%wrong = .true.
-    words = '&'//self%notes%group//': '//self%key%name
+    associate (entry => self%file%entries(entry_at(self%file, self%file%values(item)%first)))
+      words = '&'//self%file%group_name(entry%group)//': '//self%key%name
+    end associate
     if (element > 0) words = words//'('//text(element)//')'
     words = words//' = '//self%file%value_shown(item)//': '//problem
     if (self%key%unit /= '' .and. self%key%unit /= '1') words = words//' ['//self%key%unit//']'

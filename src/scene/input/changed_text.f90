@@ -3,7 +3,7 @@ module gfb_changed_text
   use gfb_kinds, only: wp
   use gfb_case_reader, only: longest_list
   use gfb_complaints, only: complaints_type
-  use gfb_namelist_file, only: find_elements, namelist_file_type
+  use gfb_namelist_file, only: find_elements, is_entry_of, namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_text, only: exact_text, text
   implicit none (type, external)
@@ -31,7 +31,7 @@ contains
     found = .false.
     do i = 1, size(file%entries)
       associate (entry => file%entries(i))
-        if (file%group_name(entry%group) /= group .or. file%key_name(i) /= key) cycle
+        if (.not. is_entry_of(file, i, group, key)) cycle
         if (entry%last_value < entry%first_value) cycle
         if (found) then
           changed = changed//file%words(copied + 1:entry%first - 1)

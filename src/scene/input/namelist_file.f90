@@ -4,13 +4,14 @@ module gfb_namelist_file
   use gfb_kinds, only: long
   use gfb_complaints, only: complaints_type, shown
   use gfb_foreign_characters, only: foreign_type, foreign_words
+  use gfb_moved_keys, only: home_of
   use gfb_namelist_values, only: value_string, value_number, value_word
   use gfb_text, only: text, lower_case
   implicit none (type, external)
   private
   public :: section_type, section_of, namelist_file_type, namelist_group_type, &
             namelist_entry_type, namelist_value_type, complain_about_foreign, find_elements, &
-            is_entry_of
+            is_entry_of, entry_at, moves_to
 
   integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
 
@@ -366,9 +367,21 @@ contains
     associate (item => file%entries(entry))
       if (item%last - item%first + 1 /= len(key)) return
       if (file%key_name(entry) /= key) return
-      belongs = file%group_name(item%group) == group
+      belongs = home_of(file%group_name(item%group), key) == home_of(group, key)
     end associate
   end function is_entry_of
+
+  !> The group that has the key of an entry now; empty where it stands there.
+  pure function moves_to(file, entry) result(home)
+    type(namelist_file_type), intent(in) :: file !! the scanned file
+    integer, intent(in) :: entry !! number of the key in the file
+    character(len=:), allocatable :: home
+    character(len=:), allocatable :: group
+
+    group = file%group_name(file%entries(entry)%group)
+    home = home_of(group, file%key_name(entry))
+    if (home == group) home = ''
+  end function moves_to
 
   !> Whether a key stands in the file.
   pure function stands_in(file, group, key) result(stands)
@@ -422,7 +435,12 @@ contains
             element = int(section%place(n))
             if (filled(element) > 0) then
               ! A group that stands there twice has been complained about.
-              if (file%entries(owner(element))%group == item%group) call complain_twice(element)
+              associate (earlier => file%entries(owner(element)))
+                if (earlier%group == item%group .or. &
+                    file%group_name(earlier%group) /= file%group_name(item%group)) then
+                  call complain_twice(earlier)
+                end if
+              end associate
               return
             end if
             filled(element) = value
@@ -444,11 +462,16 @@ contains
       end associate
     end subroutine complain
 
-    !> Complains that an earlier entry gave this element.
-    subroutine complain_twice(element)
-      integer, intent(in) :: element
-      call complain('the key is given twice, first in line '// &
-                    text(file%entries(owner(element))%line))
+    !> Complains that an earlier entry gave this element, be it in a group that had the key before.
+    subroutine complain_twice(earlier)
+      type(namelist_entry_type), intent(in) :: earlier
+      character(len=:), allocatable :: group
+
+      group = ''
+      if (earlier%group /= file%entries(entry)%group) then
+        group = ' of &'//file%group_name(earlier%group)
+      end if
+      call complain('the key is given twice, first in line '//text(earlier%line)//group)
     end subroutine complain_twice
   end subroutine fill
 

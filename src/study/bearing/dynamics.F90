@@ -286,12 +286,12 @@ contains
 
     vibration%stick = scene%dynamics%contact_tangent == tangent_stick
     vibration%loss_factor = scene%dynamics%loss_factor
-    if (scene%dynamics%foundation_damping > 0.0_wp) then
-      vibration%damping_time = scene%dynamics%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
+    if (scene%foil_damping%foundation_damping > 0.0_wp) then
+      vibration%damping_time = scene%foil_damping%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
     end if
-    if (scene%dynamics%arm%is_present()) then
-      vibration%arm = scene%dynamics%arm
-      vibration%arm%stiffness = scene%dynamics%arm%stiffness/foundation_stiffness(scene%model, scene%bump_foil)
+    if (scene%foil_damping%arm%is_present()) then
+      vibration%arm = scene%foil_damping%arm
+      vibration%arm%stiffness = scene%foil_damping%arm%stiffness/foundation_stiffness(scene%model, scene%bump_foil)
     end if
   end function vibration_of
 

@@ -146,7 +146,6 @@ contains
   !> each of them carries. The bearing's state and equations are left as they are.
   subroutine judge_first_point(solution)
     type(bearing_solution_type), intent(inout) :: solution !! of `&transient`, at its equilibrium; its record gets what it is
-    type(scene_type) :: vibrating
     type(whirl_type) :: whirl
     character(len=:), allocatable :: words, problem
 
@@ -155,11 +154,7 @@ contains
       if (.not. bearing%floats .or. bearing%shaft_fixed) return
       if (.not. point%speed > 0.0_wp) return
       call log%is_at('the critical mass')
-      vibrating = solution%scene
-      vibrating%dynamics%foundation_damping = vibrating%transient%foundation_damping
-      vibrating%dynamics%arm = vibrating%transient%arm
-      vibrating%dynamics%foil_modes = vibrating%transient%foil_modes
-      call find_whirl(vibrating, bearing, solution%newton, whirl, problem)
+      call find_whirl(solution%scene, bearing, solution%newton, whirl, problem)
       call log%is_at('')
       if (allocated(problem)) return
       words = 'the first point, '//text(point%speed/rpm)//' rpm under ('// &

@@ -75,10 +75,10 @@ contains
       map%drive%mass = scene%rotor%mass
       map%drive%load = scene%operation%load
       map%drive%speed = angular_speed(scene%operation%speed_rpm)
-      map%drive%unbalance = periodic%unbalance
-      map%drive%unbalance_angle = periodic%unbalance_angle
-      map%settings%damping = periodic%foundation_damping
-      map%settings%arm = periodic%arm
+      map%drive%unbalance = scene%unbalance%static
+      map%drive%unbalance_angle = scene%unbalance%angle
+      map%settings%damping = scene%foil_damping%foundation_damping
+      map%settings%arm = scene%foil_damping%arm
       map%turns = 1
       if (periodic%motion /= motion_free) map%turns = periodic%period_turns
       map%steps = periodic%steps_per_turn*map%turns

@@ -254,8 +254,8 @@ contains
 
     settings%steps_per_turn = scene%transient%steps_per_turn
     settings%tolerance = scene%transient%time_tolerance
-    settings%damping = scene%transient%foundation_damping
-    settings%arm = scene%transient%arm
+    settings%damping = scene%foil_damping%foundation_damping
+    settings%arm = scene%foil_damping%arm
     settings%end_time = duration_of(scene%transient, scene%operation)
   end function settings_of
 
@@ -277,10 +277,10 @@ contains
       drive%ramp = duration_of(transient, scene%operation)
       if (transient%ramp_time > 0.0_wp) drive%ramp = transient%ramp_time
       drive%acceleration = (angular_speed(transient%final_speed_rpm) - drive%speed)/drive%ramp
-      drive%unbalance = bearings*transient%unbalance
-      drive%unbalance_angle = transient%unbalance_angle
-      drive%couple_unbalance = transient%couple_unbalance
-      drive%couple_unbalance_angle = transient%couple_unbalance_angle
+      drive%unbalance = bearings*scene%unbalance%static
+      drive%unbalance_angle = scene%unbalance%angle
+      drive%couple_unbalance = scene%unbalance%couple
+      drive%couple_unbalance_angle = scene%unbalance%couple_angle
       drive%pulse = bearings*transient%pulse
       drive%couple_pulse = transient%couple_pulse
       drive%pulse_start = transient%pulse_start

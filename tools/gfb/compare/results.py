@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pathlib
+import re
 
 import h5py
 import numpy
@@ -79,6 +80,8 @@ def read_differences(before, after, name):
     one, other = lines_of(before), lines_of(after)
     if name.endswith(".summary"):
         return summary_differences(one, other, name)
+    if name.endswith(".used.nml"):
+        return text_differences(keys_of(one), keys_of(other), name)
     return text_differences(one, other, name)
 
 
@@ -91,6 +94,10 @@ def dataset_differences(before, after, name):
         return []
     found = one_sided(one, other, "name", name + ":")
     for key in sorted(set(one) & set(other)):
+        if key == "scene/used":
+            texts = [numpy.asarray(file[key]).item() for file in (one, other)]
+            found += text_differences(*(keys_of(text.decode().splitlines()) for text in texts), f"{name}:{key}")
+            continue
         words, relative = value_difference(one[key], other[key])
         if words:
             found.append(Difference(f"{name}:{key}", words, relative))
@@ -158,6 +165,12 @@ def lines_of(path):
     """Lines of a text file."""
     with reading(path):
         return path.read_text(encoding="utf-8").splitlines()
+
+
+def keys_of(lines):
+    """Keys with their values, whatever group of a case file they stand in, without comments."""
+    text = re.sub(r"^ *([!&/].*)?\n", "", "".join(re.sub(r" ! .*$", "", line) + "\n" for line in lines), flags=re.MULTILINE)
+    return sorted(re.sub(r",\n +", ", ", text).splitlines())
 
 
 def summary_differences(one, other, place):
