@@ -1,7 +1,7 @@
 !> What the program tells of itself, without a case.
 module gfb_information
   use gfb_errors, only: error_type, fail
-  use gfb_key_notes, only: noted_key_type, no_default
+  use gfb_key_book, only: key_type, no_default
   use gfb_result_names, only: find_result, result_words, row_names, results_text
   use gfb_result_table, only: result_type
   use gfb_scene_reading, only: all_keys, key_table
@@ -25,7 +25,7 @@ contains
     character(len=*), intent(in) :: asked !! as typed: `group%key`, key, group or result
     character(len=:), allocatable, intent(out) :: words !! to be printed
     type(error_type), allocatable, intent(out) :: error !! why nothing is known
-    type(noted_key_type), allocatable :: keys(:)
+    type(key_type), allocatable :: keys(:)
     type(result_type) :: row
     character(len=:), allocatable :: name
     integer :: i
@@ -39,7 +39,7 @@ contains
     end do
     if (words /= '') words = '&'//name//' has the keys'//next//words
     do i = 1, size(keys)
-      if (name == keys(i)%key%name .or. name == keys(i)%group//'%'//keys(i)%key%name) then
+      if (name == keys(i)%name .or. name == trim(keys(i)%group)//'%'//trim(keys(i)%name)) then
         words = words//key_words(keys(i))
       end if
     end do
@@ -55,44 +55,44 @@ contains
 
   !> A key on one line.
   pure function key_line(one) result(words)
-    type(noted_key_type), intent(in) :: one
+    type(key_type), intent(in) :: one
     character(len=:), allocatable :: words
 
-    words = '  '//one%key%name
-    if (one%key%unit /= '' .and. one%key%unit /= '1') words = words//' ['//one%key%unit//']'
-    words = words//': '//plain_text(one%key%meaning)//next
+    words = '  '//trim(one%name)
+    if (one%unit /= '' .and. one%unit /= '1') words = words//' ['//one%unit//']'
+    words = words//': '//plain_text(one%meaning)//next
   end function key_line
 
   !> All that is known of a key.
   pure function key_words(one) result(words)
-    type(noted_key_type), intent(in) :: one
+    type(key_type), intent(in) :: one
     character(len=:), allocatable :: words
 
-    words = 'key '//one%key%name//' of &'//one%group//next// &
-            '  meaning  '//plain_text(one%key%meaning)//next// &
-            '  value    '//plain_text(one%key%type_words)//next
-    if (one%key%unit /= '' .and. one%key%unit /= '1') then
-      words = words//'  unit     '//one%key%unit//next
+    words = 'key '//trim(one%name)//' of &'//trim(one%group)//next// &
+            '  meaning  '//plain_text(one%meaning)//next// &
+            '  value    '//plain_text(one%type_words)//next
+    if (one%unit /= '' .and. one%unit /= '1') then
+      words = words//'  unit     '//one%unit//next
     end if
-    if (one%default == no_default) then
+    if (one%shown_default == no_default) then
       words = words//'  default  none'//next
     else
-      words = words//'  default  '//plain_text(one%default)//next
+      words = words//'  default  '//plain_text(one%shown_default)//next
     end if
   end function key_words
 
   !> The names that are nearest to an unknown one, as a question.
   pure function near(name, keys) result(words)
     character(len=*), intent(in) :: name
-    type(noted_key_type), intent(in) :: keys(:)
+    type(key_type), intent(in) :: keys(:)
     character(len=:), allocatable :: words
     character(len=longest_name) :: full(size(keys)), short(size(keys))
     character(len=:), allocatable :: found(:)
     integer :: i
 
     do i = 1, size(keys)
-      full(i) = keys(i)%group//'%'//keys(i)%key%name
-      short(i) = keys(i)%key%name
+      full(i) = trim(keys(i)%group)//'%'//trim(keys(i)%name)
+      short(i) = keys(i)%name
     end do
     found = [character(len=longest_name) :: nearest_word(name, full), nearest_word(name, short), &
              nearest_word(name, row_names())]

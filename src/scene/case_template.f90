@@ -2,7 +2,7 @@
 module gfb_case_template
   use gfb_case_keys, only: case_keys_type
   use gfb_errors, only: error_type, fail
-  use gfb_key_notes, only: noted_key_type, no_default
+  use gfb_key_book, only: key_type, no_default
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_words
   use gfb_scene_groups, only: read_groups
@@ -41,7 +41,7 @@ contains
     end if
     call keys%open_text(example(analysis), 'template')
     call read_groups(keys, scene)
-    words = introduction()//written(keys%notes%met(:keys%notes%count), offered(analysis))
+    words = introduction()//written(keys%book%keys(:keys%book%count), offered(analysis))
   end subroutine template_text
 
   !> What a template begins with.
@@ -59,7 +59,7 @@ contains
 
   !> The keys as a case file; the groups that are only offered stand in comments.
   pure function written(met, offer) result(words)
-    type(noted_key_type), intent(in) :: met(:)
+    type(key_type), intent(in) :: met(:)
     character(len=*), intent(in) :: offer !! groups between blanks
     character(len=:), allocatable :: words
     character(len=:), allocatable :: group, before
@@ -72,7 +72,7 @@ contains
       if (.not. met(i)%is_echoed) cycle
       if (met(i)%group /= group) then
         if (group /= '') words = words//before//'/'//next
-        group = met(i)%group
+        group = trim(met(i)%group)
         before = trim(merge('! ', '  ', index(offer, ' '//group//' ') > 0))
         words = words//next
         if (before /= '') words = words//'! Where it is wanted:'//next
@@ -85,16 +85,16 @@ contains
 
   !> A key with its comment, which may need several lines.
   pure function key_lines(one, before) result(words)
-    type(noted_key_type), intent(in) :: one
+    type(key_type), intent(in) :: one
     character(len=*), intent(in) :: before !! '!' in a group that is only offered
     character(len=:), allocatable :: words
     character(len=:), allocatable :: line, left
     integer :: last
 
     line = before//'  ! '
-    if (one%key%given) line = before//'  '
-    line = line//one%key%name//' ='
-    if (one%key%given .or. one%is_set .or. one%key%default == '') line = line//' '//one%value
+    if (one%given) line = before//'  '
+    line = line//trim(one%name)//' ='
+    if (one%given .or. one%is_set .or. one%default == '') line = line//' '//one%value
     left = comment(one)
     words = ''
     do
@@ -114,19 +114,19 @@ contains
 
   !> Unit, meaning, choice and default of a key.
   pure function comment(one) result(words)
-    type(noted_key_type), intent(in) :: one
+    type(key_type), intent(in) :: one
     character(len=:), allocatable :: words
 
     words = ''
-    if (one%key%unit /= '' .and. one%key%unit /= '1') words = '['//one%key%unit//'] '
-    words = words//plain_text(one%key%meaning)
-    if (index(one%key%type_words, '`') > 0) words = words//': '//plain_text(one%key%type_words)
-    if (one%key%required) then
+    if (one%unit /= '' .and. one%unit /= '1') words = '['//one%unit//'] '
+    words = words//plain_text(one%meaning)
+    if (index(one%type_words, '`') > 0) words = words//': '//plain_text(one%type_words)
+    if (one%required) then
       words = words//' (required)'
-    else if (one%key%default /= '' .and. one%key%default /= no_default) then
-      words = words//' (default: '//plain_text(one%key%default)//')'
-    else if (one%key%given .and. one%key%default == '') then
+    else if (one%default /= '' .and. one%default /= no_default) then
       words = words//' (default: '//plain_text(one%default)//')'
+    else if (one%given .and. one%default == '') then
+      words = words//' (default: '//plain_text(one%shown_default)//')'
     end if
   end function comment
 

@@ -41,23 +41,11 @@ contains
     type(swept_key_type), intent(in) :: key !! a list
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp), allocatable :: list(:) !! [their unit]
-    character(len=:), allocatable :: words
-    integer :: i, k, status
+    integer :: place
 
-    allocate (list(0))
-    do i = 1, keys%notes%count
-      associate (met => keys%notes%met(i))
-        if (met%group /= key%group .or. met%key%name /= key%name .or. .not. met%key%given) cycle
-        words = met%value
-      end associate
-      do k = 1, len(words)
-        if (words(k:k) == new_line('a')) words(k:k) = ' '
-      end do
-      deallocate (list)
-      allocate (list(1 + count([(words(k:k) == ',', k=1, len(words))])), source=0.0_wp)
-      read (words, *, iostat=status) list
-      if (status /= 0) list = [real(wp) ::]
-    end do
+    list = [real(wp) ::]
+    place = keys%book%place_of(key%group, key%name)
+    if (place > 0) list = keys%book%keys(place)%numbers
     if (size(list) == 0 .and. key%is_gap()) list = [0.0_wp]
     if (size(list) == 1) list = spread(list(1), 1, max(1, list_length(key, foil)))
   end function list_values
@@ -296,11 +284,7 @@ contains
     else
       call look_up(keys, scene, key, one%unit, problem)
       if (problem /= '') return
-      if (key%element == 0) then
-        value = [value_of(keys, key)]
-      else
-        value = list_values(keys, key, scene%bump_foil)
-      end if
+      value = list_values(keys, key, scene%bump_foil)
     end if
     do i = 1, size(value)
       if (key%element > 0 .and. key%element /= i) cycle
@@ -322,21 +306,4 @@ contains
            (one%element == other%element .or. &
             any([one%element, other%element] == every_element))
   end function is_same
-
-  !> Value of a real key, given or by default; 0 where it has none.
-  function value_of(keys, key) result(value)
-    type(case_keys_type), intent(in) :: keys
-    type(swept_key_type), intent(in) :: key
-    real(wp) :: value !! [its unit]
-    integer :: i, status
-
-    value = 0.0_wp
-    do i = 1, keys%notes%count
-      associate (met => keys%notes%met(i))
-        if (met%group /= home_of(key%group, key%name) .or. met%key%name /= key%name) cycle
-        read (met%value, *, iostat=status) value
-        if (status /= 0) value = 0.0_wp
-      end associate
-    end do
-  end function value_of
 end module gfb_named_key_rules

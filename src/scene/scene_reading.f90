@@ -6,7 +6,7 @@ module gfb_scene_reading
   use gfb_changed_text, only: changed_text, changed_list_text
   use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
-  use gfb_key_notes, only: noted_key_type
+  use gfb_key_book, only: key_type
   use gfb_named_key_rules, only: list_length, check_sensitivity, check_swept_keys
   use gfb_plausible_values, only: check_plausible
   use gfb_scene, only: scene_type
@@ -57,7 +57,7 @@ contains
     call check_sensitivity(keys, scene)
     call check_swept_keys(keys, scene, sweeps_keys)
     if (sweeps_keys) call check_swept_values(keys, scene, strict)
-    scene%echo = keys%notes%echo()
+    scene%echo = keys%book%echo()
     scene%warnings = keys%warning_lines()
     scene%hints = keys%hint_lines()
     call keys%report(error)
@@ -196,16 +196,16 @@ contains
     type(case_keys_type) :: keys
 
     call read_nothing(keys)
-    table = keys%notes%table()
+    table = keys%book%table()
   end function key_table
 
   !> All keys there are.
   function all_keys() result(list)
-    type(noted_key_type), allocatable :: list(:)
+    type(key_type), allocatable :: list(:)
     type(case_keys_type) :: keys
 
     call read_nothing(keys)
-    list = keys%notes%met(:keys%notes%count)
+    list = keys%book%keys(:keys%book%count)
   end function all_keys
 
   !> Reads the keys of an empty file, and so notes what there is.

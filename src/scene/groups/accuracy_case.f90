@@ -1,11 +1,10 @@
 !> `&accuracy`: how well one number of the answer must be known.
 module gfb_accuracy_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, between, from_to
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, bearing, strip
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
-  use gfb_value_rules, only: between, from_to
   implicit none (type, external)
   private
   public :: accuracy_case_type, read_accuracy_case, asked_name
@@ -44,7 +43,6 @@ contains
                           'refinements, each by two, of a first mesh that is four times '// &
                           'coarser than `&mesh`', &
                           from_to(2.0_wp, 8.0_wp))
-    call keys%finish_group()
   end subroutine read_accuracy_case
 
   !> Name of the number that must be known so well.

@@ -1,9 +1,8 @@
 !> `&bearing` and `&pads`: the pad, or several equal ones with their preload.
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive
   use gfb_text, only: text
-  use gfb_value_rules, only: at_least, positive, from_below, from_to
   implicit none (type, external)
   private
   public :: bearing_case_type, read_bearing_case, pad_angle, pad_length, pad_turn, preload_angle, &
@@ -59,7 +58,6 @@ contains
                    bearing%leading_edge_condition == leading_edge_periodic .and. &
                    bearing%leading_edge_angle > 0.0_wp, 'must be 0 with leading_edge_condition '// &
                    "= 'periodic', a full ring")
-    call keys%finish_group()
   end subroutine read_bearing_case
 
   !> Angle that the pad covers [rad].
@@ -121,7 +119,6 @@ contains
                        from_to(0.0_wp, 1.0_wp))
     call check_edges(keys, bearing, first)
     call check_arc(keys, bearing, gap)
-    call keys%finish_group()
     bearing%leading_edge_angle = first
     if (keys%meant(group, 'arc')) return
     if (bearing%pads > 1 .or. keys%meant(group, 'gap')) then

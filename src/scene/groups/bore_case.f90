@@ -3,10 +3,10 @@ module gfb_bore_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
   use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, from_below, from_to, &
+                           not_negative, positive, rule_type
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
-  use gfb_value_rules, only: rule_type, any_value, from_below, from_to, not_negative, positive
   implicit none (type, external)
   private
   public :: bore_case_type, read_bore_case
@@ -38,7 +38,6 @@ contains
     call read_waves(keys, bore%profile)
     call read_shims(keys, bore%profile, shims)
     call read_table(keys, bore%profile)
-    call keys%finish_group()
     if (.not. bore%present) return
     call keys%rule(group, 'shim_height', .not. allocated(bore%profile%shim_height) .and. &
                    bearing%clearance > 0.0_wp .and. shims >= bearing%clearance, &

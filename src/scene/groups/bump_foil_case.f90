@@ -3,12 +3,12 @@ module gfb_bump_foil_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_heights, only: crest_gaps, normal_deviations
-  use gfb_case_keys, only: case_keys_type, no_default, unless
+  use gfb_case_keys, only: case_keys_type, no_default, unless, at_least, between, from_to, &
+                           not_negative, positive
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_foil_sizes, only: size_type, of_bump, of_strip, bump_list_key, complain_of_sizes
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text
-  use gfb_value_rules, only: between, from_to, not_negative, positive, at_least
   implicit none (type, external)
   private
   public :: bump_foil_case_type, read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, &
@@ -89,10 +89,10 @@ contains
                           needs%bumps, default=no_default)
     if (foil%bumps > 0) foil%pitch%value = pad_length(bearing)/foil%bumps
     call foil%pitch%read_value(keys, needs%pitch, 'length of the pad / `bumps`')
-    call foil%pitch%read_by_bump(keys, foil%bumps, 'from bump to bump, arc plus flat')
-    call foil%half_length%read_by_bump(keys, foil%bumps, "half the chord of the bump's arc")
-    call foil%height%read_by_bump(keys, foil%bumps, 'height of the bump')
-    call foil%thickness%read_by_bump(keys, foil%bumps, 'thickness of the bump, arc and flat')
+    call foil%pitch%read_by_bump(keys, foil%bumps)
+    call foil%half_length%read_by_bump(keys, foil%bumps)
+    call foil%height%read_by_bump(keys, foil%bumps)
+    call foil%thickness%read_by_bump(keys, foil%bumps)
     if (needs%bumps .and. .not. needs%width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
                        needs%width, default='required for strips; a bearing''s length')
@@ -100,25 +100,23 @@ contains
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
-    call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'm', 'gap at rest '// &
+    call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s crest and the top foil or plate', not_negative, &
                        '0: all crests touch')
     gaps = keys%key%given
-    call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'm', 'gap at rest '// &
+    call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s two corner lines and the sleeve', not_negative, &
                        '0: all corners touch')
     call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%strips*bearing%pads, &
                                foil%height%smallest(), foil%random, foil%crest_gap)
     call check_geometry(keys, foil, bearing)
-    call keys%finish_group()
   end subroutine read_bump_foil_case
 
   !> Reads how the strip is cut into strips side by side.
   subroutine read_cuts(keys, foil)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(inout) :: foil
-    character(len=*), parameter :: meaning = 'width of each cut between two strips'
-    character(len=*), parameter :: why = 'needs strips = 2 in &bump_foil, or more'
+    character(len=:), allocatable :: useless
     real(wp) :: strip !! width of each [m]
     logical :: right
 
@@ -126,23 +124,17 @@ contains
                           'cut apart; the width is that of all with the cuts', &
                           from_to(1.0_wp, most_strips))
     right = keys%last_key_is_right()
-    if (foil%present .and. foil%strips <= 1) then
-      call keys%useless_key('cut_width', meaning, why)
-      call no_strips(foil%pitch)
-      call no_strips(foil%half_length)
-      call no_strips(foil%height)
-      call no_strips(foil%thickness)
-      call no_strips(foil%offset)
-      return
-    end if
-    call keys%real_key('cut_width', foil%cut_width, 'm', meaning, positive, &
-                       foil%strips > 1, default='required with `strips`')
+    useless = unless(foil%strips > 1 .or. .not. foil%present, &
+                     'needs strips = 2 in &bump_foil, or more')
+    call keys%real_key('cut_width', foil%cut_width, 'm', 'width of each cut between two strips', &
+                       positive, foil%strips > 1, default='required with `strips`', &
+                       useless=useless)
     right = right .and. keys%last_key_is_right()
-    call foil%pitch%read_by_strip(keys, foil%strips, positive)
-    call foil%half_length%read_by_strip(keys, foil%strips, positive)
-    call foil%height%read_by_strip(keys, foil%strips, positive)
-    call foil%thickness%read_by_strip(keys, foil%strips, positive)
-    call foil%offset%read_by_strip(keys, foil%strips, not_negative, &
+    call foil%pitch%read_by_strip(keys, foil%strips, positive, useless)
+    call foil%half_length%read_by_strip(keys, foil%strips, positive, useless)
+    call foil%height%read_by_strip(keys, foil%strips, positive, useless)
+    call foil%thickness%read_by_strip(keys, foil%strips, positive, useless)
+    call foil%offset%read_by_strip(keys, foil%strips, not_negative, useless, &
                                    '0: strips begin at the edge of the pad')
     if (.not. right .or. .not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
@@ -150,14 +142,6 @@ contains
     call keys%complain(group, 'cut_width', 'must be less than the width of a strip, '// &
                        text(max(0.0_wp, strip), 4)//' m: so much is left of '// &
                        text(foil%width)//' m for each of '//text(foil%strips))
-
-  contains
-
-    !> The key of a size strip by strip, where there is one strip.
-    subroutine no_strips(size)
-      type(size_type), intent(in) :: size
-      call keys%useless_key('strip_'//trim(size%name), trim(size%meaning)//', strip by strip', why)
-    end subroutine no_strips
   end subroutine read_cuts
 
   !> Width of all strips without the cuts [m].

@@ -1,10 +1,9 @@
 !> `&capacity`: the limit up to which load, speed or tilt is asked for.
 module gfb_capacity_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, between, positive
   use gfb_scene_case, only: analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
                             asks_limit, misplaced_group
-  use gfb_value_rules, only: positive, between
   implicit none (type, external)
   private
   public :: capacity_case_type, read_capacity_case
@@ -50,7 +49,6 @@ contains
                        between(0.0_wp, 1.0_wp))
     call keys%choice_key('tilt_axis', capacity%tilt_axis, axis_words, &
                          'axis about which the sleeve tilts for the misalignment allowance')
-    call keys%finish_group()
     if (capacity%question == 0) return
     if (analysis == analysis_lift_off) then
       call keys%rule('capacity', 'smallest_gap', keys%meant('capacity', 'smallest_gap'), &

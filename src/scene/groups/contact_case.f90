@@ -4,13 +4,12 @@
 module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, from_to, positive
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
-  use gfb_value_rules, only: from_to, positive
   implicit none (type, external)
   private
   public :: contact_case_type, read_contact_case
@@ -121,7 +120,6 @@ contains
     call keys%choice_key('contact_surface', contact%contact_surface, surface_words, &
                          'forces act where the mid-surfaces are, or at the faces, half a '// &
                          'thickness off: rubbing turns the foils, and their turning rubs')
-    call keys%finish_group()
 
   contains
 

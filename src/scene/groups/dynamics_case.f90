@@ -1,12 +1,11 @@
 !> `&dynamics`: frequencies at which stiffness and damping are asked for, and what foils do then.
 module gfb_dynamics_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, not_negative, positive
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_equilibrium, &
                             analysis_fixed_position, analysis_transient, analysis_periodic, &
                             asks_limit, misplaced_group
-  use gfb_value_rules, only: positive, not_negative
   implicit none (type, external)
   private
   public :: dynamics_case_type, read_dynamics_case, analysis_of_state, &
@@ -71,7 +70,6 @@ contains
                             'amplitudes of the shaft along x and along y at which stiffness '// &
                             'and damping are asked for too, contacts sliding to and fro', &
                             positive, .false., 'none: small ones alone')
-    call keys%finish_group()
   end subroutine read_dynamics_case
 
   !> The frequencies at a speed of the shaft.

@@ -2,11 +2,10 @@
 !> springs of an elastic foundation, and the mass of foils that are meshed.
 module gfb_foil_damping_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, no_default, unless
+  use gfb_case_keys, only: case_keys_type, no_default, unless, from_to, not_negative, positive
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, &
                             misplaced_group
-  use gfb_value_rules, only: from_to, positive, not_negative
   implicit none (type, external)
   private
   public :: foil_damping_case_type, read_foil_damping_case
@@ -55,6 +54,5 @@ contains
     call keys%integer_key('foil_modes', damping%foil_modes, &
                           'fixed-interface modes kept inside each condensed piece of the bumps '// &
                           'that has its mass', from_to(0.0_wp, most_modes), useless=massless)
-    call keys%finish_group()
   end subroutine read_foil_damping_case
 end module gfb_foil_damping_case

@@ -2,9 +2,8 @@
 !> lie side by side.
 module gfb_foil_sizes
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list, no_default
+  use gfb_case_keys, only: case_keys_type, longest_list, no_default, positive, rule_type
   use gfb_text, only: text
-  use gfb_value_rules, only: rule_type, positive
   implicit none (type, external)
   private
   public :: size_type, of_bump, of_strip, bump_list_key, complain_of_sizes
@@ -47,24 +46,27 @@ contains
   end subroutine read_value
 
   !> Reads the size bump by bump.
-  subroutine read_by_bump(self, keys, bumps, meaning)
+  subroutine read_by_bump(self, keys, bumps)
     class(size_type), intent(inout) :: self !! the size
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     integer, intent(in) :: bumps !! of the strip, 0 where not known
-    character(len=*), intent(in) :: meaning !! of the key
+    real(wp), allocatable :: values(:)
 
-    call bump_list_key(keys, 'bump_'//trim(self%name), self%by_bump, bumps, 'm', meaning, &
+    call bump_list_key(keys, 'bump_'//trim(self%name), values, bumps, trim(self%meaning), &
                        positive, '`'//trim(self%name)//'` of all bumps')
     if (keys%key%given) call refuse_both(keys, 'bump_'//trim(self%name), trim(self%name))
-    if (allocated(self%by_bump)) self%value = value_of(self, self%by_bump)
+    if (.not. allocated(values)) return
+    self%value = value_of(self, values)
+    self%by_bump = values
   end subroutine read_by_bump
 
   !> Reads the size strip by strip. Values that are the same for all are the single one.
-  subroutine read_by_strip(self, keys, strips, rule, default)
+  subroutine read_by_strip(self, keys, strips, rule, useless, default)
     class(size_type), intent(inout) :: self !! the size
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     integer, intent(in) :: strips !! side by side, 0 where not known
     type(rule_type), intent(in) :: rule !! that each value keeps
+    character(len=*), intent(in) :: useless !! why it has no use; empty where it has one
     character(len=*), intent(in), optional :: default !! in words
     character(len=:), allocatable :: name, words
     real(wp), allocatable :: values(:)
@@ -72,18 +74,14 @@ contains
     name = 'strip_'//trim(self%name)
     words = '`'//trim(self%name)//'` of all strips'
     if (present(default)) words = default
-    call keys%real_list_key(name, values, longest_list, 'm', trim(self%meaning)// &
-                            ', one value a strip from the smallest z on, or one for all', rule, &
-                            .false., words)
-    if (.not. keys%key%given) return
-    call refuse_both(keys, name, trim(self%name))
-    call refuse_both(keys, name, 'bump_'//trim(self%name))
-    if (.not. keys%last_key_is_right() .or. strips < 1) return
-    if (size(values) /= 1 .and. size(values) /= strips) then
-      call keys%complain(group, name, 'must have one value, or one a strip: '//text(strips)// &
-                         ', not '//text(size(values)))
-      return
+    call shared_list_key(keys, name, values, 'strip', strips, 'smallest z', trim(self%meaning), &
+                         rule, words, useless)
+    if (useless /= '') return
+    if (keys%key%given) then
+      call refuse_both(keys, name, trim(self%name))
+      call refuse_both(keys, name, 'bump_'//trim(self%name))
     end if
+    if (.not. allocated(values)) return
     self%value = value_of(self, values)
     if (any(abs(values - values(1)) > 0.0_wp)) self%by_strip = values
   end subroutine read_by_strip
@@ -109,28 +107,38 @@ contains
   end function value_of
 
   !> One value a bump from the smallest x on, or one that stands for all.
-  subroutine bump_list_key(keys, name, list, bumps, unit, meaning, rule, default)
+  subroutine bump_list_key(keys, name, list, bumps, meaning, rule, default)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     character(len=*), intent(in) :: name !! of the key
-    !> [its unit] one a bump; not allocated where none is right
-    real(wp), allocatable, intent(out) :: list(:)
+    real(wp), allocatable, intent(out) :: list(:) !! not allocated where none is right [m]
     integer, intent(in) :: bumps !! of the strip, 0 where not known
-    character(len=*), intent(in) :: unit, meaning !! of the value; what the key means
+    character(len=*), intent(in) :: meaning !! of the key
     type(rule_type), intent(in) :: rule !! that each value keeps
     character(len=*), intent(in) :: default !! in words
+    call shared_list_key(keys, name, list, 'bump', bumps, 'leading end', meaning, rule, default, '')
+  end subroutine bump_list_key
+
+  !> One value a bump or strip, or one that stands for all.
+  subroutine shared_list_key(keys, name, list, what, number, from, meaning, rule, default, useless)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: name
+    real(wp), allocatable, intent(out) :: list(:) !! not allocated where none is right [m]
+    character(len=*), intent(in) :: what !! has a value: 'bump' or 'strip'
+    integer, intent(in) :: number !! of them, 0 where not known
+    character(len=*), intent(in) :: from !! where the first is
+    character(len=*), intent(in) :: meaning, default, useless
+    type(rule_type), intent(in) :: rule
     real(wp), allocatable :: values(:)
 
-    call keys%real_list_key(name, values, longest_list, unit, meaning//', one value a bump '// &
-                            'from the leading end on, or one for all', rule, .false., default)
-    if (.not. keys%last_key_is_right() .or. bumps < 1) return
-    if (size(values) /= 1 .and. size(values) /= bumps) then
-      call keys%complain(group, name, 'must have one value, or one a bump: '//text(bumps)// &
-                         ', not '//text(size(values)))
-      return
-    end if
-    list = values
-    if (size(values) == 1) list = spread(values(1), 1, bumps)
-  end subroutine bump_list_key
+    call keys%real_list_key(name, values, longest_list, 'm', meaning//', one value a '//what// &
+                            ' from the '//from//' on, or one for all', rule, .false., default, &
+                            useless)
+    if (.not. keys%last_key_is_right() .or. number < 1) return
+    if (size(values) == 1) values = spread(values(1), 1, number)
+    call keys%rule(group, name, size(values) /= number, 'must have one value, or one a '// &
+                   what//': '//text(number)//', not '//text(size(values)))
+    if (size(values) == number) list = values
+  end subroutine shared_list_key
 
   !> The size of each bump [m].
   pure function each(self, bumps) result(values)

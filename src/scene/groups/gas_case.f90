@@ -1,13 +1,13 @@
 !> `&gas`: the gas in the film.
 module gfb_gas_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, positive, &
+                           rule_type
   use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
                          density_peng_robinson, density_table, monotone_table, table_at, &
                          peng_robinson, saturate, amount_at, gas_constant
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
-  use gfb_value_rules, only: any_value, not_negative, positive, rule_type
   implicit none (type, external)
   private
   public :: gas_case_type, read_gas_case
@@ -77,7 +77,6 @@ contains
                        not_negative)
     call read_state(keys, said, needed, gas%law%viscosity_exponent)
     call read_table(keys, said, needed)
-    call keys%finish_group()
     if (.not. needed .or. keys%mistakes() > mistakes) return
     if (.not. is_complete(said, gas)) return
     call check_keys(keys, said, gas)

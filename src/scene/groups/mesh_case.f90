@@ -3,10 +3,9 @@ module gfb_mesh_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_length
   use gfb_bump_foil_case, only: bump_foil_case_type
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, from_to
   use gfb_model_case, only: model_case_type, meshes_foils
   use gfb_text, only: text
-  use gfb_value_rules, only: from_to
   implicit none (type, external)
   private
   public :: mesh_case_type, read_mesh_case
@@ -74,7 +73,6 @@ contains
     call keys%rule('mesh', 'align_crests', mesh%align_crests .and. .not. can_align .and. &
                    model%foil > 0, "needs foil = 'shell', and bumps, pitch, half_length and "// &
                    "height in &bump_foil; 'beam' will do, too")
-    call keys%finish_group()
   end subroutine read_mesh_case
 
   !> Elements along the pad where the case does not say: whole pitches that cover it.

@@ -1,9 +1,8 @@
 !> `&model`: how the bearing is modelled.
 module gfb_model_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, unless
+  use gfb_case_keys, only: case_keys_type, unless, from_to, positive
   use gfb_scene_case, only: is_bearing, is_structure
-  use gfb_value_rules, only: positive, from_to
   implicit none (type, external)
   private
   public :: model_case_type, read_model_case, meshes_foils, foil_word, foil_meaning, foil_count
@@ -114,7 +113,6 @@ contains
                    model%foundation_pressure == foundation_pressure_local, 'cannot be '// &
                    "'partitioned' where foundation_pressure is 'local': springs under each "// &
                    'pressure have no equations of their own')
-    call keys%finish_group()
   end subroutine read_model_case
 
   !> Whether top foil and bumps have meshes of their own.

@@ -1,9 +1,8 @@
 !> `&modes`: which natural modes are asked for.
 module gfb_modes_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, from_to
   use gfb_scene_case, only: analysis_modes, misplaced_group
-  use gfb_value_rules, only: from_to
   implicit none (type, external)
   private
   public :: modes_case_type, read_modes_case
@@ -44,6 +43,5 @@ contains
       call keys%complain('modes', 'substructure_modes', "needs part = 'strip', which alone is "// &
                          'made of super-elements')
     end if
-    call keys%finish_group()
   end subroutine read_modes_case
 end module gfb_modes_case

@@ -1,10 +1,9 @@
 !> `&operation`: speed, load and position of the shaft.
 module gfb_operation_case
   use gfb_kinds, only: wp, most_pads
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, any_value
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
-  use gfb_value_rules, only: any_value
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed
@@ -80,7 +79,6 @@ contains
     call keys%real_list_key('leading_edge_lift_edge', operation%leading_edge_lift_edge, most_pads, &
                             'm', 'the same at the ends of the bearing', any_value, &
                             required=.false., default=no_default)
-    call keys%finish_group()
   end subroutine read_operation_case
 
   !> Angular speed [rad/s].

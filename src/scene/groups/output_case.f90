@@ -1,8 +1,7 @@
 !> `&output`: what is written.
 module gfb_output_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
-  use gfb_value_rules, only: from_to
+  use gfb_case_keys, only: case_keys_type, from_to
   implicit none (type, external)
   private
   public :: output_case_type, read_output_case
@@ -40,6 +39,5 @@ contains
                           'sweep points, load steps of a strip or steps of time, after which '// &
                           '`CASE.restart.h5` is written for `--restart`; 0: once a minute', &
                           from_to(0.0_wp, most_steps))
-    call keys%finish_group()
   end subroutine read_output_case
 end module gfb_output_case

@@ -1,9 +1,9 @@
 !> `&periodic`: orbits of the shaft that close after a period.
 module gfb_periodic_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, at_least, between, from_to, not_negative, &
+                           positive
   use gfb_scene_case, only: analysis_periodic, misplaced_group
-  use gfb_value_rules, only: positive, not_negative, at_least, between, from_to
   implicit none (type, external)
   private
   public :: periodic_case_type, read_periodic_case
@@ -68,6 +68,5 @@ contains
     call keys%integer_key('start_turns', periodic%start_turns, &
                           'periods of a forced motion that are marched from rest before the '// &
                           'first orbit is looked for', at_least(0.0_wp))
-    call keys%finish_group()
   end subroutine read_periodic_case
 end module gfb_periodic_case

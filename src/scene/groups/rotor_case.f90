@@ -1,10 +1,9 @@
 !> `&rotor` and `&unbalance`: the rigid rotor whose modes, or whose path over time, are asked for.
 module gfb_rotor_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, no_default, unless
+  use gfb_case_keys, only: case_keys_type, no_default, unless, any_value, not_negative, positive
   use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, &
                             misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative
   implicit none (type, external)
   private
   public :: rotor_case_type, read_rotor_case, unbalance_case_type, read_unbalance_case
@@ -54,7 +53,6 @@ contains
                        'distance of the two bearings, from midplane to midplane', positive, &
                        default=no_default)
     if (analysis == analysis_transient) rotor%distance_in_time = rotor%bearing_distance
-    call keys%finish_group()
   end subroutine read_rotor_case
 
   !> Reads `&unbalance`.
@@ -82,6 +80,5 @@ contains
     call keys%real_key('couple_unbalance_angle', unbalance%couple_angle, 'rad', &
                        'direction of the one at +z at the beginning, from x towards y', &
                        any_value, useless=no_couple)
-    call keys%finish_group()
   end subroutine read_unbalance_case
 end module gfb_rotor_case

@@ -1,9 +1,8 @@
 !> `&sample`: the scene with many draws of its random heights.
 module gfb_sample_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, between, from_to
   use gfb_text, only: text
-  use gfb_value_rules, only: between, from_to
   implicit none (type, external)
   private
   public :: sample_case_type, read_sample_case, percent_of
@@ -44,7 +43,6 @@ contains
                            'results, not '//text(sample%quantiles(i), 4))
       end associate
     end do
-    call keys%finish_group()
   end subroutine read_sample_case
 
   !> A quantile in percent.

@@ -60,7 +60,6 @@ contains
                          'see `&capacity`; the shaft over time: see `&transient`; orbits '// &
                          'that close: see `&periodic`')
     if (is_misplaced(keys)) scene%analysis = 0
-    call keys%finish_group()
   end subroutine read_scene_case
 
   !> Whether the analysis may be said where it is not read: in a group or by a key that is misspelt.

@@ -1,10 +1,9 @@
 !> `&sensitivity`: how results of an answer follow keys of the case file.
 module gfb_sensitivity_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, not_negative
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, misplaced_group
   use gfb_sweep_case, only: swept_key_type
-  use gfb_value_rules, only: not_negative
   implicit none (type, external)
   private
   public :: sensitivity_case_type, read_sensitivity_case
@@ -59,6 +58,5 @@ contains
     call keys%real_list_key('tolerances', sensitivity%tolerances, most_tolerances, &
                             'those of parameters', 'standard deviation of each of them: the '// &
                             'variance is told that they cause', not_negative, .false., 'none')
-    call keys%finish_group()
   end subroutine read_sensitivity_case
 end module gfb_sensitivity_case

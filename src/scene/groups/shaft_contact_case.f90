@@ -1,9 +1,8 @@
 !> `&shaft_contact`: the rough shaft touches the foil, or sleeve, where the film is thin.
 module gfb_shaft_contact_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, from_to, positive
   use gfb_scene_case, only: is_bearing, misplaced_group
-  use gfb_value_rules, only: from_to, positive
   implicit none (type, external)
   private
   public :: shaft_contact_case_type, read_shaft_contact_case
@@ -36,6 +35,5 @@ contains
                        'pressure p_0 of the asperities at zero film thickness', positive, .true.)
     call keys%real_key('friction', contact%friction, '1', &
                        'friction coefficient of the asperities', from_to(0.0_wp, highest_friction))
-    call keys%finish_group()
   end subroutine read_shaft_contact_case
 end module gfb_shaft_contact_case

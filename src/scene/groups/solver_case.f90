@@ -2,9 +2,8 @@
 module gfb_solver_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, between, from_to, positive
   use gfb_text, only: text
-  use gfb_value_rules, only: between, from_to, positive
   implicit none (type, external)
   private
   public :: solver_case_type, read_solver_case
@@ -73,6 +72,5 @@ contains
                          'strips of shells only)')
     call keys%logical_key('memory_check', solver%memory_check, &
                           'refuse a scene that needs more memory than the machine has')
-    call keys%finish_group()
   end subroutine read_solver_case
 end module gfb_solver_case

@@ -3,10 +3,9 @@ module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_bump_foil_case, only: bump_foil_case_type, solid_width
   use gfb_curved_bump, only: walowit_anno_stiffness
-  use gfb_case_keys, only: case_keys_type, longest_list, unless
+  use gfb_case_keys, only: case_keys_type, longest_list, unless, any_value, from_to, positive
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
-  use gfb_value_rules, only: any_value, from_to, positive
   implicit none (type, external)
   private
   public :: strip_load_case_type, read_strip_load_case, crest_forces
@@ -73,7 +72,6 @@ contains
                           default='`steps_up` with plates, otherwise 0')
     call keys%choice_key('support', load%support, support_words, &
                          'corner lines rest on the sleeve and can lift, or cannot leave it')
-    call keys%finish_group()
 
   contains
 

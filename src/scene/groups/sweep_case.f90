@@ -2,11 +2,10 @@
 !> do.
 module gfb_sweep_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, longest_list
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, rule_type
   use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
-  use gfb_value_rules, only: rule_type, any_value, not_negative
   implicit none (type, external)
   private
   public :: sweep_case_type, read_sweep_case, operation_at, swept_keys, named_keys
@@ -84,7 +83,6 @@ contains
     call keys%logical_key('friction_memory', sweep%friction_memory, &
                           'points are steps of one loading history: friction keeps its slip '// &
                           'from point to point; otherwise every point is loaded from rest')
-    call keys%finish_group()
   end subroutine read_sweep_case
 
   !> The keys that take the sweep's values; names are empty where the sweep has them wrong.

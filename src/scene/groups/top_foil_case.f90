@@ -1,9 +1,8 @@
 !> `&top_foil`: the smooth foil under the film.
 module gfb_top_foil_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, no_default
+  use gfb_case_keys, only: case_keys_type, no_default, between, positive
   use gfb_scene_case, only: needs_type
-  use gfb_value_rules, only: between, positive
   implicit none (type, external)
   private
   public :: top_foil_case_type, read_top_foil_case, initial_curvature
@@ -46,7 +45,6 @@ contains
     call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
                        'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
                        positive, default='`radius`')
-    call keys%finish_group()
   end subroutine read_top_foil_case
 
   !> Curvature of the foil without forces over that of the bore, \( \kappa_0 = 1/R_f - 1/R \).

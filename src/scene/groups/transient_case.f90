@@ -1,10 +1,9 @@
 !> `&transient`: a shaft over time.
 module gfb_transient_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, any_value, not_negative, positive
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene_case, only: analysis_transient, misplaced_group
-  use gfb_value_rules, only: any_value, positive, not_negative
   implicit none (type, external)
   private
   public :: transient_case_type, read_transient_case, duration_of
@@ -75,7 +74,6 @@ contains
                        'ends when the shaft has left its first position by more, in either '// &
                        'bearing; 0: never', &
                        not_negative)
-    call keys%finish_group()
   end subroutine read_transient_case
 
   !> How long, in which steps.

@@ -1,19 +1,22 @@
-!> Reads the keys of the groups: one call a key reads it, checks it, complains, and writes its line
-!> of the echo and its row of the table of keys.
+!> Reads the keys of the groups: one call a key reads it, checks it, complains, and notes what the
+!> echo and the table of keys show of it.
 !>
 !> A key that is not given keeps the value it came with. `default` says in words what holds then,
 !> where that value is not fixed; the value is then echoed unless it is zero, which means unset.
 module gfb_case_keys
   use gfb_kinds, only: wp
-  use gfb_case_reader, only: case_reader_type, longest_list
-  use gfb_key_notes, only: no_default, real_words, list_words, quoted, choices, &
-                           chosen_word, chosen_words
+  use gfb_case_reader, only: case_reader_type
+  use gfb_key_book, only: real_words, list_words, no_default, quoted, choices, chosen_word, &
+                          chosen_words
+  use gfb_namelist_file, only: longest_list
   use gfb_namelist_values, only: read_integer, read_logical, value_string
   use gfb_text, only: lower_case, text
-  use gfb_value_rules, only: rule_type, broken_rule
+  use gfb_value_rules, only: rule_type, any_value, positive, not_negative, at_least, from_to, &
+                             from_below, between, broken_rule
   implicit none (type, external)
   private
   public :: case_keys_type, longest_list, no_default, unless
+  public :: rule_type, any_value, positive, not_negative, at_least, from_to, from_below, between
 
   integer, parameter :: single = 0            !! values of a key that takes no list
   integer, parameter :: longest_string = 500  !! characters
@@ -32,10 +35,8 @@ module gfb_case_keys
     procedure :: choice_or_keys_key
     procedure :: words_key
     procedure :: names_key
-    procedure :: useless_key
+    procedure, private :: take_numbers
     procedure, private :: has_no_use
-    procedure :: rule
-    procedure :: refuse
   end type case_keys_type
 
 contains
@@ -50,6 +51,23 @@ contains
     if (.not. has_use) words = why
   end function unless
 
+  !> Reads a key that has no use, where a reason says so: its echo must not show a value.
+  function has_no_use(self, name, meaning, why) result(useless)
+    class(case_keys_type), intent(inout) :: self
+    character(len=*), intent(in) :: name, meaning !! of the key; what it means
+    character(len=*), intent(in), optional :: why !! it must not be given; empty where it may
+    logical :: useless
+    integer, allocatable :: elements(:)
+
+    useless = .false.
+    if (present(why)) useless = why /= ''
+    if (.not. useless) return
+    call self%describe(name, 'string', '', meaning)
+    call self%begin_key('', longest_list, elements, default=no_default)
+    call self%end_key('', .false., .false.)
+    if (self%key%given) call self%complain(trim(self%key%group), name, why)
+  end function has_no_use
+
   !> One real number.
   subroutine real_key(self, name, value, unit, meaning, rule, required, default, given, useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
@@ -61,21 +79,14 @@ contains
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
     character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
-    character(len=:), allocatable :: words
-    integer, allocatable :: elements(:)
-    real(wp) :: before
+    real(wp) :: values(1)
 
     if (present(given)) given = .false.
     if (self%has_no_use(name, meaning, useless)) return
-    before = value
+    values = value
     call self%describe(name, real_words, unit, meaning)
-    words = self%notes%numbers_shown([value])
-    call self%begin_key(words, single, elements, required, default, given)
-    if (size(elements) == 1) then
-      call self%take_real(elements(1), 0, value, rule)
-      words = self%notes%numbers_shown([value])
-    end if
-    call self%end_key(words, abs(value) > 0.0_wp, .not. abs(value - before) > 0.0_wp)
+    call self%take_numbers(single, values, rule, required, default, given)
+    value = values(1)
   end subroutine real_key
 
   !> A fixed number of real numbers; all of them must be given.
@@ -88,28 +99,40 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+
+    call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
+    call self%take_numbers(size(values), values, rule, required, default, given)
+  end subroutine real_vector_key
+
+  !> Reads as many real numbers as there are.
+  subroutine take_numbers(self, most, values, rule, required, default, given)
+    class(case_keys_type), intent(inout) :: self
+    integer, intent(in) :: most !! size of the values, or `single`
+    real(wp), intent(inout) :: values(:) !! [their unit]
+    type(rule_type), intent(in), optional :: rule
+    logical, intent(in), optional :: required
+    character(len=*), intent(in), optional :: default
+    logical, intent(out), optional :: given
     integer, allocatable :: elements(:)
     real(wp) :: before(size(values))
     integer :: i
 
     before = values
-    call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
-    call self%begin_key(self%notes%numbers_shown(values), size(values), elements, required, &
-                        default, given)
+    call self%begin_key(self%book%numbers_shown(values), most, elements, required, default, given)
     if (size(elements) > 0 .and. size(elements) < size(values)) then
-      call self%complain(self%notes%group, name, 'needs '//text(size(values))//' values, not '// &
-                         text(size(elements)))
+      call self%complain(trim(self%key%group), trim(self%key%name), 'needs '// &
+                         text(size(values))//' values, not '//text(size(elements)))
     else if (size(elements) == size(values)) then
       do i = 1, size(values)
-        call self%take_real(elements(i), i, values(i), rule)
+        call self%take_real(elements(i), merge(0, i, most == single), values(i), rule)
       end do
     end if
-    call self%end_key(self%notes%numbers_shown(values), any(abs(values) > 0.0_wp), &
-                      .not. any(abs(values - before) > 0.0_wp))
-  end subroutine real_vector_key
+    call self%end_numbers(values, .not. any(abs(values - before) > 0.0_wp))
+  end subroutine take_numbers
 
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
-  subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default)
+  subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default, &
+                           useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), allocatable, intent(out) :: values(:) !! [their unit] as many as the file gives
@@ -118,19 +141,22 @@ contains
     type(rule_type), intent(in), optional :: rule !! that the value keeps
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
+    character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
     integer, allocatable :: elements(:)
     integer :: i
     logical :: must
 
+    allocate (values(0))
+    if (self%has_no_use(name, meaning, useless)) return
     must = .true.
     if (present(required)) must = required
     call self%describe(name, list_words, unit, meaning)
     call self%begin_key('', most, elements, required=must, default=default)
-    allocate (values(size(elements)), source=0.0_wp)
+    values = spread(0.0_wp, 1, size(elements))
     do i = 1, size(values)
       call self%take_real(elements(i), i, values(i), rule)
     end do
-    call self%end_key(self%notes%numbers_shown(values), size(values) > 0, .false.)
+    call self%end_numbers(values, .false.)
   end subroutine real_list_key
 
   !> One whole number.
@@ -320,59 +346,4 @@ contains
     end do
     call self%end_key(quoted(names), names /= '', .false.)
   end subroutine names_key
-
-  !> A key that the rest of the scene has no use for: its echo must not show a value.
-  subroutine useless_key(self, name, meaning, why)
-    class(case_keys_type), intent(inout) :: self !! the keys being read
-    character(len=*), intent(in) :: name, meaning !! of the key; what it means
-    character(len=*), intent(in) :: why !! it must not be given
-    integer, allocatable :: elements(:)
-
-    call self%describe(name, 'string', '', meaning)
-    call self%begin_key('', longest_list, elements, default=no_default)
-    if (self%key%given) call self%complain(self%notes%group, name, why)
-    call self%end_key('', .false., .false.)
-  end subroutine useless_key
-
-  !> Reads a key that has no use as such, where a reason says that it is one.
-  function has_no_use(self, name, meaning, why) result(useless)
-    class(case_keys_type), intent(inout) :: self !! the keys being read
-    character(len=*), intent(in) :: name, meaning !! of the key; what it means
-    character(len=*), intent(in), optional :: why !! it must not be given; empty where it may
-    logical :: useless
-
-    useless = .false.
-    if (present(why)) useless = why /= ''
-    if (useless) call self%useless_key(name, meaning, why)
-  end function has_no_use
-
-  !> A rule between keys: complains of a key, or of an element of its list, where it is broken.
-  subroutine rule(self, group, key, broken, words, element)
-    class(case_keys_type), intent(inout) :: self !! the keys, all read
-    character(len=*), intent(in) :: group, key !! names in the case file
-    logical, intent(in) :: broken !! the rule
-    character(len=*), intent(in) :: words !! what the key should be
-    integer, intent(in), optional :: element !! of a list
-    if (broken) call self%complain(group, key, words, element)
-  end subroutine rule
-
-  !> The same of those keys of a group that stand in the file: they have no use, or lack something.
-  subroutine refuse(self, group, names, broken, words)
-    class(case_keys_type), intent(inout) :: self !! the keys, all read
-    character(len=*), intent(in) :: group
-    character(len=*), intent(in) :: names !! of keys, with commas between them
-    logical, intent(in) :: broken !! the rule
-    character(len=*), intent(in) :: words !! why they must not be given
-    character(len=:), allocatable :: left, key
-    integer :: comma
-
-    if (.not. broken) return
-    left = names//','
-    do while (left /= '')
-      comma = index(left, ',')
-      key = trim(adjustl(left(:comma - 1)))
-      left = left(comma + 1:)
-      if (self%meant(group, key)) call self%complain(group, key, words)
-    end do
-  end subroutine refuse
 end module gfb_case_keys

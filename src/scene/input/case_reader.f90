@@ -1,83 +1,42 @@
-!> A case file while its keys are read: finds a key's values, complains, keeps the notes, and knows
-!> the groups and keys there are, against the names that stand in the file.
+!> A case file while its keys are read: finds a key's values, complains, and notes what there is.
 module gfb_case_reader
   use gfb_kinds, only: wp
-  use gfb_complaints, only: complaints_type, shown
+  use gfb_complaints, only: complaints_type
   use gfb_errors, only: error_type, fail, status_input
-  use gfb_foreign_characters, only: is_spoilt
-  use gfb_key_notes, only: key_type, real_words, list_words, key_notes_type, no_default, choices
-  use gfb_moved_keys, only: home_of
-  use gfb_namelist_file, only: entry_at, find_elements, is_entry_of, moves_to, namelist_file_type
+  use gfb_key_book, only: group_type, key_type, key_book_type, no_default, choices
+  use gfb_namelist_file, only: entry_at, find_elements, is_entry_of, longest_list, moves_to, &
+                               namelist_file_type, stands_in
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_namelist_values, only: read_real, value_string, value_number
-  use gfb_text, only: join, lower_case, nearest_word, text
+  use gfb_text, only: lower_case, nearest_word, text
   use gfb_value_rules, only: rule_type, broken_rule
   implicit none (type, external)
   private
   public :: case_reader_type
 
-  integer, parameter :: name_length = 40 !! no group and no key is longer
-  integer, parameter :: first_room = 64  !! for keys
-
-  !> What is known of a group or a key.
-  type :: name_type
-    integer :: line = 0              !! of a group in the file, 0 where it is absent
-    logical :: missing = .false.     !! required and absent
-    logical :: given = .false.       !! it stands in the file
-    logical :: is_default = .false.  !! of a key: it is given the value that holds without it
-    logical :: misspelt = .false.    !! the file has an unknown name that is nearest to this one
-    logical :: unread = .false.      !! of a key: its values could not be told apart
-    logical :: is_real = .false.     !! of a key: its value is one real number
-    logical :: is_list = .false.     !! of a key: its values are a list of real numbers
-    character(len=:), allocatable :: unit    !! of a key
-    character(len=:), allocatable :: meaning
-  end type name_type
-
-  !> All groups and keys.
-  type :: key_book_type
-    private
-    character(len=name_length), allocatable :: group_names(:)
-    type(name_type), allocatable :: groups(:)
-    character(len=name_length), allocatable :: key_groups(:), key_names(:)
-    type(name_type), allocatable :: keys(:) !! `count` of them, and room for more
-    integer :: count = 0
-  contains
-    procedure :: add_group
-    procedure :: add_key
-    procedure :: take_for_default
-    procedure :: is_unread
-    procedure :: check_names
-    procedure :: is_meant
-    procedure :: group_line => line_of_group
-    procedure :: look_up_real
-  end type key_book_type
-
-  integer, parameter, public :: longest_list = 10000 !! values one key can have
-
   !> A case file while its keys are read.
   type :: case_reader_type
     type(namelist_file_type) :: file
     type(complaints_type) :: complaints
-    type(complaints_type) :: warnings      !! what need not be a mistake
-    type(complaints_type) :: hints         !! what is no mistake, and will be one
-    type(key_notes_type) :: notes          !! the echo and the table of keys
-    type(key_type) :: key                  !! the one that is being read
-    type(key_book_type) :: book            !! the groups and keys there are
+    type(complaints_type) :: warnings       !! what need not be a mistake
+    type(complaints_type) :: hints          !! what is no mistake, and will be one
+    type(key_book_type) :: book             !! the groups and keys there are
+    type(key_type) :: key                   !! the one that is being read
     integer, private :: mistakes_before = 0 !! the key that is being read
     integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has told
-    integer, private :: group_line = 0     !! of the open group, 0 where the file has none
-    logical, private :: strict = .false.   !! warnings are mistakes
+    logical, private :: strict = .false.    !! warnings are mistakes
   contains
     procedure :: open_text
     procedure :: start_group
-    procedure :: finish_group
     procedure :: finish
     procedure :: report
     procedure :: complain
+    procedure :: rule
+    procedure :: refuse
     procedure :: warn
     procedure :: warn_of_line
-    procedure :: warning_lines
     procedure :: hint_lines
+    procedure :: warning_lines
     procedure :: add_new
     procedure :: meant
     procedure :: holds
@@ -85,325 +44,60 @@ module gfb_case_reader
     procedure :: mistakes
     procedure :: describe
     procedure :: begin_key
+    procedure :: end_key
+    procedure :: end_numbers
     procedure :: take_real
     procedure :: take_choice
-    procedure :: end_key
     procedure :: complain_value
   end type case_reader_type
 
 contains
 
-  !> Adds a group.
-  pure subroutine add_group(self, group, line, required)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group !! of the file
-    integer, intent(in) :: line      !! of the file, 0 where it is absent
-    logical, intent(in) :: required !! a case without it is wrong
-    type(name_type) :: name
-
-    if (.not. allocated(self%groups)) then
-      allocate (self%group_names(0), self%groups(0))
-      call set_room(self, first_room)
-    end if
-    name%line = line
-    name%missing = required .and. line == 0
-    self%group_names = [character(len=name_length) :: self%group_names, group]
-    self%groups = [self%groups, name]
-  end subroutine add_group
-
-  !> Adds a key.
-  pure subroutine add_key(self, group, key, given, required, unread)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group !! of the file
-    type(key_type), intent(in) :: key !! what is known of it
-    logical, intent(in) :: given     !! it stands in the file
-    logical, intent(in) :: required !! a case without it is wrong
-    logical, intent(in) :: unread !! its values could not be told apart
-    type(name_type) :: name
-
-    name%unread = unread
-    name%given = given
-    name%missing = required .and. .not. given
-    name%is_real = key%type_words == real_words
-    name%is_list = key%type_words == list_words
-    name%unit = key%unit
-    name%meaning = key%meaning
-    if (self%count == size(self%keys)) call set_room(self, 2*self%count)
-    self%count = self%count + 1
-    self%key_groups(self%count) = group
-    self%key_names(self%count) = key%name
-    self%keys(self%count) = name
-  end subroutine add_key
-
-  !> Whether a key stands in the file so that its values could not be told apart.
-  pure function is_unread(self, group, key) result(unread)
-    class(key_book_type), intent(in) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group, key !! names in the case file
-    logical :: unread
-    character(len=:), allocatable :: home
-
-    home = home_of(group, key)
-    associate (n => self%count)
-      unread = any(self%key_groups(:n) == home .and. self%key_names(:n) == key .and. &
-                   self%keys(:n)%unread)
-    end associate
-  end function is_unread
-
-  !> Gives the keys another number of places: many at once, for copies take time.
-  pure subroutine set_room(self, places)
-    type(key_book_type), intent(inout) :: self
-    integer, intent(in) :: places !! `count` at least
-    character(len=name_length), allocatable :: groups(:), names(:)
-    type(name_type), allocatable :: keys(:)
-
-    allocate (groups(places), names(places), keys(places))
-    groups = ''
-    names = ''
-    if (self%count > 0) then
-      groups(:self%count) = self%key_groups(:self%count)
-      names(:self%count) = self%key_names(:self%count)
-      keys(:self%count) = self%keys(:self%count)
-    end if
-    call move_alloc(groups, self%key_groups)
-    call move_alloc(names, self%key_names)
-    call move_alloc(keys, self%keys)
-  end subroutine set_room
-
-  !> Line of a group in the file, 0 where it is absent.
-  pure function line_of_group(self, group) result(line)
-    class(key_book_type), intent(in) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group !! of the file
-    integer :: line
-    integer :: i
-
-    line = 0
-    i = findloc(self%group_names == group, .true., dim=1)
-    if (i > 0) line = self%groups(i)%line
-  end function line_of_group
-
-  !> Looks up a key whose value is to be one real number, or a value of a list.
-  pure subroutine look_up_real(self, group, key, in_list, unit, problem)
-    class(key_book_type), intent(in) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group, key !! names as they were typed, in lower case
-    logical, intent(in) :: in_list !! a value of a list is meant
-    character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
-    character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
-    character(len=2*name_length) :: known(size(self%keys))
-    character(len=:), allocatable :: near
-    logical :: is_key(size(self%keys))
-    integer :: i
-
-    unit = ''
-    problem = ''
-    is_key = self%key_names == key
-    i = findloc(is_key .and. self%key_groups == home_of(group, key), .true., dim=1)
-    if (i == 0) then
-      do i = 1, size(known)
-        known(i) = trim(self%key_groups(i))//'%'//trim(self%key_names(i))
-      end do
-      near = nearest_word(group//'%'//key, pack(known, self%keys%is_real .or. self%keys%is_list))
-      is_key = is_key .and. self%keys%is_real
-      if (any(is_key)) near = join(pack(known, is_key), ''' or ''')
-      problem = 'there is no key '//shown(group//'%'//key)
-      if (near /= '') problem = problem//', did you mean '''//near//'''?'
-    else if (self%keys(i)%is_list .and. .not. in_list) then
-      problem = group//'%'//key//' is a list: name one of its values, such as '//key//'(2)'
-    else if (self%keys(i)%is_real .and. in_list) then
-      problem = group//'%'//key//' is a single value and takes no index'
-    else if (.not. (self%keys(i)%is_real .or. self%keys(i)%is_list)) then
-      problem = group//'%'//key//' is not one real number'
-    else
-      unit = self%keys(i)%unit
-    end if
-  end subroutine look_up_real
-
-  !> The key added last has the value that holds without it.
-  pure subroutine take_for_default(self)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    self%keys(self%count)%is_default = .true.
-  end subroutine take_for_default
-
-  !> Whether a key stands in the file with another value than its default, be it misspelt.
-  pure function is_meant(self, group, key) result(meant)
-    class(key_book_type), intent(in) :: self !! the known groups and keys
-    character(len=*), intent(in) :: group, key !! names in the case file
-    logical :: meant
-    meant = any(self%key_groups == home_of(group, key) .and. self%key_names == key .and. &
-                ((self%keys%given .and. .not. self%keys%is_default) .or. self%keys%misspelt))
-  end function is_meant
-
-  !> Complains about unknown groups and keys, and about missing ones that no misspelling explains.
-  subroutine check_names(self, file, complaints)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    type(namelist_file_type), intent(in) :: file !! the case file, scanned
-    type(complaints_type), intent(inout) :: complaints !! the mistakes found so far
-    character(len=:), allocatable :: group_name
-    integer :: i
-
-    call set_room(self, self%count)
-    do i = 1, size(file%groups)
-      call check_group(self, file, i, complaints)
-    end do
-    do i = 1, size(file%strays)
-      call excuse_group(self, stray_word(file, i))
-    end do
-    do i = 1, size(file%entries)
-      call check_key(self, file, i, complaints)
-    end do
-    do i = 1, size(self%groups)
-      associate (group => self%groups(i))
-        if (.not. group%missing .or. group%misspelt) cycle
-        call complaints%add(0, 'the group &'//trim(self%group_names(i))//' is missing')
-      end associate
-    end do
-    do i = 1, size(self%keys)
-      associate (key => self%keys(i))
-        if (.not. key%missing .or. key%misspelt) cycle
-        group_name = trim(self%key_groups(i))
-        call complaints%add(self%group_line(group_name), '&'//group_name// &
-                            ": the required key '"//trim(self%key_names(i))//"' is missing ("// &
-                            key%meaning//')')
-      end associate
-    end do
-  end subroutine check_names
-
-  !> Complains about a group that does not exist or stands in the file before.
-  subroutine check_group(self, file, i, complaints)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
-    character(len=:), allocatable :: name, near
-    integer :: line, known
-
-    name = file%group_name(i)
-    if (name == '') return
-    line = file%groups(i)%line
-    known = findloc(self%group_names == name, .true., dim=1)
-    if (known > 0) then
-      if (self%groups(known)%given) then
-        call complaints%add(line, '&'//name//': the group is given twice, first in line '// &
-                            text(self%groups(known)%line))
-      end if
-      self%groups(known)%given = .true.
-      return
-    end if
-    near = nearest_word(name, self%group_names)
-    if (is_spoilt(name)) then
-      call excuse_group(self, near) ! its characters outside ASCII have been complained about
-    else if (near /= '') then
-      call complaints%add(line, "unknown group '&"//shown(name)//"', did you mean '&"//near//"'?")
-      call excuse_group(self, near)
-    else
-      call complaints%add(line, "unknown group '&"//shown(name)//"'; the groups are &"// &
-                          join(self%group_names, ', &'))
-    end if
-  end subroutine check_group
-
-  !> Complains about a key that does not exist.
-  subroutine check_key(self, file, i, complaints)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
-    character(len=:), allocatable :: group, key, near, words
-    logical :: in_group(size(self%keys))
-    integer :: j
-
-    key = file%key_name(i)
-    group = home_of(file%group_name(file%entries(i)%group), key)
-    if (.not. any(self%group_names == group)) return
-    in_group = self%key_groups == group
-    if (any(in_group .and. self%key_names == key)) return
-    if (is_spoilt(key)) then ! its characters outside ASCII have been complained about
-      near = nearest_word(key, pack(self%key_names, in_group))
-      where (in_group .and. self%key_names == near) self%keys%misspelt = .true.
-      return
-    end if
-    words = '&'//group//": unknown key '"//shown(key)//"'"
-    near = nearest_word(key, pack(self%key_names, in_group))
-    if (any(self%key_names == key)) then
-      j = findloc(self%key_names == key .and. self%keys%missing, .true., dim=1)
-      if (j == 0) j = findloc(self%key_names == key, .true., dim=1)
-      words = words//'; it belongs into &'//trim(self%key_groups(j))
-      self%keys(j)%misspelt = .true.
-    else if (near /= '') then
-      words = words//", did you mean '"//near//"'?"
-      where (in_group .and. self%key_names == near) self%keys%misspelt = .true.
-    else
-      words = words//'; the keys of &'//group//' are '//join(pack(self%key_names, in_group), ', ')
-    end if
-    call complaints%add(file%entries(i)%line, words)
-  end subroutine check_key
-
-  !> Notes that the file means to have a group.
-  subroutine excuse_group(self, name)
-    class(key_book_type), intent(inout) :: self !! the known groups and keys
-    character(len=*), intent(in) :: name
-    where (self%group_names == name) self%groups%misspelt = .true.
-  end subroutine excuse_group
-
-  !> A word that stands outside of all groups.
-  pure function stray_word(file, i) result(word)
-    type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: i
-    character(len=:), allocatable :: word
-    word = lower_case(file%words(file%strays(i)%first:file%strays(i)%last))
-  end function stray_word
-
   !> Scans the text of a case file.
   subroutine open_text(self, words, file, strict, noted)
-    class(case_reader_type), intent(out) :: self !! the case file being read
+    class(case_reader_type), intent(out) :: self !! the keys being read
     character(len=*), intent(in) :: words !! the whole file
     character(len=*), intent(in) :: file  !! its name, for complaints
     logical, intent(in), optional :: strict !! warnings are mistakes
-    logical, intent(in), optional :: noted !! echo and table of keys are kept; default: yes
+    logical, intent(in), optional :: noted !! what is shown of keys is kept; default: yes
 
     self%complaints%file = trim(file)
     self%warnings%file = trim(file)
     self%hints%file = trim(file)
     if (present(strict)) self%strict = strict
-    if (present(noted)) self%notes%kept = noted
+    if (present(noted)) self%book%kept = noted
     call scan_namelist(words, self%file, self%complaints)
   end subroutine open_text
 
   !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
   subroutine start_group(self, name, required, optional, present_in_file, misplaced)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
-    character(len=*), intent(in) :: name !! of the key
+    class(case_reader_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the group
     logical, intent(in), optional :: required !! its absence is a mistake
     logical, intent(in), optional :: optional !! without it, what it describes is not there
     logical, intent(out), optional :: present_in_file !! the file has the group
     character(len=*), intent(in), optional :: misplaced !! why it does not fit; empty where it does
-    integer :: group
-    logical :: is_required, is_optional
+    type(group_type) :: group
+    integer :: i
 
-    is_required = .false.
-    if (present(required)) is_required = required
-    is_optional = .false.
-    if (present(optional)) is_optional = optional
-    self%group_line = 0
-    do group = size(self%file%groups), 1, -1
-      if (self%file%group_name(group) == name) self%group_line = self%file%groups(group)%line
+    group%name = name
+    do i = size(self%file%groups), 1, -1
+      if (self%file%group_name(i) == name) group%line = self%file%groups(i)%line
     end do
-    call self%book%add_group(name, self%group_line, is_required)
-    call self%notes%start_group(name, self%group_line > 0 .or. .not. is_optional)
-    if (present(present_in_file)) present_in_file = self%group_line > 0
+    if (present(required)) group%required = required
+    if (present(optional)) group%is_echoed = group%line > 0 .or. .not. optional
+    call self%book%add_group(group)
+    self%key%group = name
+    if (present(present_in_file)) present_in_file = group%line > 0
     if (.not. present(misplaced)) return
-    if (misplaced /= '' .and. self%group_line > 0) then
-      call self%complaints%add(self%group_line, '&'//name//': the group '//misplaced)
+    if (misplaced /= '' .and. group%line > 0) then
+      call self%complaints%add(group%line, '&'//name//': the group '//misplaced)
     end if
   end subroutine start_group
 
-  !> Ends a group.
-  subroutine finish_group(self)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
-    call self%notes%finish_group()
-  end subroutine finish_group
-
   !> After the last group: complains about names that do not exist, and about what is missing.
   subroutine finish(self)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=:), allocatable :: home
     integer :: entry
 
@@ -421,7 +115,7 @@ contains
 
   !> All mistakes as one error, with the warnings, which may tell why; none where the file is right.
   subroutine report(self, error)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     character(len=:), allocatable :: words
 
@@ -433,14 +127,14 @@ contains
 
   !> All hints, one a line; empty where there are none.
   pure function hint_lines(self) result(words)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     character(len=:), allocatable :: words
     words = self%hints%report('note: ')
   end function hint_lines
 
   !> All warnings, one a line; empty where there are none.
   pure function warning_lines(self) result(words)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     character(len=:), allocatable :: words
     words = self%warnings%report('warning: ')
   end function warning_lines
@@ -448,7 +142,7 @@ contains
   !> Complains about a key whose value does not fit the rest of the scene; one that was wrong when
   !> it was read is not judged again.
   subroutine complain(self, group, key, rule, element)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: group, key !! names in the case file
     character(len=*), intent(in) :: rule      !! what it should be
     integer, intent(in), optional :: element  !! of a list
@@ -460,9 +154,39 @@ contains
     call self%complaints%add(line, place//': '//rule)
   end subroutine complain
 
+  !> A rule between keys: complains of a key, or of an element of its list, where it is broken.
+  subroutine rule(self, group, key, broken, words, element)
+    class(case_reader_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical, intent(in) :: broken !! the rule
+    character(len=*), intent(in) :: words !! what the key should be
+    integer, intent(in), optional :: element !! of a list
+    if (broken) call self%complain(group, key, words, element)
+  end subroutine rule
+
+  !> The same of those keys of a group that stand in the file: they have no use, or lack something.
+  subroutine refuse(self, group, names, broken, words)
+    class(case_reader_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: group
+    character(len=*), intent(in) :: names !! of keys, with commas between them
+    logical, intent(in) :: broken !! the rule
+    character(len=*), intent(in) :: words !! why they must not be given
+    character(len=:), allocatable :: left, key
+    integer :: comma
+
+    if (.not. broken) return
+    left = names//','
+    do while (left /= '')
+      comma = index(left, ',')
+      key = trim(adjustl(left(:comma - 1)))
+      left = left(comma + 1:)
+      if (self%meant(group, key)) call self%complain(group, key, words)
+    end do
+  end subroutine refuse
+
   !> Warns of a key whose value is allowed and hardly meant; a mistake where the reader is strict.
   subroutine warn(self, group, key, words, element)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: group, key !! names in the case file
     character(len=*), intent(in) :: words     !! what is odd
     integer, intent(in), optional :: element  !! of a list
@@ -475,7 +199,7 @@ contains
 
   !> Warns of a line; a mistake where the reader is strict.
   subroutine warn_of_line(self, line, words)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     integer, intent(in) :: line           !! of the file, 0 where it has no place
     character(len=*), intent(in) :: words !! what is odd
 
@@ -489,7 +213,7 @@ contains
   !> Adds the mistakes and warnings that another reading of the file has and one has not, as those
   !> of a key's element.
   subroutine add_new(self, other, known, group, key, element)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     class(case_reader_type), intent(in) :: other !! with what is new
     class(case_reader_type), intent(in) :: known !! with what is not
     character(len=*), intent(in) :: group, key !! names in the case file
@@ -510,7 +234,10 @@ contains
     logical :: wrong
     integer, allocatable :: elements(:)
 
-    wrong = self%book%is_unread(group, key)
+    wrong = .false.
+    associate (known => self%book%place_of(group, key))
+      if (known > 0) wrong = self%book%keys(known)%unread
+    end associate
     if (wrong) return
     call find_elements(self%file, group, key, longest_list, elements)
     if (present(element)) then
@@ -553,45 +280,47 @@ contains
     line = self%book%group_line(group)
   end subroutine find_place
 
-  !> Whether a key stands in the file with another value than its default, be it misspelt; not
-  !> before `finish`.
-  function meant(self, group, key)
-    class(case_reader_type), intent(in) :: self !! the case file being read
-    character(len=*), intent(in) :: group, key !! names in the case file
-    logical :: meant
-    meant = self%book%is_meant(group, key)
-  end function meant
-
   !> Whether a key stands in the file, rightly spelt, be it not read yet.
   pure function holds(self, group, key)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     character(len=*), intent(in) :: group, key !! names in the case file
     logical :: holds
-    integer :: entry
-
-    holds = .false.
-    do entry = 1, size(self%file%entries)
-      holds = holds .or. is_entry_of(self%file, entry, group, key)
-    end do
+    holds = stands_in(self%file, group, key)
   end function holds
+
+  !> Whether a key stands in the file with another value than its default, be it misspelt; not
+  !> before `finish`.
+  pure function meant(self, group, key)
+    class(case_reader_type), intent(in) :: self !! the keys being read
+    character(len=*), intent(in) :: group, key !! names in the case file
+    logical :: meant
+    integer :: place
+
+    meant = .false.
+    place = self%book%place_of(group, key)
+    if (place == 0) return
+    associate (known => self%book%keys(place))
+      meant = (known%given .and. .not. known%is_default) .or. known%misspelt
+    end associate
+  end function meant
 
   !> Whether the key read last stands in the file without a mistake.
   pure function last_key_is_right(self) result(right)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     logical :: right
     right = self%key%given .and. self%mistakes() == self%mistakes_before
   end function last_key_is_right
 
   !> A count that grows with every mistake that is met, be it one that was told before.
   pure function mistakes(self)
-    class(case_reader_type), intent(in) :: self !! the case file being read
+    class(case_reader_type), intent(in) :: self !! the keys being read
     integer :: mistakes
     mistakes = self%complaints%count + self%keys_scanned_wrong
   end function mistakes
 
   !> Notes what a key is.
   subroutine describe(self, name, type_words, unit, meaning)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self
     character(len=*), intent(in) :: name, type_words !! of the key; kind of value, in words
     character(len=*), intent(in) :: unit    !! '1' for a pure number, empty for words
     character(len=*), intent(in) :: meaning !! of the key, a sentence
@@ -600,11 +329,12 @@ contains
     self%key%type_words = type_words
     self%key%unit = unit
     self%key%meaning = meaning
+    self%key%numbers = [real(wp) ::]
   end subroutine describe
 
-  !> Finds a key's values and notes what the table says of it.
+  !> Finds a key's values, and notes what the table says of it.
   subroutine begin_key(self, value_words, most, elements, required, default, given)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self
     character(len=*), intent(in) :: value_words      !! the default in figures
     integer, intent(in) :: most                      !! values at most, or `single`
     integer, allocatable, intent(out) :: elements(:) !! number of each value in the file
@@ -614,36 +344,51 @@ contains
     logical :: wrong
 
     self%mistakes_before = self%mistakes()
-    self%key%required = .false.
-    if (present(required)) self%key%required = required
-    self%key%default = ''
-    if (present(default)) self%key%default = default
-    call find_elements(self%file, self%notes%group, self%key%name, most, elements, self%key%given, &
-                       self%complaints, wrong)
-    if (wrong) self%keys_scanned_wrong = self%keys_scanned_wrong + 1
-    call self%notes%add_row(self%key, value_words)
-    call self%book%add_key(self%notes%group, self%key, self%key%given, &
-                           self%key%required .and. self%group_line > 0, &
-                           self%key%given .and. size(elements) == 0)
-    if (present(given)) given = self%key%given
+    associate (key => self%key)
+      key%required = .false.
+      if (present(required)) key%required = required
+      key%default = ''
+      if (present(default)) key%default = default
+      key%shown_default = '`'//value_words//'`'
+      if (key%required) key%shown_default = 'required'
+      if (key%default /= '') key%shown_default = key%default
+      call find_elements(self%file, trim(key%group), trim(key%name), most, elements, key%given, &
+                         self%complaints, wrong)
+      if (wrong) self%keys_scanned_wrong = self%keys_scanned_wrong + 1
+      key%missing = key%required .and. .not. key%given .and. self%book%group_line(key%group) > 0
+      key%unread = key%given .and. size(elements) == 0
+      if (present(given)) given = key%given
+    end associate
   end subroutine begin_key
 
-  !> Writes the echo of the key.
+  !> Notes the value of the key.
   subroutine end_key(self, value_words, is_set, same)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self
     character(len=*), intent(in) :: value_words !! the value, as it is shown
     logical, intent(in) :: is_set  !! a value that is a default is more than a placeholder
     logical, intent(in) :: same    !! the value is the one that it came with
 
+    self%key%value = value_words
+    self%key%is_set = is_set
     ! An echo that is read again gives all defaults: they ask for nothing.
-    if (self%last_key_is_right() .and. same .and. .not. self%key%required .and. &
-        self%key%default /= no_default) call self%book%take_for_default()
-    call self%notes%add_line(self%key, value_words, is_set)
+    self%key%is_default = self%last_key_is_right() .and. same .and. .not. self%key%required .and. &
+                          self%key%default /= no_default
+    call self%book%add_key(self%key)
   end subroutine end_key
+
+  !> The same of real numbers.
+  subroutine end_numbers(self, values, same)
+    class(case_reader_type), intent(inout) :: self
+    real(wp), intent(in) :: values(:) !! [their unit]
+    logical, intent(in) :: same !! they are those that it came with
+
+    self%key%numbers = values
+    call self%end_key(self%book%numbers_shown(values), any(abs(values) > 0.0_wp), same)
+  end subroutine end_numbers
 
   !> Reads and checks one real number.
   subroutine take_real(self, item, element, value, rule)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     integer, intent(in) :: item                !! the value's number in the file
     integer, intent(in) :: element             !! of a list, 0 for a single value
     real(wp), intent(inout) :: value !! [its unit] unchanged where a rule is broken
@@ -662,7 +407,7 @@ contains
 
   !> Reads one word of a list of choices.
   subroutine take_choice(self, item, element, words, value, others)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     integer, intent(in) :: item             !! the value's number in the file
     integer, intent(in) :: element          !! of a list, 0 for a single value
     character(len=*), intent(in) :: words(:) !! that may be chosen
@@ -690,7 +435,7 @@ contains
 
   !> Complains about one value of the key; nothing where there is no problem, or one was told.
   subroutine complain_value(self, item, element, problem)
-    class(case_reader_type), intent(inout) :: self !! the case file being read
+    class(case_reader_type), intent(inout) :: self !! the keys being read
     integer, intent(in) :: item               !! the value's number in the file
     integer, intent(in) :: element            !! of a list, 0 for a single value
     character(len=*), intent(in) :: problem   !! the rule that is broken
@@ -699,7 +444,7 @@ contains
     if (problem == '' .or. self%file%values(item)%wrong) return
     self%file%values(item)%wrong = .true.
     associate (entry => self%file%entries(entry_at(self%file, self%file%values(item)%first)))
-      words = '&'//self%file%group_name(entry%group)//': '//self%key%name
+      words = '&'//self%file%group_name(entry%group)//': '//trim(self%key%name)
     end associate
     if (element > 0) words = words//'('//text(element)//')'
     words = words//' = '//self%file%value_shown(item)//': '//problem

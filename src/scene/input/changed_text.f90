@@ -1,9 +1,8 @@
 !> The text of a case file with another value of a key, every line where it was.
 module gfb_changed_text
   use gfb_kinds, only: wp
-  use gfb_case_reader, only: longest_list
   use gfb_complaints, only: complaints_type
-  use gfb_namelist_file, only: find_elements, is_entry_of, namelist_file_type
+  use gfb_namelist_file, only: find_elements, is_entry_of, longest_list, namelist_file_type
   use gfb_namelist_scanner, only: scan_namelist
   use gfb_text, only: exact_text, text
   implicit none (type, external)

@@ -11,8 +11,9 @@ module gfb_namelist_file
   private
   public :: section_type, section_of, namelist_file_type, namelist_group_type, &
             namelist_entry_type, namelist_value_type, complain_about_foreign, find_elements, &
-            is_entry_of, entry_at, moves_to
+            is_entry_of, entry_at, moves_to, stands_in
 
+  integer, parameter, public :: longest_list = 10000 !! values one key can have
   integer, parameter, public :: bad_index = -1 !! of an entry whose index was complained about
 
   !> Which elements of a list an entry gives: all from the first on, those from an index on, or
@@ -385,8 +386,8 @@ contains
 
   !> Whether a key stands in the file.
   pure function stands_in(file, group, key) result(stands)
-    type(namelist_file_type), intent(in) :: file
-    character(len=*), intent(in) :: group, key
+    type(namelist_file_type), intent(in) :: file !! the scanned file
+    character(len=*), intent(in) :: group, key !! names in the case file
     logical :: stands
     integer :: entry
 
