@@ -8,7 +8,7 @@ module gfb_studies
   use gfb_text, only: text
   use gfb_machine_memory, only: start_blas
   use gfb_petsc_session, only: rank_count
-  use gfb_solver_case, only: linear_solver_out_of_core
+  use gfb_mesh_case, only: linear_solver_out_of_core
   use gfb_direct_solver, only: keep_factors_on_disk
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type

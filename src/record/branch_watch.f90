@@ -20,7 +20,7 @@ module gfb_branch_watch
   use gfb_model_case, only: meshes_foils
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: parameter_words, sweep_keys, sweep_load_angle
-  use gfb_top_foil_case, only: top_foil_trailing
+  use gfb_foil_cases, only: top_foil_trailing
   use gfb_case_file, only: history_row_type
   implicit none (type, external)
   private

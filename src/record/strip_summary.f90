@@ -5,8 +5,8 @@ module gfb_strip_summary
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, &
-                                has_sizes, one_bump, one_strip, solid_width, strips_differ
+  use gfb_foil_cases, only: bump_foil_case_type, fixed_edge_none, fixed_edge_trailing, has_sizes, &
+                            one_bump, one_strip, solid_width, strips_differ
   use gfb_strip_load_case, only: crest_forces, load_plates, bump_stiffness
   use gfb_bump_chain, only: bump_chain_type, bump_chain_solution_type, solve_bump_chain
   use gfb_curved_bump, only: curved_bump_stiffness

@@ -3,9 +3,8 @@ module gfb_case_template
   use gfb_case_keys, only: case_keys_type
   use gfb_errors, only: error_type, fail
   use gfb_key_book, only: key_type, no_default
-  use gfb_scene, only: scene_type
+  use gfb_scene, only: scene_type, read_groups
   use gfb_scene_case, only: analysis_words
-  use gfb_scene_groups, only: read_groups
   use gfb_text, only: join, nearest_word, plain_text
   implicit none (type, external)
   private

@@ -1,28 +1,35 @@
+!> Sizes for which the model has no meaning: films, foils and bumps are thin against the bearing.
 !> Foils as they are built: gaps at crests need a model in which crests touch something, sizes bump
 !> by bump one that has the bumps, foils that lie with a force at rest one in which they give way;
 !> strips side by side with sizes of their own need shells, and room for their bumps.
 module gfb_foil_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: pad_length, leading_edge_periodic
-  use gfb_bump_foil_case, only: fixed_edge_none, fixed_edge_trailing, has_flats, bumps_overlap, &
-                                has_sizes, one_bump, bump_foil_case_type, strips_differ, &
-                                one_strip, sizes_mirror
+  use gfb_foil_cases, only: bump_foil_case_type, has_sizes, one_bump, strips_differ, &
+                            fixed_edge_none, fixed_edge_trailing, has_flats, bumps_overlap, &
+                            one_strip, sizes_mirror, complain_of_sizes, size_type, &
+                            initial_curvature
   use gfb_case_keys, only: case_keys_type
-  use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_foil_sizes, only: complain_of_sizes, size_type
-  use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
-                            foil_rigid, foil_shell, foundation_pressure_local, meshes_foils, &
-                            foil_word, foil_beam, half_width_yes
-  use gfb_modes_case, only: part_strip, part_top_foil, part_flat
+  use gfb_model_case, only: foil_rigid, needs_meshes, coupling_partitioned, &
+                            foil_elastic_foundation, foil_shell, foundation_pressure_local, &
+                            meshes_foils, foil_word, foil_beam, half_width_yes
+  use gfb_motion_cases, only: follow_unbalance, rotor_case_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
-  use gfb_shape_rules, only: thin, thin_in_bump, low_in_pad
-  use gfb_strip_load_case, only: load_plates, support_held
+  use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
-  use gfb_top_foil_case, only: initial_curvature
+  use gfb_bearing_case, only: bearing_case_type, pad_length, leading_edge_periodic
+  use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_study_cases, only: part_strip, part_top_foil, part_flat
+  use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
+  use gfb_strip_load_case, only: load_plates, support_held
   implicit none (type, external)
   private
-  public :: check_foils, strips_mirror
+  public :: check_shape, check_foils, strips_mirror
+
+  real(wp), parameter, public :: thin = 0.05_wp         !! film or foil, over the radius [1]
+  real(wp), parameter :: thin_in_bump = 0.5_wp  !! foil, over half a bump's chord [1]
+  real(wp), parameter :: low_in_pad = 0.25_wp   !! bump, over the radius of the pad [1]
+
+  character(len=*), parameter :: thin_film = ' of the radius: the film is thin and the pad unrolled'
 
   character(len=*), parameter :: group = 'bump_foil'
   character(len=*), parameter :: monolithic = "needs coupling = 'monolithic' in &model: film"// &
@@ -34,20 +41,206 @@ module gfb_foil_rules
 
 contains
 
+  !> Checks the sizes of a scene against each other; a size that is not known breaks no rule.
+  subroutine check_shape(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    associate (radius => scene%bearing%radius, clearance => scene%bearing%clearance)
+      call must_be_less(keys, 'bearing', 'clearance', clearance, thin*radius, '1/20'//thin_film)
+      call must_be_less(keys, 'top_foil', 'thickness', scene%top_foil%thickness, thin*radius, &
+                        '1/20 of the radius: the foil is a thin shell, unrolled')
+      call must_be_less(keys, 'shaft_contact', 'roughness', scene%shaft_contact%roughness, &
+                        clearance, 'the clearance: beyond it there is no film')
+      call check_bumps(keys, scene%bump_foil, radius)
+    end associate
+    call must_be_less(keys, 'strip_load', 'maximum_displacement', &
+                      scene%strip_load%maximum_displacement, scene%bump_foil%height%value, &
+                      'the height of the bumps')
+    call check_position(keys, scene)
+    call check_motion(keys, scene)
+  end subroutine check_shape
+
+  !> Bumps are low against the bearing, and their foil is thin against them; the first bump that is
+  !> too thick is named.
+  subroutine check_bumps(keys, foil, radius)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp), intent(in) :: radius !! of the bearing, 0 where there is none [m]
+    character(len=*), parameter :: group = 'bump_foil'
+    type(bump_foil_case_type) :: one
+    character(len=:), allocatable :: of, key
+    real(wp) :: thickness !! [m]
+    integer :: bump, n
+
+    if (strips_differ(foil)) return ! see the rules of strips with sizes of their own
+    key = 'thickness'
+    thickness = foil%thickness%value
+    bump = 0
+    if (foil%half_length%value > 0.0_wp) then
+      n = merge(foil%bumps, 1, has_sizes(foil))
+      key = foil%thickness%bump_key()
+      thickness = maxval(foil%thickness%each(n))
+      bump = findloc(foil%thickness%each(n) >= thin_in_bump*foil%half_length%each(n), .true., 1)
+    end if
+    if (bump > 0) then
+      of = ''
+      if (has_sizes(foil)) of = ' of bump '//text(bump)
+      one = one_bump(foil, bump)
+      call must_be_less(keys, group, key, one%thickness%value, &
+                        thin_in_bump*one%half_length%value, 'half of half_length'//of// &
+                        ': a bump is a thin shell')
+    else
+      call must_be_less(keys, group, key, thickness, thin*radius, &
+                        '1/20 of the radius: the foil is a thin shell, unrolled')
+    end if
+    call must_be_less(keys, group, foil%height%bump_key(), foil%height%value, low_in_pad*radius, &
+                      '1/4 of the radius: the strip is unrolled')
+  end subroutine check_bumps
+
+  !> The shaft and the free edge stay near the foil. A rigid pad has a stricter rule of its own.
+  subroutine check_position(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: arm !! of a tilt: half the length [m]
+    integer :: point
+
+    arm = 0.5_wp*scene%bearing%length
+    associate (radius => scene%bearing%radius, operation => scene%operation, sweep => scene%sweep)
+      call lifts_must_be_less('leading_edge_lift', operation%leading_edge_lift)
+      call lifts_must_be_less('leading_edge_lift_edge', operation%leading_edge_lift_edge)
+      if (scene%model%foil == foil_rigid) return
+      call must_be_less(keys, 'operation', 'eccentricity', norm2(operation%eccentricity), &
+                        thin*radius, '1/20'//thin_film)
+      call must_be_less(keys, 'operation', 'tilt', arm*norm2(operation%tilt), thin*radius, &
+                        '1/20'//thin_film, of='at the ends of the bearing')
+      if (.not. allocated(sweep%values)) return
+      do point = 1, size(sweep%values)
+        select case (sweep%parameter)
+        case (sweep_eccentricity_x, sweep_eccentricity_y)
+          call must_be_less(keys, 'sweep', 'values', abs(sweep%values(point)), thin*radius, &
+                            '1/20'//thin_film, point)
+        case (sweep_tilt_x, sweep_tilt_y)
+          call must_be_less(keys, 'sweep', 'values', abs(arm*sweep%values(point)), thin*radius, &
+                            '1/20'//thin_film, point, 'at the ends of the bearing')
+        case default
+          exit
+        end select
+      end do
+    end associate
+
+  contains
+
+    !> Complains about lifts that are no thin film's.
+    subroutine lifts_must_be_less(key, lift)
+      character(len=*), intent(in) :: key
+      real(wp), intent(in) :: lift(:) !! one, or of each pad [m]
+      integer :: pad
+
+      if (size(lift) == 1) then
+        call must_be_less(keys, 'operation', key, lift(1), thin*scene%bearing%radius, &
+                          '1/20'//thin_film)
+        return
+      end if
+      do pad = 1, size(lift)
+        call must_be_less(keys, 'operation', key, lift(pad), thin*scene%bearing%radius, &
+                          '1/20'//thin_film, pad)
+      end do
+    end subroutine lifts_must_be_less
+  end subroutine check_position
+
+  !> A shaft that vibrates, or is led round an orbit, stays within the clearance, and so does the
+  !> centre of mass of one with an unbalance, about which it turns when it is fast.
+  subroutine check_motion(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: room !! left for an orbit [m]
+    integer :: i
+
+    associate (clearance => scene%bearing%clearance, mass => scene%rotor%mass)
+      if (.not. clearance > 0.0_wp) return
+      if (scene%dynamics%present) then
+        do i = 1, size(scene%dynamics%amplitudes)
+          call must_be_less(keys, 'dynamics', 'vibration_amplitudes', &
+                            scene%dynamics%amplitudes(i), clearance, 'the clearance', i)
+        end do
+      end if
+      if (scene%transient%present) then
+        room = clearance
+        if (scene%model%foil == foil_rigid) room = room - norm2(scene%operation%eccentricity)
+        call must_be_less(keys, 'transient', 'orbit_radius', scene%transient%orbit_radius, room, &
+                          'what the position leaves of the clearance')
+        call check_unbalance('unbalance', 'unbalance', scene%unbalance%static, mass, clearance)
+        call check_couple(scene%unbalance%couple, scene%rotor, clearance)
+      end if
+      if (.not. scene%periodic%present) return
+      call check_unbalance('unbalance', 'unbalance', scene%unbalance%static, mass, clearance)
+      if (scene%periodic%parameter == follow_unbalance) then
+        call check_unbalance('periodic', 'final_value', scene%periodic%final_value, mass, clearance)
+      end if
+    end associate
+
+  contains
+
+    !> Complains about a centre of mass that lies outside the clearance.
+    subroutine check_unbalance(group, key, unbalance, mass, clearance)
+      character(len=*), intent(in) :: group, key !! names in the case file
+      real(wp), intent(in) :: unbalance !! [kg m]
+      real(wp), intent(in) :: mass      !! [kg]
+      real(wp), intent(in) :: clearance !! [m]
+
+      if (.not. mass > 0.0_wp .or. unbalance < clearance*mass) return
+      call keys%complain(group, key, 'puts the centre of mass '//text(unbalance/mass)// &
+                         ' m off the axis, with mass = '//text(mass)//' kg in &rotor; this '// &
+                         'must be less than '//text(clearance)//' m, the clearance')
+    end subroutine check_unbalance
+
+    !> Complains about a principal axis that leaves the clearance at the bearings. It is tilted by
+    !> the couple over the difference of both inertias, which is at most the transverse one.
+    subroutine check_couple(couple, rotor, clearance)
+      real(wp), intent(in) :: couple !! [kg m^2]
+      type(rotor_case_type), intent(in) :: rotor
+      real(wp), intent(in) :: clearance !! [m]
+      real(wp) :: offset !! [m]
+
+      if (.not. rotor%transverse_inertia > 0.0_wp) return
+      offset = 0.5_wp*rotor%bearing_distance*couple/rotor%transverse_inertia
+      if (offset < clearance) return
+      call keys%complain('unbalance', 'couple_unbalance', 'puts the principal axis '// &
+                         text(offset)//' m or more off the axis at the bearings; this must be '// &
+                         'less than '//text(clearance)//' m, the clearance')
+    end subroutine check_couple
+  end subroutine check_motion
+
+  !> Complains about a size that is not less than its limit; none where the limit is not known.
+  subroutine must_be_less(keys, group, key, value, limit, what, point, of)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: group, key !! names in the case file
+    real(wp), intent(in) :: value              !! the size, or what it makes [m]
+    real(wp), intent(in) :: limit              !! 0 where it is not known [m]
+    character(len=*), intent(in) :: what       !! the limit is, and why
+    integer, intent(in), optional :: point     !! of a list
+    character(len=*), intent(in), optional :: of !! where the value counts
+    character(len=:), allocatable :: words
+
+    if (.not. limit > 0.0_wp .or. value < limit) return
+    words = 'must be less than '//text(limit)//' m'
+    if (present(of)) words = 'moves the sleeve by '//text(value)//' m '//of//'; this '//words
+    call keys%complain(group, key, words//', '//what, point)
+  end subroutine must_be_less
+
   !> Checks the foils of a scene.
   subroutine check_foils(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     call check_strip(keys, scene)
-    call check_bearing(keys, scene)
+    call check_uses(keys, scene)
     call check_crest_gaps(keys, scene)
     call check_corner_gaps(keys, scene)
     call check_bump_sizes(keys, scene)
-    call check_nested_strips(keys, scene)
     call check_steepness(keys, scene)
     call check_own_strips(keys, scene)
-    call check_plates(keys, scene)
     call check_assembly(keys, scene)
   end subroutine check_foils
 
@@ -97,37 +290,40 @@ contains
   end subroutine check_strip
 
   !> A bearing of shells or beams: its strip is fixed at an edge and as wide as it, its pad open.
-  subroutine check_bearing(keys, scene)
+  !> Plates are either forced or moved. The meshes of an estimated error refine each other only
+  !> where each shares its elements out evenly among the strips.
+  subroutine check_uses(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    logical :: meshed, forced, moved, plates
+    integer :: multiple
 
-    associate (foil => scene%bump_foil, bearing => scene%bearing)
-      if (.not. (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil))) return
-      call keys%rule(group, 'fixed_edge', foil%fixed_edge == fixed_edge_none, &
+    associate (foil => scene%bump_foil, bearing => scene%bearing, &
+               elements => scene%mesh%axial_elements)
+      meshed = is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil)
+      call keys%rule(group, 'fixed_edge', meshed .and. foil%fixed_edge == fixed_edge_none, &
                      "must be 'leading' or 'trailing' in a bearing")
-      call keys%rule('bearing', 'leading_edge_condition', bearing%leading_edge_condition == &
-                     leading_edge_periodic, "must be 'slit' with foil = '"// &
-                     foil_word(scene%model%foil)//"': a foil has edges")
-      call keys%rule(group, 'width', min(bearing%length, foil%width) > 0.0_wp .and. &
+      if (meshed) call keys%rule('bearing', 'leading_edge_condition', &
+                                 bearing%leading_edge_condition == leading_edge_periodic, &
+                                 "must be 'slit' with foil = '"//foil_word(scene%model%foil)// &
+                                 "': a foil has edges")
+      call keys%rule(group, 'width', meshed .and. min(bearing%length, foil%width) > 0.0_wp .and. &
                      abs(foil%width - bearing%length) > rounding*bearing%length, &
                      'must be the length of the bearing, '//text(bearing%length)//' m')
+      plates = scene%general%analysis == analysis_strip .and. scene%strip_load%kind == load_plates
+      forced = keys%meant('strip_load', 'maximum_force')
+      moved = keys%meant('strip_load', 'maximum_displacement')
+      call keys%rule('strip_load', 'maximum_displacement', plates .and. forced .and. moved, &
+                     'has no use beside maximum_force: plates are either forced or moved')
+      call keys%rule('strip_load', 'kind', plates .and. .not. (forced .or. moved), &
+                     'needs maximum_force or maximum_displacement')
+      multiple = merge(4, 8, modulo(foil%strips, 2) == 0)*foil%strips
+      call keys%rule(group, 'strips', foil%strips > 1 .and. scene%accuracy%present .and. &
+                     modulo(elements, multiple) /= 0, 'needs axial_elements in &mesh that are '// &
+                     'a multiple of '//text(multiple)//', not '//text(elements)// &
+                     ', so that the meshes of &accuracy refine each other')
     end associate
-  end subroutine check_bearing
-
-  !> Plates are either forced or moved.
-  subroutine check_plates(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    logical :: forced, moved
-
-    if (scene%general%analysis /= analysis_strip .or. scene%strip_load%kind /= load_plates) return
-    forced = keys%meant('strip_load', 'maximum_force')
-    moved = keys%meant('strip_load', 'maximum_displacement')
-    call keys%rule('strip_load', 'maximum_displacement', forced .and. moved, &
-                   'has no use beside maximum_force: plates are either forced or moved')
-    call keys%rule('strip_load', 'kind', .not. (forced .or. moved), &
-                   'needs maximum_force or maximum_displacement')
-  end subroutine check_plates
+  end subroutine check_uses
 
   !> Complains about gaps where no crest can close one.
   subroutine check_crest_gaps(keys, scene)
@@ -220,30 +416,16 @@ contains
     end associate
   end subroutine check_steepness
 
-  !> Complains where the meshes of an estimated error would not refine each other: each must share
-  !> its elements out evenly among the strips.
-  subroutine check_nested_strips(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    integer :: multiple
-
-    if (scene%bump_foil%strips <= 1 .or. .not. scene%accuracy%present) return
-    multiple = merge(4, 8, modulo(scene%bump_foil%strips, 2) == 0)*scene%bump_foil%strips
-    if (modulo(scene%mesh%axial_elements, multiple) == 0) return
-    call keys%complain(group, 'strips', 'needs axial_elements in &mesh that are a '// &
-                       'multiple of '//text(multiple)//', not '// &
-                       text(scene%mesh%axial_elements)//', so that the meshes of &accuracy '// &
-                       'refine each other')
-  end subroutine check_nested_strips
-
   !> Complains about a foil that cannot give way, and warns of one that rises by more than there
   !> is room for.
   subroutine check_assembly(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: key = 'assembly_interference'
+    real(wp) :: height, clearance !! of a foil that springs open [m]
     logical :: bearing, partitioned
 
+    clearance = scene%bearing%clearance
     bearing = is_bearing(scene%general%analysis)
     partitioned = scene%model%coupling == coupling_partitioned
     if (scene%bearing%interference > 0.0_wp) then
@@ -256,8 +438,8 @@ contains
         call keys%complain('bearing', key, monolithic)
       else if (scene%model%foil == foil_elastic_foundation .and. &
                scene%model%foundation_pressure == foundation_pressure_local) then
-        call keys%rule('bearing', key, scene%bearing%clearance > 0.0_wp .and. &
-                       scene%bearing%interference >= scene%bearing%clearance, 'needs '// &
+        call keys%rule('bearing', key, clearance > 0.0_wp .and. &
+                       scene%bearing%interference >= clearance, 'needs '// &
                        "foundation_pressure = 'axial_mean' in &model: under the local pressure "// &
                        'the sides, at ambient pressure, never give way')
       end if
@@ -270,34 +452,31 @@ contains
       call keys%complain('top_foil', 'free_radius', needs_meshes//'no other foil bends')
     else if (partitioned) then
       call keys%complain('top_foil', 'free_radius', monolithic)
-    else if (scene%model%foil > 0) then
-      call warn_of_rise(keys, scene)
+    else if (scene%model%foil > 0 .and. min(scene%bearing%radius, clearance) > 0.0_wp) then
+      height = rise*abs(initial_curvature(scene%top_foil, scene%bearing%radius))* &
+               scene%bearing%radius**2
+      if (height >= clearance) call keys%warn('top_foil', 'free_radius', 'lets the foil rise '// &
+                                              'over its bumps at rest by '//text(height, 3)// &
+                                              ' m or more, and the clearance is '// &
+                                              text(clearance)//' m')
     end if
   end subroutine check_assembly
 
-  !> Warns where the foil at rest rises over its bumps by more than the clearance.
-  subroutine warn_of_rise(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    real(wp) :: height !! [m]
-
-    associate (bearing => scene%bearing)
-      if (.not. (bearing%radius > 0.0_wp .and. bearing%clearance > 0.0_wp)) return
-      height = rise*abs(initial_curvature(scene%top_foil, bearing%radius))*bearing%radius**2
-      if (height < bearing%clearance) return
-      call keys%warn('top_foil', 'free_radius', 'lets the foil rise over its bumps at '// &
-                     'rest by '//text(height, 3)//' m or more, and the clearance is '// &
-                     text(bearing%clearance)//' m')
-    end associate
-  end subroutine warn_of_rise
-
-  !> Complains about strips that the scene cannot have, all of them at once.
+  !> Complains about strips that the scene, or half its width, cannot have, all of them at once.
   subroutine check_own_strips(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: rule = 'needs strips that mirror each other about the midplane: '
+    logical :: mirrors
 
     associate (foil => scene%bump_foil)
-      if (scene%model%half_width == half_width_yes) call check_mirrors(keys, scene)
+      if (scene%model%half_width == half_width_yes) then
+        mirrors = sizes_mirror(foil)
+        call keys%rule('model', 'half_width', .not. mirrors, rule//'lists in &bump_foil that '// &
+                       'read the same from both ends')
+        call keys%rule('model', 'half_width', mirrors .and. heights_differ(scene), rule// &
+                       'with height_deviation each has heights of its own')
+      end if
       if (.not. strips_differ(foil)) return
       if (real(foil%bumps, wp)*real(foil%strips, wp) > most_bumps) then
         call keys%complain(group, 'bumps', text(foil%bumps)//' bumps on '//text(foil%strips)// &
@@ -306,10 +485,7 @@ contains
         return
       end if
       call check_own_bumps(keys, foil)
-      if (scene%bearing%radius > 0.0_wp) then
-        call check_flatness(keys, foil, scene%bearing%radius)
-        call check_room(keys, foil, pad_length(scene%bearing))
-      end if
+      if (scene%bearing%radius > 0.0_wp) call check_room(keys, foil, scene%bearing)
       call check_models(keys, scene)
     end associate
   end subroutine check_own_strips
@@ -329,21 +505,6 @@ contains
     differ = scene%bump_foil%strips > 1 .and. scene%bump_foil%random%deviation > 0.0_wp
     if (is_bearing(scene%general%analysis)) differ = differ .and. scene%model%foil /= foil_beam
   end function heights_differ
-
-  !> Complains about strips that half the width cannot have.
-  subroutine check_mirrors(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: rule = 'needs strips that mirror each other about the midplane: '
-
-    if (.not. sizes_mirror(scene%bump_foil)) then
-      call keys%complain('model', 'half_width', rule// &
-                         'lists in &bump_foil that read the same from both ends')
-    else if (heights_differ(scene)) then
-      call keys%complain('model', 'half_width', rule//'with height_deviation each has heights '// &
-                         'of its own')
-    end if
-  end subroutine check_mirrors
 
   !> What of the scene knows strips of one kind only.
   subroutine check_models(keys, scene)
@@ -426,47 +587,34 @@ contains
     end subroutine check
   end subroutine check_own_bumps
 
-  !> Strips that are not low and thin against the bearing, on whose pad they are unrolled.
-  subroutine check_flatness(keys, foil, radius)
+  !> Strips that are not low and thin against the bearing, on whose pad they are unrolled, or reach
+  !> beyond it.
+  subroutine check_room(keys, foil, bearing)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(in) :: foil
-    real(wp), intent(in) :: radius !! of the bearing [m]
-    real(wp), dimension(foil%strips) :: height, thickness
-    type(bump_foil_case_type) :: one
-    integer :: strip
-
-    do strip = 1, foil%strips
-      one = one_strip(foil, strip)
-      height(strip) = maxval(one%height%each(one%bumps))
-      thickness(strip) = maxval(one%thickness%each(one%bumps))
-    end do
-    call complain_of_sizes(keys, foil%thickness%key_in(keys), thickness >= thin*radius, thickness, &
-                           'must be less than 1/20 of the radius: the foil is a thin shell, '// &
-                           'unrolled', '1/20 of the radius', &
-                           spread(thin*radius, 1, foil%strips), 'strip')
-    call complain_of_sizes(keys, foil%height%key_in(keys), height >= low_in_pad*radius, height, &
-                           'must be less than 1/4 of the radius: the strip is unrolled', &
-                           '1/4 of the radius', spread(low_in_pad*radius, 1, foil%strips), 'strip')
-  end subroutine check_flatness
-
-  !> Strips that reach beyond the pad.
-  subroutine check_room(keys, foil, length)
-    type(case_keys_type), intent(inout) :: keys
-    type(bump_foil_case_type), intent(in) :: foil
-    real(wp), intent(in) :: length !! of the pad [m]
-    real(wp) :: reach(foil%strips)
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp), dimension(foil%strips) :: height, thickness, reach, radius, length
     type(bump_foil_case_type) :: one
     character(len=:), allocatable :: key
     integer :: strip
 
+    radius = bearing%radius
+    length = pad_length(bearing)
     do strip = 1, foil%strips
       one = one_strip(foil, strip)
+      height(strip) = maxval(one%height%each(one%bumps))
+      thickness(strip) = maxval(one%thickness%each(one%bumps))
       reach(strip) = one%offset%value + sum(one%pitch%each(one%bumps))
     end do
+    call complain_of_sizes(keys, foil%thickness%key_in(keys), thickness >= thin*radius, thickness, &
+                           'must be less than 1/20 of the radius: the foil is a thin shell, '// &
+                           'unrolled', '1/20 of the radius', thin*radius, 'strip')
+    call complain_of_sizes(keys, foil%height%key_in(keys), height >= low_in_pad*radius, height, &
+                           'must be less than 1/4 of the radius: the strip is unrolled', &
+                           '1/4 of the radius', low_in_pad*radius, 'strip')
     key = foil%pitch%key_in(keys)
     if (keys%holds(group, 'strip_offset')) key = 'strip_offset'
     call complain_of_sizes(keys, key, reach > length*(1.0_wp + rounding), reach, 'a strip with '// &
-                           'its offset must not be longer than the pad', 'the pad', &
-                           spread(length, 1, foil%strips), 'strip')
+                           'its offset must not be longer than the pad', 'the pad', length, 'strip')
   end subroutine check_room
 end module gfb_foil_rules

@@ -4,18 +4,16 @@ module gfb_motion_rules
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type
   use gfb_contact_law, only: law_tanh_reset
-  use gfb_dynamics_case, only: tangent_stick
-  use gfb_foil_damping_case, only: mass_auto, mass_on, mass_off
+  use gfb_motion_cases, only: tangent_stick, mass_auto, mass_on, mass_off, motion_free, &
+                              follow_nothing, follow_speed, follow_unbalance, follow_mass, &
+                              duration_of
   use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
                             foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils
   use gfb_operation_case, only: angular_speed
-  use gfb_periodic_case, only: motion_free, follow_nothing, follow_speed, follow_unbalance, &
-                               follow_mass
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
-  use gfb_transient_case, only: duration_of
   implicit none (type, external)
   private
   public :: check_dynamics, check_foil_mass, check_rotor, check_transient, check_periodic
@@ -54,7 +52,9 @@ contains
                        'needs a shaft that turns at every point of the sweep: give frequencies')
       end if
       if (model%foil > 0) then
-        call check_coupling(keys, scene, 'linear_dynamics', 'film and foil vibrate together')
+        call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
+                       "must be 'monolithic' with analysis = 'linear_dynamics': film and foil "// &
+                       'vibrate together')
         call keys%refuse(group, 'contact_tangent', .not. meshes_foils(model%foil), &
                          needs_meshes//'nothing else rubs')
         call keys%rule(group, 'loss_factor', asked%loss_factor > 0.0_wp .and. &
@@ -87,16 +87,6 @@ contains
                          'shakes down')
     end if
   end subroutine check_amplitudes
-
-  !> Film, foil and shaft move together.
-  subroutine check_coupling(keys, scene, analysis, why)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    character(len=*), intent(in) :: analysis, why
-
-    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
-                   "must be 'monolithic' with analysis = '"//analysis//"': "//why)
-  end subroutine check_coupling
 
   !> Dampers and Maxwell arms stand beside the springs of an elastic foundation.
   subroutine check_damping(keys, scene)
@@ -188,31 +178,37 @@ contains
                        'needs a shaft that turns: give duration')
       call keys%refuse(group, 'field_start', .not. transient%field_interval > 0.0_wp, &
                        'has no use without field_interval')
-      if (scene%general%analysis == analysis_equilibrium) then
-        call check_free_shaft(keys, scene)
-      else
-        call check_given_orbit(keys)
-      end if
+      call check_shaft(keys, scene)
       call check_pulse_and_base(keys, scene)
       call check_ends(keys, scene)
       call check_steps(keys, scene)
-      call check_neighbours(keys, group, ': final_speed_rpm in &transient changes the speed '// &
-                            'over the time')
-      call check_coupling(keys, scene, group, 'film, foil and shaft take their steps together')
-      call check_damping(keys, scene)
+      call check_neighbours(keys, scene, group, ': final_speed_rpm in &transient changes the '// &
+                            'speed over the time')
     end associate
   end subroutine check_transient
 
-  !> A shaft that bears a load has a mass, and finds its orbit itself. A rotor that tilts needs the
-  !> whole width of its bearings, and what turns it needs such a rotor.
-  subroutine check_free_shaft(keys, scene)
+  !> A shaft that bears a load has a mass, and finds its orbit itself; one whose place is given
+  !> feels no force. A rotor that tilts needs the whole width of its bearings, and what turns it
+  !> needs such a rotor.
+  subroutine check_shaft(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: group = 'transient'
+    character(len=*), parameter :: couples = 'couple_unbalance, couple_unbalance_angle'
     character(len=*), parameter :: needs_tilt = 'needs transverse_inertia and bearing_distance '// &
                                    'in &rotor: a rotor that tilts on two bearings'
+    character(len=*), parameter :: needs_force = 'needs a load in &operation, and a mass in &rotor'
     logical :: tilts
 
+    if (scene%general%analysis /= analysis_equilibrium) then
+      call keys%rule(group, 'orbit_radius', keys%meant(group, 'orbit_radius') .neqv. &
+                     keys%meant(group, 'orbit_frequency'), 'and orbit_frequency need each other')
+      call keys%refuse('rotor', 'mass', .true., 'has no use where the place of the shaft is given')
+      call keys%refuse(group, 'start_load, pulse, couple_pulse, base_time, steady_tolerance, '// &
+                       'largest_orbit', .true., needs_force)
+      call keys%refuse('unbalance', 'unbalance, '//couples, .true., needs_force)
+      return
+    end if
     tilts = keys%meant('rotor', 'bearing_distance')
     call keys%rule('scene', 'analysis', .not. scene%rotor%present, "'transient' needs the mass "// &
                    'of the shaft, in &rotor; without one give an eccentricity, and its orbit, '// &
@@ -221,25 +217,9 @@ contains
                      'needs an eccentricity in &operation instead of a load')
     call keys%rule('model', 'half_width', tilts .and. scene%model%half_width == half_width_yes, &
                    "must not be 'yes' where a rotor tilts on two bearings over time")
-    call keys%refuse('unbalance', 'couple_unbalance, couple_unbalance_angle', .not. tilts, &
-                     needs_tilt)
+    call keys%refuse('unbalance', couples, .not. tilts, needs_tilt)
     call keys%refuse(group, 'couple_pulse', .not. tilts, needs_tilt)
-  end subroutine check_free_shaft
-
-  !> A shaft whose place is given feels no force.
-  subroutine check_given_orbit(keys)
-    type(case_keys_type), intent(inout) :: keys
-    character(len=*), parameter :: group = 'transient'
-    character(len=*), parameter :: needs_forces = 'needs a load in &operation, and a mass in &rotor'
-
-    call keys%rule(group, 'orbit_radius', keys%meant(group, 'orbit_radius') .neqv. &
-                   keys%meant(group, 'orbit_frequency'), 'and orbit_frequency need each other')
-    call keys%refuse('rotor', 'mass', .true., 'has no use where the place of the shaft is given')
-    call keys%refuse(group, 'start_load, pulse, couple_pulse, base_time, steady_tolerance, '// &
-                     'largest_orbit', .true., needs_forces)
-    call keys%refuse('unbalance', 'unbalance, couple_unbalance, couple_unbalance_angle', .true., &
-                     needs_forces)
-  end subroutine check_given_orbit
+  end subroutine check_shaft
 
   !> A pulse has a length, a table its columns.
   subroutine check_pulse_and_base(keys, scene)
@@ -313,9 +293,10 @@ contains
     end associate
   end subroutine check_steps
 
-  !> What cannot stand beside a motion.
-  subroutine check_neighbours(keys, analysis, instead)
+  !> What cannot stand beside a motion in steps of time, and what foils have then.
+  subroutine check_neighbours(keys, scene, analysis, instead)
     type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
     character(len=*), intent(in) :: analysis
     character(len=*), intent(in) :: instead !! of a sweep
     character(len=:), allocatable :: useless
@@ -325,6 +306,10 @@ contains
     call keys%refuse('accuracy', 'quantity', .true., useless)
     call keys%refuse('sample', 'count', .true., useless)
     call keys%refuse('sensitivity', 'quantity', .true., useless)
+    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
+                   "must be 'monolithic' with analysis = '"//analysis//"': film, foil and "// &
+                   'shaft take their steps together')
+    call check_damping(keys, scene)
   end subroutine check_neighbours
 
   !> Checks a scene with `&periodic`.
@@ -341,65 +326,52 @@ contains
                      "'periodic' needs the mass of the shaft, in &rotor")
       call keys%refuse('rotor', 'bearing_distance', scene%rotor%present, 'has no use with '// &
                        "analysis = 'periodic': the shaft moves in x and y alone")
-      call check_motion(keys, scene)
       call check_branch(keys, scene)
-      call check_damping(keys, scene)
       call keys%rule('model', 'foil', meshes_foils(scene%model%foil) .and. &
                      scene%contact%may_rub .and. (periodic%motion == motion_free .or. &
                      periodic%parameter /= follow_nothing), 'needs friction_top and '// &
                      "friction_sleeve of 0 with motion = 'free', and with parameter: where "// &
                      'contacts stick, orbits lie side by side, and are no branch')
-      call check_coupling(keys, scene, group, 'film, foil and shaft take their steps together')
-      call check_neighbours(keys, group, ': parameter in &periodic follows the orbits')
+      call check_neighbours(keys, scene, group, ': parameter in &periodic follows the orbits')
       call keys%refuse('output', 'restart_every', .true., "has no use with analysis = 'periodic'")
     end associate
   end subroutine check_periodic
 
-  !> A forced motion has its unbalance, a free one none.
-  subroutine check_motion(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: group = 'periodic'
-    character(len=*), parameter :: no_use = "has no use with motion = 'free'"
-
-    associate (periodic => scene%periodic)
-      if (periodic%motion == motion_free) then
-        call keys%refuse('unbalance', 'unbalance, unbalance_angle', .true., no_use)
-        call keys%refuse(group, 'period_turns, start_turns', .true., no_use)
-        call keys%rule(group, 'parameter', all(periodic%parameter /= [0, follow_speed, &
-                       follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
-                       'limit cycles are followed from the onset of whirl on')
-      else
-        call keys%refuse(group, 'first_amplitude', .true., "needs motion = 'free'")
-        call keys%rule(group, 'unbalance', .not. keys%meant(group, 'unbalance') .and. &
-                       periodic%parameter /= follow_unbalance, &
-                       "must be given with motion = 'forced', in &unbalance")
-      end if
-    end associate
-  end subroutine check_motion
-
-  !> A branch has an end, which is not its beginning.
+  !> A forced motion has its unbalance, a free one none. A branch has an end, which is not its
+  !> beginning.
   subroutine check_branch(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: group = 'periodic'
+    character(len=*), parameter :: group = 'periodic', end_key = 'final_value'
+    character(len=*), parameter :: no_use = "has no use with motion = 'free'"
     real(wp) :: begin
+    logical :: free
 
-    associate (periodic => scene%periodic)
-      if (periodic%parameter == follow_nothing) then
+    associate (periodic => scene%periodic, parameter => scene%periodic%parameter)
+      free = periodic%motion == motion_free
+      call keys%refuse('unbalance', 'unbalance, unbalance_angle', free, no_use)
+      call keys%refuse(group, 'period_turns, start_turns', free, no_use)
+      call keys%rule(group, 'parameter', free .and. all(parameter /= [0, follow_speed, &
+                     follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
+                     'limit cycles are followed from the onset of whirl on')
+      call keys%refuse(group, 'first_amplitude', .not. free, "needs motion = 'free'")
+      call keys%rule(group, 'unbalance', .not. (free .or. keys%meant(group, 'unbalance') .or. &
+                     parameter == follow_unbalance), &
+                     "must be given with motion = 'forced', in &unbalance")
+      if (parameter == follow_nothing) then
         call keys%refuse(group, 'final_value, points, step', .true., &
                          "needs a parameter other than 'none'")
         return
       end if
       begin = scene%operation%speed_rpm
-      if (periodic%parameter == follow_unbalance) begin = scene%unbalance%static
-      if (periodic%parameter == follow_mass) begin = scene%rotor%mass
-      if (.not. keys%meant(group, 'final_value')) then
-        call keys%complain(group, 'final_value', 'must be given with parameter')
+      if (parameter == follow_unbalance) begin = scene%unbalance%static
+      if (parameter == follow_mass) begin = scene%rotor%mass
+      if (.not. keys%meant(group, end_key)) then
+        call keys%complain(group, end_key, 'must be given with parameter')
       else if (.not. abs(periodic%final_value - begin) > 0.0_wp) then
-        call keys%complain(group, 'final_value', 'must differ from where the parameter begins')
+        call keys%complain(group, end_key, 'must differ from where the parameter begins')
       else
-        call keys%rule(group, 'final_value', periodic%parameter /= follow_unbalance .and. &
+        call keys%rule(group, end_key, parameter /= follow_unbalance .and. &
                        .not. periodic%final_value > 0.0_wp, 'must be positive')
       end if
     end associate

@@ -5,7 +5,7 @@ module gfb_plausible_values
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_namelist_file, only: find_elements
   use gfb_namelist_values, only: read_real, value_string
-  use gfb_periodic_case, only: follow_mass, follow_speed, follow_unbalance
+  use gfb_motion_cases, only: follow_mass, follow_speed, follow_unbalance
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_keys, sweep_load, sweep_load_angle, &
                             sweep_speed, sweep_tilt_x, sweep_tilt_y

@@ -1,32 +1,33 @@
-!> One case file as plain values: what was asked, in SI.
+!> One case file as plain values: what was asked, in SI, read group by group.
 module gfb_scene
-  use gfb_accuracy_case, only: accuracy_case_type
-  use gfb_bearing_case, only: bearing_case_type
-  use gfb_bore_case, only: bore_case_type
-  use gfb_bump_foil_case, only: bump_foil_case_type
-  use gfb_capacity_case, only: capacity_case_type
-  use gfb_contact_case, only: contact_case_type
-  use gfb_dynamics_case, only: dynamics_case_type
-  use gfb_foil_damping_case, only: foil_damping_case_type
-  use gfb_gas_case, only: gas_case_type
-  use gfb_mesh_case, only: mesh_case_type
-  use gfb_model_case, only: model_case_type
-  use gfb_modes_case, only: modes_case_type
-  use gfb_operation_case, only: operation_case_type
-  use gfb_output_case, only: output_case_type
-  use gfb_periodic_case, only: periodic_case_type
-  use gfb_rotor_case, only: rotor_case_type, unbalance_case_type
-  use gfb_sample_case, only: sample_case_type
-  use gfb_scene_case, only: scene_case_type
-  use gfb_sensitivity_case, only: sensitivity_case_type
-  use gfb_shaft_contact_case, only: shaft_contact_case_type
-  use gfb_solver_case, only: solver_case_type
-  use gfb_strip_load_case, only: strip_load_case_type
-  use gfb_sweep_case, only: sweep_case_type
-  use gfb_top_foil_case, only: top_foil_case_type
-  use gfb_transient_case, only: transient_case_type
+  use gfb_study_cases, only: accuracy_case_type, capacity_case_type, modes_case_type, &
+                             output_case_type, sample_case_type, sensitivity_case_type, &
+                             read_accuracy_case, read_capacity_case, part_half_arc, part_arc, &
+                             read_modes_case, part_top_foil, read_output_case, read_sample_case, &
+                             read_sensitivity_case
+  use gfb_bearing_case, only: bearing_case_type, read_bearing_case, read_pads_case
+  use gfb_bore_case, only: bore_case_type, read_bore_case
+  use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case, top_foil_case_type, &
+                            read_top_foil_case
+  use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
+                              read_shaft_contact_case
+  use gfb_motion_cases, only: dynamics_case_type, foil_damping_case_type, periodic_case_type, &
+                              rotor_case_type, unbalance_case_type, transient_case_type, &
+                              read_dynamics_case, analysis_of_state, read_foil_damping_case, &
+                              read_periodic_case, read_rotor_case, read_unbalance_case, &
+                              read_transient_case
+  use gfb_gas_case, only: gas_case_type, read_gas_case
+  use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
+  use gfb_model_case, only: model_case_type, meshes_foils, read_model_case
+  use gfb_operation_case, only: operation_case_type, read_operation_case
+  use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
+                            is_bearing, misplaced_group, analysis_modes, analysis_misalignment
+  use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
+  use gfb_sweep_case, only: sweep_case_type, read_sweep_case
+  use gfb_case_keys, only: case_keys_type
   implicit none (type, external)
   private
+  public :: read_groups, needs_of
 
   !> One scene.
   type, public :: scene_type
@@ -63,4 +64,83 @@ module gfb_scene
     type(solver_case_type) :: solver
     type(output_case_type) :: output
   end type scene_type
+
+contains
+
+  !> Reads the groups in the order in which they need each other.
+  subroutine read_groups(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(inout) :: scene !! gets what they say
+    type(needs_type) :: needs !! of the analysis
+    integer :: state !! analysis that finds it, where vibrations about a state are asked for
+
+    call read_scene_case(keys, scene%general)
+    call read_modes_case(keys, scene%modes, scene%general%analysis)
+    call read_model_case(keys, scene%model, scene%general%analysis)
+    state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load'), &
+                              keys%holds('operation', 'eccentricity'))
+    needs = needs_of(scene%general%analysis, scene%modes%part, scene%model%foil)
+    associate (analysis => scene%general%analysis)
+      call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, &
+                             bearing_misplaced(analysis, scene%modes%part))
+      call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
+      call read_bore_case(keys, scene%bore, scene%bearing, analysis)
+      call read_gas_case(keys, scene%gas, analysis)
+      call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
+      call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
+      call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
+      call read_rotor_case(keys, scene%rotor, analysis)
+      call read_transient_case(keys, scene%transient, scene%operation, analysis)
+      call read_periodic_case(keys, scene%periodic, analysis)
+      call read_unbalance_case(keys, scene%unbalance, analysis)
+      call read_foil_damping_case(keys, scene%foil_damping, analysis)
+      call read_capacity_case(keys, scene%capacity, analysis)
+      scene%operation%tilt_is_sought = analysis == analysis_misalignment
+      call read_sweep_case(keys, scene%sweep, analysis)
+      call read_top_foil_case(keys, scene%top_foil, needs)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
+      call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
+      call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
+                             scene%bearing%clearance, analysis, scene%model%foil)
+      call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
+      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
+      call read_output_case(keys, scene%output)
+      call read_sensitivity_case(keys, scene%sensitivity, analysis)
+      call read_accuracy_case(keys, scene%accuracy, analysis)
+      call read_sample_case(keys, scene%sample, &
+                            misplaced_group(analysis, analysis /= analysis_modes))
+    end associate
+    scene%general%analysis = state
+  end subroutine read_groups
+
+  !> What an analysis needs, of foils by a model, or of modes of a part.
+  pure function needs_of(analysis, part, foil) result(needs)
+    integer, intent(in) :: analysis, part, foil !! 0 where they are not known
+    type(needs_type) :: needs
+    logical :: modes, meshed
+
+    modes = analysis == analysis_modes .and. part /= 0
+    meshed = is_bearing(analysis) .and. meshes_foils(foil)
+    needs%film = is_bearing(analysis)
+    needs%top_mass = modes .and. part == part_top_foil
+    needs%pad = needs%film .or. needs%top_mass
+    needs%top_foil = needs%top_mass .or. meshed
+    needs%mass = modes .and. part /= part_top_foil
+    needs%width = needs%mass .or. analysis == analysis_strip
+    needs%bumps = needs%width .or. meshed
+    needs%pitch = needs%width .and. .not. (modes .and. any(part == [part_half_arc, part_arc]))
+  end function needs_of
+
+  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
+  pure function bearing_misplaced(analysis, part) result(words)
+    integer, intent(in) :: analysis, part !! 0 where they are not known
+    character(len=:), allocatable :: words
+
+    words = misplaced_group(analysis, is_bearing(analysis))
+    if (analysis /= analysis_modes) return
+    words = ''
+    if (part /= 0 .and. part /= part_top_foil) then
+      words = "needs part = 'top_foil' in &modes: no other part has a pad"
+    end if
+  end function bearing_misplaced
 end module gfb_scene

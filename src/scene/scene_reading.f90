@@ -1,26 +1,321 @@
-!> Reads a case file into a scene, once more for each value of a sweep over its keys.
+!> Reads a case file into a scene, once more for each value of a sweep over its keys; finds the keys
+!> that `&sweep` and `&sensitivity` name.
 module gfb_scene_reading
   use gfb_kinds, only: wp
+  use gfb_foil_cases, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
+  use gfb_motion_cases, only: mass_off
+  use gfb_moved_keys, only: home_of
+  use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
+  use gfb_scene, only: scene_type, read_groups
+  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_study_cases, only: parameter_type
+  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys, every_element, named_keys
+  use gfb_text, only: text
   use gfb_case_text, only: read_case_text
   use gfb_changed_text, only: changed_text, changed_list_text
   use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
   use gfb_key_book, only: key_type
-  use gfb_named_key_rules, only: list_length, check_sensitivity, check_swept_keys
   use gfb_plausible_values, only: check_plausible
-  use gfb_scene, only: scene_type
-  use gfb_scene_groups, only: read_groups
   use gfb_scene_rules, only: check_groups
-  use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys
-  use gfb_text, only: text
   implicit none (type, external)
   private
   public :: read_scene, read_scene_text, scene_at_value, scene_with_key, key_table, all_keys
 
+  character(len=*), parameter :: word_needed = &
+    'needs a parameter that is a word, such as ''load'': '
+
+  character(len=*), parameter :: group = 'sensitivity', parameters = 'parameters'
+
   character(len=*), parameter :: ending = '.nml'
 
 contains
+
+  !> How many values a list means to have whose one value stands for all; 0 where it has as many as
+  !> the file gives.
+  pure function list_length(key, foil) result(length)
+    type(swept_key_type), intent(in) :: key !! a list
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    integer :: length
+
+    length = 0
+    if (key%group /= 'bump_foil') return
+    if (key%is_gap() .or. index(key%name, 'bump_') == 1) length = foil%bumps
+    if (index(key%name, 'strip_') == 1) length = foil%strips
+  end function list_length
+
+  !> All values of a list; none where the file does not give it and it has no default.
+  function list_values(keys, key, foil) result(list)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(swept_key_type), intent(in) :: key !! a list
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    real(wp), allocatable :: list(:) !! [their unit]
+    integer :: place
+
+    list = [real(wp) ::]
+    place = keys%book%place_of(key%group, key%name)
+    if (place > 0) list = keys%book%keys(place)%numbers
+    if (size(list) == 0 .and. key%is_gap()) list = [0.0_wp]
+    if (size(list) == 1) list = spread(list(1), 1, max(1, list_length(key, foil)))
+  end function list_values
+
+  !> Why an index does not choose a value of a list; empty where it does.
+  function index_problem(keys, key, foil) result(problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(swept_key_type), intent(in) :: key !! a list, with an index
+    type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    character(len=:), allocatable :: problem
+    integer :: length
+
+    problem = ''
+    length = size(list_values(keys, key, foil))
+    if (key%is_gap() .and. keys%meant('bump_foil', 'height_deviation')) then
+      problem = key%label()//' has no effect here: height_deviation gives the gaps'
+    else if (length == 0) then
+      problem = key%group//'%'//key%name//' is not given'
+    else if (key%element > length) then
+      problem = key%label()//' does not exist: the list has '//text(length)//' values'
+    end if
+  end function index_problem
+
+  !> Looks the sweep's keys up, notes their unit, and complains about those that cannot be swept;
+  !> nothing is done where the sweep changes no keys.
+  subroutine check_swept_keys(keys, scene, right)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(inout) :: scene !! gets the unit of its sweep
+    logical, intent(out) :: right !! the sweep changes keys, and can
+    type(swept_key_type), allocatable :: list(:)
+    character(len=:), allocatable :: problem, unit
+    integer :: i
+
+    right = scene%sweep%present .and. scene%sweep%parameter == sweep_keys
+    if (.not. right) return
+    list = swept_keys(scene%sweep)
+    do i = 1, size(list)
+      call look_up(keys, scene, list(i), unit, problem)
+      if (i == 1) scene%sweep%unit = unit
+      if (problem == '' .and. list(i)%element == every_element) then
+        problem = list(i)%label()//': the values of a sweep are those of one element'
+      end if
+      if (problem == '' .and. unit /= scene%sweep%unit .and. scene%sweep%unit /= '') then
+        problem = list(i)%label()//' is in '//unit//', the first key in '// &
+                  scene%sweep%unit//': one value cannot be both'
+      end if
+      if (problem == '') cycle
+      call keys%complain('sweep', 'parameter', problem)
+      right = .false.
+    end do
+    call check_beside_keys(keys, scene)
+    associate (sweep => scene%sweep)
+      right = right .and. .not. (sweep%turn_folds .or. sweep%friction_memory)
+      right = right .and. .not. sweep%hold_position
+    end associate
+  end subroutine check_swept_keys
+
+  !> Looks up a real key, or a value of a list, that answers of the scene follow.
+  subroutine look_up(keys, scene, key, unit, problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(swept_key_type), intent(in) :: key !! as it was typed
+    character(len=:), allocatable, intent(out) :: unit !! of the key; empty where there is a problem
+    character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
+
+    call keys%book%look_up_real(key%group, key%name, key%element /= 0, unit, problem)
+    if (problem == '') problem = use_problem(keys, scene, key)
+    if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
+  end subroutine look_up
+
+  !> What cannot stand beside keys, because the bearing is built anew for each value.
+  subroutine check_beside_keys(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    call keys%rule('sweep', 'turn_folds', scene%sweep%turn_folds, word_needed//'a branch is '// &
+                   'followed by its own length with the derivative by the parameter, and a key '// &
+                   'has none')
+    call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, word_needed// &
+                   'where a key changes, the contacts are built anew and have no slip to remember')
+    call keys%rule('sweep', 'hold_position', scene%sweep%hold_position, word_needed//'each '// &
+                   'value of a key makes another bearing, and the shaft stands elsewhere in it')
+    call keys%rule('sweep', 'parameter', scene%model%coupling == coupling_partitioned, 'keys '// &
+                   "need coupling = 'monolithic' in &model: loops do not start from the answer "// &
+                   'of a neighbour')
+  end subroutine check_beside_keys
+
+  !> Why a key has no effect on the answers of this scene; empty where it has one.
+  function use_problem(keys, scene, named) result(problem)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(swept_key_type), intent(in) :: named !! the key, as it was typed
+    character(len=:), allocatable :: problem
+    character(len=:), allocatable :: group, key
+    logical :: foils, springs, computed
+
+    key = named%name
+    group = home_of(named%group, key)
+
+    foils = meshes_foils(scene%model%foil)
+    springs = scene%model%foil == foil_elastic_foundation
+    computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
+    problem = ''
+    select case (group)
+    case ('bearing', 'pads')
+      return
+    case ('gas')
+      if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then
+        problem = 'a law or a table gives the viscosity'
+      end if
+    case ('bore')
+      if (.not. scene%bore%present) problem = 'the file has no group &bore'
+    case ('operation')
+      if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
+    case ('top_foil')
+      if (.not. foils) problem = needs_foils()
+    case ('bump_foil')
+      if (springs .and. .not. computed) problem = 'foundation_stiffness in &model is given'
+      if (computed .and. any(key == ['height', 'width '])) then
+        problem = 'the stiffness by Walowit-Anno does not depend on it'
+      end if
+      if (.not. foils .and. .not. springs) problem = needs_foils()
+    case ('contact')
+      if (.not. foils) problem = needs_foils()
+      if (foils .and. key == 'stick_length' .and. .not. scene%contact%may_rub) then
+        problem = 'there is no friction'
+      end if
+    case ('shaft_contact')
+      if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
+    case ('rotor')
+      if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
+    case ('capacity')
+      if (scene%capacity%question == 0) problem = 'no limit is looked for'
+    case ('dynamics', 'foil_damping')
+      if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
+    case ('model')
+      if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
+    case default
+      problem = 'it does not belong to the bearing, but to how it is computed'
+    end select
+    if (key == 'density') then
+      if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
+      if (.not. scene%dynamics%present) problem = 'nothing vibrates'
+    end if
+    if (problem /= '') problem = group//'%'//key//' has no effect here: '//problem
+
+  contains
+
+    !> Says which foils have the key.
+    function needs_foils() result(words)
+      character(len=:), allocatable :: words
+      words = "it needs foil = 'shell' in &model, or 'beam', not '"// &
+              foil_word(scene%model%foil)//"'"
+    end function needs_foils
+  end function use_problem
+
+  !> Looks the keys up, notes units and values, and complains about those that no answer follows.
+  subroutine check_sensitivity(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(inout) :: scene !! gets the parameters
+    type(swept_key_type), allocatable :: list(:)
+    character(len=:), allocatable :: problem
+    real(wp) :: tolerance
+    integer :: i, k
+    logical :: tolerated
+
+    associate (asked => scene%sensitivity)
+      allocate (asked%parameter(0))
+      if (.not. asked%present) return
+      list = named_keys(asked%names)
+      if (asked%names == '') list = list(:0)
+      tolerated = size(asked%tolerances) == size(list)
+      tolerance = 0.0_wp
+      do i = 1, size(list)
+        if (tolerated) tolerance = asked%tolerances(i)
+        call add_parameter(keys, scene, list(i), tolerance, problem)
+        do k = 1, i - 1
+          if (.not. is_same(list(k), list(i))) cycle
+          problem = list(i)%label()//' is given twice'
+        end do
+        if (problem == '') cycle
+        if (asked%strings == size(list)) then
+          call keys%complain(group, parameters, problem, i)
+        else
+          call keys%complain(group, parameters, problem)
+        end if
+      end do
+      call keys%rule(group, 'tolerances', size(asked%tolerances) > 0 .and. .not. tolerated, &
+                     'must have one value a parameter: '//text(size(list))//', not '// &
+                     text(size(asked%tolerances)))
+    end associate
+    call check_beside_derivatives(keys, scene)
+  end subroutine check_sensitivity
+
+  !> What answers rest on what was before: their derivatives would have to be carried along.
+  subroutine check_beside_derivatives(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, 'cannot stand '// &
+                   'beside &sensitivity: slip that is carried along depends on the parameters '// &
+                   'at all points before')
+    call keys%rule('sweep', 'hold_position', scene%sweep%hold_position, 'cannot stand beside '// &
+                   '&sensitivity: the position that is held depends on the parameters, too')
+    call keys%rule('sweep', 'turn_folds', scene%sweep%turn_folds, 'cannot stand beside '// &
+                   '&sensitivity: at a fold there is no derivative')
+    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
+                   "must be 'monolithic' beside &sensitivity")
+    call keys%rule(group, parameters, scene%accuracy%present, 'cannot stand beside &accuracy: '// &
+                   'its meshes change, and with them the nodes of smallest and largest values')
+    call keys%rule(group, parameters, scene%sample%present, 'cannot stand beside &sample: '// &
+                   'derive one member by its seed')
+  end subroutine check_beside_derivatives
+
+  !> Adds a parameter with its unit and value; of a whole list all its values.
+  subroutine add_parameter(keys, scene, key, tolerance, problem)
+    type(case_keys_type), intent(in) :: keys
+    type(scene_type), intent(inout) :: scene
+    type(swept_key_type), intent(in) :: key
+    real(wp), intent(in) :: tolerance !! of each value [its unit]
+    character(len=:), allocatable, intent(out) :: problem !! empty where it can be one
+    type(parameter_type) :: one
+    real(wp), allocatable :: value(:)
+    integer :: i
+
+    one%key = key
+    one%tolerance = tolerance
+    allocate (value(0))
+    if (key%label() == 'operation%load') then
+      one%unit = 'N'
+      value = [norm2(scene%operation%load)]
+      problem = ''
+      if (scene%general%analysis /= analysis_equilibrium) then
+        problem = 'operation%load has no effect here: the position is given'
+      end if
+    else
+      call look_up(keys, scene, key, one%unit, problem)
+      if (problem /= '') return
+      value = list_values(keys, key, scene%bump_foil)
+    end if
+    do i = 1, size(value)
+      if (key%element > 0 .and. key%element /= i) cycle
+      if (key%element /= 0) one%key%element = i
+      one%value = value(i)
+      if (problem == '' .and. .not. (abs(one%value) > 0.0_wp .or. key%is_gap())) then
+        problem = one%key%label()//' is 0: it has no size by which it could change'
+      end if
+      if (problem == '') scene%sensitivity%parameter = [scene%sensitivity%parameter, one]
+    end do
+  end subroutine add_parameter
+
+  !> Whether two names mean the same key, or one a value of the other.
+  pure function is_same(one, other) result(same)
+    type(swept_key_type), intent(in) :: one, other
+    logical :: same
+
+    same = one%group == other%group .and. one%name == other%name .and. &
+           (one%element == other%element .or. &
+            any([one%element, other%element] == every_element))
+  end function is_same
 
   !> Reads a case file.
   !>

@@ -3,8 +3,9 @@ module gfb_scene_rules
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
   use gfb_case_keys, only: case_keys_type
-  use gfb_count_rules, only: check_counts
-  use gfb_foil_rules, only: check_foils
+  use gfb_study_rules, only: check_counts, check_sweep, check_edge_lift, check_accuracy, &
+                             check_capacity, check_sample, is_unloaded
+  use gfb_foil_rules, only: check_foils, check_shape
   use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, meshes_foils, &
                             half_width_yes, reduction_guyan, coupling_partitioned, &
                             foundation_pressure_local
@@ -13,11 +14,7 @@ module gfb_scene_rules
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
-  use gfb_shape_rules, only: check_shape
-  use gfb_solver_case, only: linear_solver_direct, linear_solver_iterative
-  use gfb_study_rules, only: check_sweep, check_friction_memory, check_edge_lift, &
-                             check_turn_folds, check_load_angles, check_restart, check_accuracy, &
-                             check_capacity, check_sample, is_unloaded
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: join, text
@@ -34,21 +31,13 @@ contains
 
     call check_sweep(keys, scene)
     call check_shaft_contact(keys, scene)
-    call check_friction_memory(keys, scene)
-    call check_foundation(keys, scene)
-    call check_half_width(keys, scene)
+    call check_model(keys, scene)
     call check_rigid_position(keys, scene)
     call check_dynamics(keys, scene)
-    call check_lifts(keys, scene)
     call check_foil_mass(keys, scene)
     call check_rotor(keys, scene)
     call check_foils(keys, scene)
     call check_edge_lift(keys, scene)
-    call check_turn_folds(keys, scene)
-    call check_load_angles(keys, scene)
-    call check_stability(keys, scene)
-    call check_restart(keys, scene)
-    call check_linear_solver(keys, scene)
     call check_accuracy(keys, scene)
     call check_capacity(keys, scene)
     call check_sample(keys, scene)
@@ -85,90 +74,64 @@ contains
     end associate
   end subroutine check_shaft_contact
 
-  !> Stability is that of foils under a film.
-  subroutine check_stability(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-
-    associate (analysis => scene%general%analysis, foil => scene%model%foil)
-      if (.not. scene%solver%stability .or. analysis == 0 .or. foil == 0) return
-      call keys%rule('solver', 'stability', .not. is_bearing(analysis), &
-                     'needs a bearing: it is that of foils under a film')
-      call keys%rule('solver', 'stability', is_bearing(analysis) .and. .not. meshes_foils(foil), &
-                     needs_meshes//'nothing else moves by itself')
-    end associate
-  end subroutine check_stability
-
-  !> Iterations are those of shells whose matrix is sparse; modes have a solver of their own.
-  subroutine check_linear_solver(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: name = 'linear_solver'
-
-    associate (solver => scene%solver%linear_solver, analysis => scene%general%analysis)
-      if (solver == linear_solver_direct .or. analysis == 0) return
-      if (analysis == analysis_modes) then
-        call keys%complain('solver', name, "must be 'direct' for modes")
-      else if (solver /= linear_solver_iterative) then
-        return
-      else if (is_bearing(analysis)) then
-        call keys%complain('solver', name, "'iterative' needs a strip: the matrix of film, "// &
-                           "foils and shaft has no definite sign; 'out_of_core' saves memory, too")
-      else if (scene%model%reduction == reduction_guyan) then
-        call keys%complain('solver', name, "'iterative' needs reduction = 'none' in &model: "// &
-                           'rows of condensed bumps are full, and hold more than their factors')
-      end if
-    end associate
-  end subroutine check_linear_solver
-
-  !> An elastic foundation needs its stiffness, or what it is computed from.
-  subroutine check_foundation(keys, scene)
+  !> What model, mesh and solver ask of the scene: an elastic foundation its stiffness, or what it
+  !> is computed from; half the width a film that is symmetric to the midplane; stability foils
+  !> under a film; iterations shells whose matrix is sparse.
+  subroutine check_model(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: needed(*) = [character(len=14) :: 'thickness', &
       'youngs_modulus', 'poissons_ratio', 'half_length', 'pitch or bumps']
-    logical :: missing(size(needed))
+    logical :: missing(size(needed)), half, bearing, iterative
     integer :: i
 
-    if (scene%model%foil /= foil_elastic_foundation) return
-    if (keys%meant('model', 'foundation_stiffness')) return
     missing = [(.not. keys%meant('bump_foil', trim(needed(i))), i=1, size(needed))]
     missing(5) = .not. (keys%meant('bump_foil', 'pitch') .or. keys%meant('bump_foil', 'bumps'))
-    call keys%rule('model', 'foil', any(missing), 'needs foundation_stiffness, or what is '// &
-                   'missing in &bump_foil: '//join(pack(needed, missing), ', '))
-  end subroutine check_foundation
-
-  !> Lists that have one value for all pads, or one for each.
-  subroutine check_lifts(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-
-    call check_length('leading_edge_lift', size(scene%operation%leading_edge_lift))
-    call check_length('leading_edge_lift_edge', size(scene%operation%leading_edge_lift_edge))
+    associate (model => scene%model, solver => scene%solver, analysis => scene%general%analysis, &
+               elements => scene%mesh%axial_elements)
+      call keys%rule('model', 'foil', model%foil == foil_elastic_foundation .and. any(missing) &
+                     .and. .not. keys%meant('model', 'foundation_stiffness'), 'needs '// &
+                     'foundation_stiffness, or what is missing in &bump_foil: '// &
+                     join(pack(needed, missing), ', '))
+      half = model%half_width == half_width_yes
+      call keys%rule('model', 'half_width', half .and. &
+                     .not. is_symmetric(scene%operation, scene%sweep), &
+                     'needs a bearing without tilt')
+      call keys%rule('model', 'half_width', half .and. mod(elements, 2) /= 0, 'needs an even '// &
+                     'number of axial_elements in &mesh, not '//text(elements))
+      call check_lifts('leading_edge_lift', size(scene%operation%leading_edge_lift))
+      call check_lifts('leading_edge_lift_edge', size(scene%operation%leading_edge_lift_edge))
+      if (analysis == 0) return
+      bearing = is_bearing(analysis)
+      call keys%rule('solver', 'stability', solver%stability .and. model%foil /= 0 .and. &
+                     .not. bearing, 'needs a bearing: it is that of foils under a film')
+      call keys%rule('solver', 'stability', solver%stability .and. model%foil /= 0 .and. &
+                     bearing .and. .not. meshes_foils(model%foil), &
+                     needs_meshes//'nothing else moves by itself')
+      call keys%rule('solver', 'linear_solver', analysis == analysis_modes .and. &
+                     solver%linear_solver /= linear_solver_direct, "must be 'direct' for modes")
+      iterative = analysis /= analysis_modes .and. solver%linear_solver == linear_solver_iterative
+      call keys%rule('solver', 'linear_solver', iterative .and. bearing, "'iterative' needs a "// &
+                     'strip: the matrix of film, foils and shaft has no definite sign; '// &
+                     "'out_of_core' saves memory, too")
+      call keys%rule('solver', 'linear_solver', iterative .and. .not. bearing .and. &
+                     model%reduction == reduction_guyan, "'iterative' needs reduction = "// &
+                     "'none' in &model: rows of condensed bumps are full, and hold more than "// &
+                     'their factors')
+    end associate
 
   contains
 
-    subroutine check_length(key, values)
+    !> A list has one value for all pads, or one for each.
+    subroutine check_lifts(key, values)
       character(len=*), intent(in) :: key
       integer, intent(in) :: values
 
       call keys%rule('operation', key, all(values /= [0, 1, scene%bearing%pads]), 'has '// &
                      text(values)//' values, must have one for all pads or one for each of '// &
                      text(scene%bearing%pads))
-    end subroutine check_length
-  end subroutine check_lifts
-
-  !> Half the width can be asked for only where the film is symmetric to the midplane.
-  subroutine check_half_width(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-
-    if (scene%model%half_width /= half_width_yes) return
-    call keys%rule('model', 'half_width', .not. is_symmetric(scene%operation, scene%sweep), &
-                   'needs a bearing without tilt')
-    call keys%rule('model', 'half_width', mod(scene%mesh%axial_elements, 2) /= 0, 'needs an '// &
-                   'even number of axial_elements in &mesh, not '//text(scene%mesh%axial_elements))
-  end subroutine check_half_width
+    end subroutine check_lifts
+  end subroutine check_model
 
   !> Whether no point of the scene is tilted, so that one half mirrors the other.
   pure function is_symmetric(operation, sweep) result(symmetric)
@@ -184,6 +147,7 @@ contains
   subroutine check_rigid_position(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: key
     integer :: point
 
     associate (bearing => scene%bearing, sweep => scene%sweep)
@@ -191,7 +155,9 @@ contains
       if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
       if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x .or. &
           sweep%parameter == sweep_keys) then
-        call check_approach('operation', guilty_key(scene%operation), scene%operation)
+        key = 'tilt'
+        if (any(abs(scene%operation%eccentricity) > 0.0_wp)) key = 'eccentricity'
+        call check_approach('operation', key, scene%operation)
         return
       end if
       do point = 1, size(sweep%values)
@@ -214,14 +180,6 @@ contains
                      'clearance of '//text(scene%bearing%clearance)//' m in a rigid bearing', point)
     end subroutine check_approach
   end subroutine check_rigid_position
-
-  !> The key that tells where the shaft is fixed, or how it is tilted.
-  pure function guilty_key(operation) result(key)
-    type(operation_case_type), intent(in) :: operation
-    character(len=:), allocatable :: key
-    key = 'tilt'
-    if (any(abs(operation%eccentricity) > 0.0_wp)) key = 'eccentricity'
-  end function guilty_key
 
   !> Displacement of the shaft towards the pad, the larger one of both ends [m].
   pure function approach_to_pad(bearing, operation) result(approach)

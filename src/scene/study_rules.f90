@@ -1,9 +1,13 @@
 !> What a scene must have, and cannot have, where more is asked for than one answer: a sweep, a
-!> branch, a limit, an accuracy, a sample, a run that can be resumed.
+!> branch, a limit, an accuracy, a sample, a run that can be resumed. And what it makes of its
+!> numbers without saying so: elements, steps, answers.
+!>
+!> Each of these counts is a real, which no product overflows, and keeps the limit of the counts
+!> that are given, before anything of that size is made.
 module gfb_study_rules
-  use gfb_kinds, only: wp
-  use gfb_accuracy_case, only: asked_name, of_vibrations
-  use gfb_bump_foil_case, only: draw_gaps, largest_gap
+  use gfb_kinds, only: wp, long
+  use gfb_study_cases, only: asked_name, of_vibrations, part_strip
+  use gfb_foil_cases, only: draw_gaps, largest_gap, top_foil_trailing
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: needs_meshes, coupling_partitioned, meshes_foils
   use gfb_result_names, only: is_of
@@ -11,16 +15,36 @@ module gfb_study_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
                             analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
-                            analysis_words, is_bearing
+                            analysis_words, is_bearing, analysis_modes
   use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_load_angle, sweep_tilt_x, &
                             sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
-  use gfb_top_foil_case, only: top_foil_trailing
+  use gfb_bearing_case, only: pad_length
+  use gfb_mesh_case, only: most_a_side
+  use gfb_operation_case, only: angular_speed
+  use gfb_motion_cases, only: motion_free, duration_of
   implicit none (type, external)
   private
-  public :: check_sweep, check_friction_memory, check_edge_lift, check_turn_folds, &
-            check_load_angles, check_restart, check_accuracy, check_capacity, check_sample, &
-            sample_member, is_unloaded
+  public :: check_sweep, check_edge_lift, check_accuracy, check_capacity, check_sample, &
+            sample_member, is_unloaded, check_counts
+
+  integer(long), parameter :: most_in_all = 50000000_long !! elements of a mesh, steps, answers
+  integer(long), parameter :: most_stations = 1000000_long !! elements along a bump strip
+  real(wp), parameter :: pi = acos(-1.0_wp)
+
+  !> Elements each way.
+  type :: elements_type
+    real(wp) :: along = 0.0_wp  !! the pad [1]
+    real(wp) :: across = 0.0_wp !! its width [1]
+    real(wp) :: bump = 0.0_wp   !! of an arc with its flat [1]
+  end type elements_type
+
+  character(len=*), parameter :: one_answer = 'needs a scene of one answer, without &sweep'
+  !> Results that are limits, and the analyses that look for them.
+  character(len=*), parameter :: limit_names(*) = &
+    [character(len=22) :: 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
+  integer, parameter :: limits(*) = &
+    [analysis_load_capacity, analysis_lift_off, analysis_misalignment]
 
 contains
 
@@ -31,27 +55,36 @@ contains
     unloaded = scene%operation%load_given .and. .not. any(abs(scene%operation%load) > 0.0_wp)
   end function is_unloaded
 
-  !> A sweep needs an analysis that fits to its parameter.
+  !> A sweep fits to the analysis, and what it follows, or carries along, to the scene.
   subroutine check_sweep(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), parameter :: memory = 'friction_memory', parameter = 'parameter'
     logical :: floats !! the shaft finds its place at each point
 
-    associate (sweep => scene%sweep, analysis => scene%general%analysis)
-      if (.not. sweep%present .or. analysis == 0) return
+    associate (sweep => scene%sweep, analysis => scene%general%analysis, foil => scene%model%foil)
+      if (.not. sweep%present) return
+      call keys%rule('sweep', memory, sweep%friction_memory .and. foil /= 0 .and. &
+                     .not. meshes_foils(foil), needs_meshes//'nothing else rubs')
+      call keys%rule('sweep', memory, sweep%friction_memory .and. meshes_foils(foil) .and. &
+                     .not. scene%contact%may_rub, 'needs friction_top or friction_sleeve in '// &
+                     '&contact: without friction nothing is remembered')
+      if (sweep%turn_folds) call check_turn_folds(keys, scene)
+      if (sweep%parameter == sweep_load_angle) call check_load_angles(keys, scene)
+      if (analysis == 0) return
       floats = analysis == analysis_equilibrium .and. .not. sweep%hold_position
       call keys%rule('sweep', 'hold_position', sweep%hold_position .and. &
                      analysis /= analysis_equilibrium, "needs analysis = 'equilibrium': it "// &
                      'fixes the shaft at its equilibrium at &operation')
       select case (sweep%parameter)
       case (sweep_load, sweep_load_angle)
-        call keys%rule('sweep', 'parameter', .not. floats, &
+        call keys%rule('sweep', parameter, .not. floats, &
                        "needs analysis = 'equilibrium' without hold_position")
         call keys%rule('operation', 'load', floats .and. is_unloaded(scene), 'must not be zero '// &
                        'where it is swept: it gives '// &
                        merge('the direction', 'the magnitude', sweep%parameter == sweep_load))
       case (sweep_eccentricity_x, sweep_eccentricity_y)
-        call keys%rule('sweep', 'parameter', analysis /= analysis_fixed_position, &
+        call keys%rule('sweep', parameter, analysis /= analysis_fixed_position, &
                        "needs analysis = 'fixed_position'")
       case (sweep_speed)
         if (floats .and. .not. scene%shaft_contact%present) then
@@ -75,20 +108,45 @@ contains
     end do
   end subroutine check_zeros
 
-  !> Friction that remembers needs foils that rub.
-  subroutine check_friction_memory(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), parameter :: name = 'friction_memory'
+  !> A branch is followed round its folds between two values, with all its points in equilibrium.
+  subroutine check_turn_folds(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: name = 'turn_folds'
 
-    if (.not. scene%sweep%friction_memory .or. scene%model%foil == 0) return
-    if (.not. meshes_foils(scene%model%foil)) then
-      call keys%complain('sweep', name, needs_meshes//'nothing else rubs')
-    else
-      call keys%rule('sweep', name, .not. scene%contact%may_rub, 'needs friction_top or '// &
-                     'friction_sleeve in &contact: without friction nothing is remembered')
-    end if
-  end subroutine check_friction_memory
+    associate (sweep => scene%sweep)
+      call keys%rule('sweep', name, sweep%friction_memory, 'has no use beside friction_memory: '// &
+                     'what slid must not depend on the path round a fold')
+      call keys%rule('sweep', name, sweep%parameter == sweep_load_angle, 'has no use with '// &
+                     "parameter = 'load_angle': between two angles the load goes straight, not "// &
+                     'round')
+      call keys%rule('sweep', name, scene%model%coupling == coupling_partitioned, &
+                     "needs coupling = 'monolithic' in &model")
+      call keys%rule('sweep', name, size(sweep%values) == 1, &
+                     'needs two values at least, the ends of the path')
+      if (size(sweep%values) < 2) return
+      associate (change => sweep%values(2:) - sweep%values(:size(sweep%values) - 1))
+        call keys%rule('sweep', 'values', any(change*change(1) <= 0.0_wp), &
+                       'must all rise or all fall with turn_folds')
+      end associate
+    end associate
+  end subroutine check_turn_folds
+
+  !> Between two angles the load goes straight, and must not come near zero.
+  subroutine check_load_angles(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp), parameter :: circle = 360.0_wp, farthest = 90.0_wp !! [deg]
+    real(wp) :: turn !! from the angle before [deg]
+    integer :: point
+
+    do point = 2, size(scene%sweep%values)
+      turn = modulo(scene%sweep%values(point) - scene%sweep%values(point - 1), circle)
+      call keys%rule('sweep', 'values', .not. min(turn, circle - turn) <= farthest, 'must be '// &
+                     'within 90 degrees of the angle before: between them the load goes '// &
+                     'straight', point)
+    end do
+  end subroutine check_load_angles
 
   !> A branch can be asked for by the lift of an edge that is free to lift.
   subroutine check_edge_lift(keys, scene)
@@ -114,83 +172,39 @@ contains
                    size(scene%operation%leading_edge_lift_edge) > 0, problem)
   end subroutine check_edge_lift
 
-  !> A branch is followed round its folds between two values, with all its points in equilibrium.
-  subroutine check_turn_folds(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), parameter :: name = 'turn_folds'
-
-    associate (sweep => scene%sweep)
-      if (.not. sweep%turn_folds) return
-      call keys%rule('sweep', name, sweep%friction_memory, 'has no use beside friction_memory: '// &
-                     'what slid must not depend on the path round a fold')
-      call keys%rule('sweep', name, sweep%parameter == sweep_load_angle, 'has no use with '// &
-                     "parameter = 'load_angle': between two angles the load goes straight, not "// &
-                     'round')
-      call keys%rule('sweep', name, scene%model%coupling == coupling_partitioned, &
-                     "needs coupling = 'monolithic' in &model")
-      if (.not. allocated(sweep%values)) return
-      call keys%rule('sweep', name, size(sweep%values) == 1, &
-                     'needs two values at least, the ends of the path')
-      if (size(sweep%values) < 2) return
-      associate (change => sweep%values(2:) - sweep%values(:size(sweep%values) - 1))
-        call keys%rule('sweep', 'values', any(change*change(1) <= 0.0_wp), &
-                       'must all rise or all fall with turn_folds')
-      end associate
-    end associate
-  end subroutine check_turn_folds
-
-  !> Between two angles the load goes straight, and must not come near zero.
-  subroutine check_load_angles(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    real(wp), parameter :: circle = 360.0_wp, farthest = 90.0_wp !! [deg]
-    integer :: point
-
-    associate (sweep => scene%sweep)
-      if (sweep%parameter /= sweep_load_angle .or. .not. allocated(sweep%values)) return
-      do point = 2, size(sweep%values)
-        associate (turn => modulo(sweep%values(point) - sweep%values(point - 1), circle))
-          call keys%rule('sweep', 'values', .not. min(turn, circle - turn) <= farthest, 'must '// &
-                         'be within 90 degrees of the angle before: between them the load goes '// &
-                         'straight', point)
-        end associate
-      end do
-    end associate
-  end subroutine check_load_angles
-
-  !> A run can be resumed where it has steps.
-  subroutine check_restart(keys, scene)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-
-    call keys%rule('output', 'restart_every', scene%output%restart_every /= 0 .and. &
-                   all(scene%general%analysis /= [0, analysis_strip]) .and. .not. &
-                   (scene%sweep%present .or. scene%transient%present), 'needs a &sweep, or '// &
-                   "analysis = 'strip' or 'transient': nothing else has steps to resume from")
-  end subroutine check_restart
-
-  !> The number whose error is asked for must be one of the analysis, and of one answer.
+  !> A run can be resumed where it has steps. The number whose error is asked for must be one of the
+  !> analysis, and of one answer.
   subroutine check_accuracy(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=*), parameter :: group = 'accuracy', key = 'quantity'
-    integer :: kind
+    character(len=:), allocatable :: name
+    integer :: kind, needed
 
-    if (.not. scene%accuracy%present .or. scene%general%analysis == 0) return
-    kind = merge(bearing, strip, is_bearing(scene%general%analysis))
-    if (scene%accuracy%quantity > 0) then
-      if (.not. is_of(asked_name(scene%accuracy), kind)) then
-        call keys%complain(group, key, 'is no number of this analysis')
-      else
-        call keys%rule(group, key, .not. scene%dynamics%present .and. &
-                       any(asked_name(scene%accuracy) == of_vibrations), &
-                       "needs analysis = 'linear_dynamics'")
+    associate (analysis => scene%general%analysis, resumed => scene%output%restart_every)
+      call keys%rule('output', 'restart_every', resumed /= 0 .and. &
+                     all(analysis /= [0, analysis_strip]) .and. .not. &
+                     (scene%sweep%present .or. scene%transient%present), 'needs a &sweep, or '// &
+                     "analysis = 'strip' or 'transient': nothing else has steps to resume from")
+      if (.not. scene%accuracy%present .or. analysis == 0) return
+      kind = merge(bearing, strip, is_bearing(analysis))
+      if (scene%accuracy%quantity > 0) then
+        name = asked_name(scene%accuracy)
+        needed = findloc(limit_names == name, .true., 1)
+        if (needed > 0) needed = limits(needed)
+        if (.not. is_of(name, kind)) then
+          call keys%complain(group, key, 'is no number of this analysis')
+        else
+          call keys%rule(group, key, .not. scene%dynamics%present .and. &
+                         any(name == of_vibrations), "needs analysis = 'linear_dynamics'")
+        end if
+        call keys%rule(group, key, all(needed /= [0, scene%capacity%question]), &
+                       "needs analysis = '"//trim(analysis_words(max(1, needed)))//"'")
       end if
-    end if
-    call keys%rule(group, key, scene%sweep%present, 'needs a scene of one answer, without &sweep')
-    call keys%rule(group, key, scene%output%restart_every > 0, 'is found on several meshes, '// &
-                   'which no restart file resumes: restart_every must be 0')
+      call keys%rule(group, key, scene%sweep%present, one_answer)
+      call keys%rule(group, key, resumed > 0, 'is found on several meshes, which no restart '// &
+                     'file resumes: restart_every must be 0')
+    end associate
   end subroutine check_accuracy
 
   !> Checks a scene that asks for a limit.
@@ -199,7 +213,6 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=:), allocatable :: still
 
-    call check_limit_name(keys, scene)
     associate (asked => scene%capacity%question, smallest => scene%capacity%smallest_gap, &
                sweep => scene%sweep)
       if (asked == 0) return
@@ -258,27 +271,6 @@ contains
     end associate
   end subroutine check_swept_limit
 
-  !> The error of a limit can be asked for where the analysis looks for it.
-  subroutine check_limit_name(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-    integer :: needed
-
-    if (.not. scene%accuracy%present .or. scene%accuracy%quantity == 0) return
-    select case (asked_name(scene%accuracy))
-    case ('load_capacity')
-      needed = analysis_load_capacity
-    case ('lift_off_speed_rpm')
-      needed = analysis_lift_off
-    case ('misalignment_allowance')
-      needed = analysis_misalignment
-    case default
-      return
-    end select
-    call keys%rule('accuracy', 'quantity', scene%capacity%question /= needed, &
-                   "needs analysis = '"//trim(analysis_words(needed))//"'")
-  end subroutine check_limit_name
-
   !> What a sample cannot have beside it.
   subroutine check_sample(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
@@ -292,7 +284,7 @@ contains
       call keys%complain(group, key, 'needs height_deviation in &bump_foil: without it all '// &
                          'members are the same')
     end if
-    call keys%rule(group, key, scene%sweep%present, 'needs a scene of one answer, without &sweep')
+    call keys%rule(group, key, scene%sweep%present, one_answer)
     call keys%rule(group, key, scene%accuracy%present, 'cannot stand beside &accuracy: one '// &
                    'member on one mesh has its error, then all have it on that mesh')
     call keys%rule(group, key, scene%output%restart_every > 0, 'is of many runs, which no '// &
@@ -350,4 +342,276 @@ contains
       member%name = scene%name//'.seed'//text(foil%random%seed)
     end associate
   end function sample_member
+
+  !> Checks all counts that follow from others.
+  subroutine check_counts(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(elements_type) :: elements
+    integer :: before
+
+    before = keys%mistakes()
+    elements = elements_of(scene)
+    call check_film(keys, scene, elements)
+    call check_bumps(keys, scene, elements)
+    if (keys%mistakes() == before) call check_finest(keys, scene)
+    call check_modes(keys, scene)
+    call check_answers(keys, scene)
+    if (scene%transient%present) call check_times(keys, scene)
+    if (scene%periodic%present) call check_periods(keys, scene)
+  end subroutine check_counts
+
+  !> Elements of film and top foil.
+  subroutine check_film(keys, scene, elements)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    type(elements_type), intent(in) :: elements
+    real(wp) :: most !! along the pad; whole elements a pitch may be half as many again [1]
+
+    most = max(real(most_a_side, wp), 1.5_wp*real(scene%mesh%circumferential_elements, wp))
+    if (elements%along > most) then
+      call keys%complain('bearing', 'radius', 'the pad has '//text(pad_length(scene%bearing), 6)// &
+                         ' m, along which align_crests in &mesh makes about '// &
+                         text(elements%along, 3)//' elements at a pitch of '// &
+                         text(scene%bump_foil%pitch%value, 6)//' m: must be at most '// &
+                         text(most_a_side))
+    else if (elements%along*elements%across*films(scene) > real(most_in_all, wp)) then
+      call keys%complain('mesh', 'axial_elements', text(nint(elements%along))//' x '// &
+                         text(nint(elements%across))//' elements'//of_films(scene)// &
+                         ' are more than '//text(most_in_all))
+    end if
+  end subroutine check_film
+
+  !> Elements of a bump foil that is meshed.
+  subroutine check_bumps(keys, scene, elements)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    type(elements_type), intent(in) :: elements
+    real(wp) :: bumps !! of all pads [1]
+
+    if (.not. meshes_bumps(scene)) return
+    bumps = real(scene%bump_foil%bumps, wp)*pads(scene)
+    if (bumps*elements%bump*elements%across > real(most_in_all, wp)) then
+      call keys%complain('bump_foil', 'bumps', text(scene%bump_foil%bumps)//' bumps of '// &
+                         text(nint(elements%bump*elements%across, long))//' elements'// &
+                         on_pads(scene)//' are more than '//text(most_in_all)//' elements')
+    else if (scene%bump_foil%bumps*elements%bump > real(most_stations, wp)) then
+      call keys%complain('bump_foil', 'bumps', text(scene%bump_foil%bumps)//' bumps of '// &
+                         text(nint(elements%bump))//' elements are more than '// &
+                         text(most_stations)//' along the strip')
+    end if
+  end subroutine check_bumps
+
+  !> The finest mesh that an accuracy may take.
+  subroutine check_finest(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    type(elements_type) :: finest
+    type(scene_type) :: fine
+    real(wp) :: all
+
+    if (.not. scene%accuracy%present) return
+    fine = scene
+    associate (mesh => fine%mesh, number => scene%accuracy%maximum_refinements)
+      mesh%circumferential_elements = finer(mesh%circumferential_elements, 4, number)
+      mesh%axial_elements = finer(mesh%axial_elements, 2, number)
+      mesh%arc_elements = finer(mesh%arc_elements, 2, number)
+      mesh%flat_elements = finer(mesh%flat_elements, 1, number)
+    end associate
+    finest = elements_of(fine)
+    all = finest%along*finest%across*films(scene)
+    if (meshes_bumps(scene)) then
+      all = max(all, scene%bump_foil%bumps*finest%bump*finest%across*pads(scene))
+    end if
+    if (.not. all > real(most_in_all, wp)) return
+    call keys%complain('accuracy', 'maximum_refinements', 'the finest mesh has about '// &
+                       text(all, 3)//' elements: must be at most '//text(most_in_all))
+  end subroutine check_finest
+
+  !> A number of elements after some refinements by two, of a mesh that is four times coarser.
+  elemental function finer(elements, least, refinements) result(number)
+    integer, intent(in) :: elements !! that `&mesh` says, at most 100,000
+    integer, intent(in) :: least !! of the first mesh
+    integer, intent(in) :: refinements !! at most 8
+    integer :: number
+    number = max(least, (elements + 3)/4)*2**refinements
+  end function finer
+
+  !> Elements of a scene each way.
+  pure function elements_of(scene) result(elements)
+    type(scene_type), intent(in) :: scene
+    type(elements_type) :: elements
+
+    elements%along = real(scene%mesh%circumferential_elements, wp)
+    elements%across = real(scene%mesh%axial_elements, wp)
+    elements%bump = real(scene%mesh%arc_elements + scene%mesh%flat_elements, wp)
+    ! The shares of strips are rounded up, one element at least, and a line lies in a cut.
+    if (scene%bump_foil%strips > 1) then
+      elements%across = elements%across + 3.0_wp*real(scene%bump_foil%strips, wp)
+    end if
+    if (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0) then
+      call align_with_crests(scene, elements%along)
+    end if
+  end function elements_of
+
+  !> Elements along a pad where lines of nodes lie above the crests: whole ones a pitch, and as
+  !> long ones before the first crest and behind the last.
+  pure subroutine align_with_crests(scene, along)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(inout) :: along !! [1]
+    real(wp) :: of_pitch, rest !! elements; pitches outside the crests [1]
+
+    associate (length => pad_length(scene%bearing), pitch => scene%bump_foil%pitch%value, &
+               bumps => real(scene%bump_foil%bumps, wp))
+      if (.not. (length > 0.0_wp .and. pitch > 0.0_wp)) return
+      of_pitch = max(1.0_wp, anint(along*pitch/length))
+      rest = max(0.0_wp, length/pitch - (bumps - 1.0_wp))
+      along = of_pitch*(bumps - 1.0_wp + rest)
+    end associate
+  end subroutine align_with_crests
+
+  !> Films of linear elements with as many nodes: of all pads, and of both bearings where a rotor
+  !> tilts on two over time [1].
+  pure function films(scene) result(number)
+    type(scene_type), intent(in) :: scene
+    real(wp) :: number
+    number = pads(scene)*real(scene%model%film_order**2, wp)
+  end function films
+
+  !> Pads, of both bearings where a rotor tilts on two over time [1].
+  pure function pads(scene) result(number)
+    type(scene_type), intent(in) :: scene
+    real(wp) :: number
+
+    number = real(scene%bearing%pads, wp)
+    if (scene%rotor%distance_in_time > 0.0_wp) number = 2.0_wp*number
+  end function pads
+
+  !> Pads and order of films in words.
+  pure function of_films(scene) result(words)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: words
+
+    words = on_pads(scene)
+    if (scene%model%film_order > 1) words = ' of '//text(scene%model%film_order**2)// &
+                                            ' nodes each'//words
+  end function of_films
+
+  !> Pads in words, where they are several.
+  pure function on_pads(scene) result(words)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (pads(scene) > 1.5_wp) words = ' on '//text(nint(pads(scene)))//' pads'
+  end function on_pads
+
+  !> Whether the whole bump foil is meshed.
+  pure function meshes_bumps(scene) result(meshes)
+    type(scene_type), intent(in) :: scene
+    logical :: meshes
+
+    associate (analysis => scene%general%analysis)
+      meshes = analysis == analysis_strip .or. &
+               (is_bearing(analysis) .and. meshes_foils(scene%model%foil)) .or. &
+               (analysis == analysis_modes .and. scene%modes%part == part_strip)
+    end associate
+  end function meshes_bumps
+
+  !> Modes inside pieces of the bumps: three a bump, arcs cut at the crest and the flat.
+  subroutine check_modes(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: pieces !! [1]
+
+    if (.not. meshes_bumps(scene)) return
+    pieces = 3.0_wp*real(scene%bump_foil%bumps, wp)*real(scene%bump_foil%strips, wp)*pads(scene)
+    call check('modes', 'substructure_modes', scene%modes%substructure_modes, &
+               scene%general%analysis == analysis_modes)
+    call check('foil_damping', 'foil_modes', scene%foil_damping%foil_modes, &
+               scene%dynamics%present .or. scene%transient%present)
+
+  contains
+
+    !> Checks the modes of one key.
+    subroutine check(group, key, modes, counts)
+      character(len=*), intent(in) :: group, key !! names in the case file
+      integer, intent(in) :: modes  !! of a piece
+      logical, intent(in) :: counts !! the key has a use
+
+      if (.not. counts .or. pieces*real(modes, wp) <= real(most_in_all, wp)) return
+      call keys%complain(group, key, text(modes)//' modes in each of '//text(pieces, 3)// &
+                         ' pieces of the bumps are more than '//text(most_in_all))
+    end subroutine check
+  end subroutine check_modes
+
+  !> Answers of a linear response: points of a sweep, times frequencies, times amplitudes.
+  subroutine check_answers(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: points, frequencies !! [1]
+
+    if (.not. scene%dynamics%present) return
+    frequencies = real(size(scene%dynamics%frequencies), wp)
+    points = real(max(1, size(scene%dynamics%amplitudes)), wp)
+    if (allocated(scene%sweep%values)) points = points*real(max(1, size(scene%sweep%values)), wp)
+    if (points*frequencies <= real(most_in_all, wp)) return
+    call keys%complain('dynamics', 'frequencies', text(nint(frequencies))//' frequencies at '// &
+                       text(points, 3)//' points or amplitudes are more than '//text(most_in_all))
+  end subroutine check_answers
+
+  !> Steps of a shaft over time, and the fields that it stores.
+  subroutine check_times(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp), parameter :: fewest = 60.0_wp !! of a turn, where the error chooses them [1]
+    real(wp) :: duration, fastest, steps
+    character(len=:), allocatable :: key
+
+    associate (transient => scene%transient, operation => scene%operation)
+      if (min(operation%speed_rpm, transient%final_speed_rpm) < 0.0_wp) return
+      if (.not. transient%duration > 0.0_wp .and. &
+          .not. max(operation%speed_rpm, transient%final_speed_rpm)*transient%turns > 0.0_wp) return
+      duration = duration_of(transient, operation)
+      if (.not. duration < huge(duration)) return ! see the rule of its end
+      fastest = max(angular_speed(operation%speed_rpm), angular_speed(transient%final_speed_rpm), &
+                    abs(transient%orbit_frequency))
+      steps = max(1.0_wp, duration*fastest/(2.0_wp*pi))*fewest
+      if (transient%steps_per_turn > 0.0_wp) steps = steps/fewest*transient%steps_per_turn
+      if (steps > real(most_in_all, wp)) then
+        key = 'turns'
+        if (keys%meant('transient', 'duration')) key = 'duration'
+        if (transient%steps_per_turn > 1.0e5_wp) key = 'steps_per_turn'
+        call keys%complain('transient', key, 'makes about '//text(steps, 3)//' steps of time: '// &
+                           'must be at most '//text(most_in_all))
+      end if
+      if (.not. transient%field_interval > 0.0_wp) return
+      steps = (duration - transient%field_start)/transient%field_interval
+      if (steps <= real(most_in_all, wp)) return
+      call keys%complain('transient', 'field_interval', 'makes about '//text(steps, 3)// &
+                         ' times of stored fields: must be at most '//text(most_in_all))
+    end associate
+  end subroutine check_times
+
+  !> Steps of time in a period, and in those before the first orbit.
+  subroutine check_periods(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: steps !! [1]
+
+    associate (periodic => scene%periodic)
+      steps = real(periodic%steps_per_turn, wp)
+      if (periodic%motion /= motion_free) steps = steps*real(periodic%period_turns, wp)
+      if (steps > real(most_in_all, wp)) then
+        call keys%complain('periodic', 'steps_per_turn', 'makes '//text(steps, 3)// &
+                           ' steps of a period: must be at most '//text(most_in_all))
+        return
+      end if
+      if (periodic%motion == motion_free) return
+      steps = steps*real(periodic%start_turns, wp)
+      if (steps <= real(most_in_all, wp)) return
+      call keys%complain('periodic', 'start_turns', 'makes '//text(steps, 3)//' steps of time '// &
+                         'before the first orbit: must be at most '//text(most_in_all))
+    end associate
+  end subroutine check_periods
 end module gfb_study_rules

@@ -6,8 +6,7 @@ module gfb_foil_mass_choice
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_rigid, meshes_foils
   use gfb_operation_case, only: angular_speed
-  use gfb_dynamics_case, only: frequencies_at
-  use gfb_foil_damping_case, only: mass_on, mass_off
+  use gfb_motion_cases, only: frequencies_at, mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
   use gfb_vibration_equations, only: foil_inertia_type, destroy_inertia

@@ -3,7 +3,7 @@ module gfb_refinement
   use gfb_kinds, only: wp
   use gfb_grid_convergence, only: convergence_type, estimate_errors, estimate_error
   use gfb_film_surface, only: journal_motions
-  use gfb_accuracy_case, only: accuracy_case_type, all_coefficients, asked_name
+  use gfb_study_cases, only: accuracy_case_type, all_coefficients, asked_name
   use gfb_quantity, only: quantity_type, place_of
   use gfb_result_names, only: is_nodal, add_result
   use gfb_run_log, only: run_log_type

@@ -2,7 +2,7 @@
 module gfb_contact_laws
   use gfb_kinds, only: wp
   use gfb_contact_case, only: contact_case_type, direction_motion, surface_face, motion_coulomb
-  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_foil_cases, only: bump_foil_case_type
   use gfb_strip_load_case, only: bump_stiffness
   use gfb_contact_law, only: contact_law_type
   use gfb_contact_set, only: contact_set_type

@@ -8,7 +8,7 @@ module gfb_changed_foil
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
+  use gfb_foil_cases, only: gap_of_crest, gap_of_corner
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_foil_builder, only: strip_on_pad, section_of, plate_section

@@ -10,7 +10,7 @@ module gfb_foundation_foil
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: bump_foil_case_type
+  use gfb_foil_cases, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, foundation_pressure_axial_mean
   use gfb_curved_bump, only: walowit_anno_stiffness
   use gfb_foil_model, only: foil_model_type

@@ -21,7 +21,7 @@ module gfb_shell_foil
   use gfb_foil_stress, only: shell_stresses
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   use gfb_text, only: text
-  use gfb_bump_foil_case, only: gap_of_crest, gap_of_corner
+  use gfb_foil_cases, only: gap_of_crest, gap_of_corner
   use gfb_scene, only: scene_type
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, set_count, strip_at

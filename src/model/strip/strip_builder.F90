@@ -8,7 +8,7 @@ module gfb_strip_builder
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none, gap_of_crest, gap_of_corner, solid_width
+  use gfb_foil_cases, only: fixed_edge_none, gap_of_crest, gap_of_corner, solid_width
   use gfb_strip_load_case, only: crest_forces, typical_deflection, bump_stiffness, load_plates, &
                                  support_held
   use gfb_contact_laws, only: set_contact_laws

@@ -7,8 +7,7 @@ module gfb_foil_builder
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: pad_length
-  use gfb_top_foil_case, only: top_foil_leading
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
+  use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
   use gfb_foil_mesh, only: top_mesh, strip_shape_type, bump_strip_mesh, strip_substructures, crest_positions, strip_rows, &

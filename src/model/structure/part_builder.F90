@@ -7,8 +7,8 @@ module gfb_part_builder
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_modes
-  use gfb_bump_foil_case, only: fixed_edge_none
-  use gfb_modes_case, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
+  use gfb_foil_cases, only: fixed_edge_none
+  use gfb_study_cases, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
   use gfb_film_mesh, only: axial_rows
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
   use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, dividing_stations, &

@@ -1,7 +1,7 @@
 !> The film of a bearing as a surface with fields.
 module gfb_film_grid
   use gfb_kinds, only: wp
-  use gfb_output_case, only: output_case_type
+  use gfb_study_cases, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_fields, only: film_block, full_rows

@@ -1,28 +1,39 @@
-!> `&contact`: how the crests and corners of the bumps touch, and how they rub.
+!> `&contact`: how the crests and corners of the bumps touch, and how they rub. `&shaft_contact`:
+!> the rough shaft touches the foil, or sleeve, where the film is thin.
 !>
 !> The defaults of stiffness and stick length follow the scene, so that neither shows in its answer.
 module gfb_contact_case
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type, from_to, positive
+  use gfb_scene_case, only: is_bearing, misplaced_group, analysis_strip
+  use gfb_foil_cases, only: bump_foil_case_type
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
   use gfb_model_case, only: meshes_foils
-  use gfb_scene_case, only: analysis_strip, is_bearing, misplaced_group
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
   implicit none (type, external)
   private
-  public :: contact_case_type, read_contact_case
+  public :: shaft_contact_case_type, read_shaft_contact_case, contact_case_type, read_contact_case
+
+  real(wp), parameter :: usual_friction = 0.1_wp
+
+  !> The asperities of both surfaces as one.
+  type :: shaft_contact_case_type
+    logical :: present = .false.             !! the group stands in the file
+    real(wp) :: roughness = 0.0_wp           !! mean height [m]
+    real(wp) :: pressure = 0.0_wp            !! where the mean planes meet [Pa]
+    real(wp) :: friction = usual_friction    !! coefficient [1]
+  end type shaft_contact_case_type
 
   !> against the slip, a vector; the default
   integer, parameter, public :: direction_tangent_plane = 1
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
   integer, parameter, public :: motion_coulomb = 1    !! what sticks keeps its friction; the default
-  integer, parameter, public :: motion_as_at_rest = 2 !! by `friction_law`
+  integer, parameter :: motion_as_at_rest = 2 !! by `friction_law`
 
   !> mid-surfaces touch, as [Gu2020] has it; the default
-  integer, parameter, public :: surface_mid = 1
+  integer, parameter :: surface_mid = 1
   integer, parameter, public :: surface_face = 2 !! faces touch, half a thickness off
 
   character(len=*), parameter :: direction_words(*) = [character(len=13) :: 'tangent_plane', &
@@ -36,7 +47,7 @@ module gfb_contact_case
   real(wp), parameter :: bumps_stiffness = 1.0e4_wp   !! contact's over that of a bump
   real(wp), parameter :: stick_part = 1.0_wp/5.0e3_wp !! of a strip's typical deflection
   real(wp), parameter :: stick_in_bearing = 1.0_wp/300.0_wp !! of the clearance
-  real(wp), parameter :: highest_friction = 10.0_wp
+  real(wp), parameter :: most_friction = 10.0_wp
   real(wp), parameter :: lowest = 1.0e-60_wp, highest = 1.0e30_wp !! what a case file can hold
 
   !> The contacts.
@@ -57,6 +68,24 @@ module gfb_contact_case
   end type contact_case_type
 
 contains
+
+  !> Reads the group; without it nothing touches.
+  subroutine read_shaft_contact_case(keys, contact, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(shaft_contact_case_type), intent(out) :: contact !! what `&shaft_contact` asks for
+    integer, intent(in) :: analysis !! 0 where it is not known
+
+    call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
+                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+    call keys%real_key('roughness', contact%roughness, 'm', &
+                       'roughness height s of shaft and foil together: asperities carry the '// &
+                       'pressure p_0 exp(-h/s) where the film has the thickness h', &
+                       positive, .true.)
+    call keys%real_key('pressure', contact%pressure, 'Pa', &
+                       'pressure p_0 of the asperities at zero film thickness', positive, .true.)
+    call keys%real_key('friction', contact%friction, '1', &
+                       'friction coefficient of the asperities', from_to(0.0_wp, most_friction))
+  end subroutine read_shaft_contact_case
 
   !> The law of vibrations with an amplitude, and of motions in time.
   elemental function law_in_motion(self) result(law)
@@ -127,7 +156,7 @@ contains
     subroutine friction_key(name, value, meaning)
       character(len=*), intent(in) :: name, meaning
       real(wp), intent(inout) :: value !! [1]
-      call keys%real_key(name, value, '1', meaning, from_to(0.0_wp, highest_friction))
+      call keys%real_key(name, value, '1', meaning, from_to(0.0_wp, most_friction))
       contact%may_rub = contact%may_rub .or. value > 0.0_wp .or. &
                         (keys%key%given .and. .not. keys%last_key_is_right())
     end subroutine friction_key

@@ -1,7 +1,7 @@
 !> `&strip_load`: what presses on a bump strip, and what it rests on.
 module gfb_strip_load_case
   use gfb_kinds, only: wp
-  use gfb_bump_foil_case, only: bump_foil_case_type, solid_width
+  use gfb_foil_cases, only: bump_foil_case_type, solid_width
   use gfb_curved_bump, only: walowit_anno_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list, unless, any_value, from_to, positive
   use gfb_scene_case, only: analysis_strip, misplaced_group

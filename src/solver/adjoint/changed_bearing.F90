@@ -8,7 +8,7 @@ module gfb_changed_bearing
   use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_key
-  use gfb_sensitivity_case, only: parameter_type
+  use gfb_study_cases, only: parameter_type
   use gfb_sweep_case, only: swept_key_type
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type

@@ -14,7 +14,7 @@ module gfb_sensitivity
   use petscmat
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
-  use gfb_sensitivity_case, only: parameter_type, quantity_words
+  use gfb_study_cases, only: parameter_type, quantity_words
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
   use gfb_operating_point, only: operating_point_type

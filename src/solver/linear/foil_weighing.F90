@@ -10,7 +10,7 @@ module gfb_foil_weighing
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_over_ranks, largest_number, any_rank
-  use gfb_foil_damping_case, only: mass_auto, mass_on, mass_off
+  use gfb_motion_cases, only: mass_auto, mass_on, mass_off
   use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
   use gfb_bearing_system, only: bearing_system_type

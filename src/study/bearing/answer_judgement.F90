@@ -11,7 +11,7 @@ module gfb_answer_judgement
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell
-  use gfb_sensitivity_case, only: quantity_words, parameter_type
+  use gfb_study_cases, only: quantity_words, parameter_type
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, find_determinant_sign

@@ -11,7 +11,7 @@ module gfb_dynamics
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, meshes_foils
-  use gfb_dynamics_case, only: tangent_stick, frequencies_at
+  use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type

@@ -12,7 +12,7 @@ module gfb_modes_study
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count, largest_over_ranks
   use gfb_c_library, only: peak_memory
   use gfb_scene, only: scene_type
-  use gfb_modes_case, only: part_words, part_top_foil, part_strip
+  use gfb_study_cases, only: part_words, part_top_foil, part_strip
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes

@@ -9,7 +9,7 @@ module gfb_strip_study
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
-  use gfb_bump_foil_case, only: fixed_edge_none
+  use gfb_foil_cases, only: fixed_edge_none
   use gfb_strip_load_case, only: crest_forces, load_plates, support_contact
   use gfb_foil_mesh, only: crest_positions
   use gfb_foil_builder, only: strip_shape, foil_plan_type
@@ -35,7 +35,7 @@ module gfb_strip_study
   use gfb_foil_stress, only: shell_stresses
   use gfb_answer_notes, only: show_contact_notes, show_loop_note
   use gfb_provenance, only: blas_in_use
-  use gfb_solver_case, only: linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_iterative
   use gfb_substructures, only: kind_count
   use gfb_strip_builder, only: build_strip
   use gfb_foil_plan, only: plan_foil

@@ -6,7 +6,7 @@ module gfb_periodic
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
-  use gfb_periodic_case, only: motion_free, follow_speed, follow_unbalance, follow_mass
+  use gfb_motion_cases, only: motion_free, follow_speed, follow_unbalance, follow_mass
   use gfb_bearing_system, only: bearing_system_type
   use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass, drive_at, &
                             period_of, rest_of, release, apply_map, dots, length_of, pi, tail

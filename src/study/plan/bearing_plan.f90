@@ -23,7 +23,7 @@ module gfb_bearing_plan
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
-  use gfb_solver_case, only: linear_solver_out_of_core
+  use gfb_mesh_case, only: linear_solver_out_of_core
   use gfb_memory_check, only: film_memory, bearing_memory, show_memory
   implicit none (type, external)
   private

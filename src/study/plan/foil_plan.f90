@@ -8,12 +8,12 @@ module gfb_foil_plan
   use gfb_scene_rules, only: is_symmetric
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan, reduction_none, &
                             reduction_auto, foil_shell
-  use gfb_modes_case, only: part_words, part_strip
-  use gfb_bump_foil_case, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ, &
-                                sizes_mirror
+  use gfb_study_cases, only: part_words, part_strip
+  use gfb_foil_cases, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ, &
+                            sizes_mirror
   use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_rules, only: strips_mirror
-  use gfb_solver_case, only: linear_solver_out_of_core, linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_check, only: strip_memory, modes_memory, show_memory
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_builder, only: foil_plan_type

@@ -18,7 +18,7 @@ module gfb_sample
   use gfb_result_table, only: all_members, seed_and_reason, name_length
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
-  use gfb_sample_case, only: percent_of
+  use gfb_study_cases, only: percent_of
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_text_file, only: table_member_type

@@ -13,7 +13,7 @@ module gfb_transient
   use gfb_orbit_record, only: orbit_record_type, plane_motion, tilt_motion
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
-  use gfb_transient_case, only: duration_of
+  use gfb_motion_cases, only: duration_of
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_run_log, only: run_log_type
   use gfb_operating_point, only: operating_point_type

@@ -1,0 +1,278 @@
+!> Groups of what is asked for beside an answer: `&modes`, `&accuracy`, `&sample`, `&sensitivity`,
+!> `&capacity` and `&output`.
+module gfb_study_cases
+  use gfb_kinds, only: wp
+  use gfb_case_keys, only: case_keys_type, from_to, between, not_negative, positive
+  use gfb_scene_case, only: analysis_modes, misplaced_group, analysis_strip, is_bearing, &
+                            analysis_equilibrium, analysis_fixed_position, &
+                            analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
+                            asks_limit
+  use gfb_result_names, only: asked_names
+  use gfb_result_table, only: name_length, bearing, strip
+  use gfb_text, only: text
+  use gfb_sweep_case, only: swept_key_type
+  implicit none (type, external)
+  private
+  public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
+            accuracy_case_type, read_accuracy_case, asked_name, sample_case_type, &
+            read_sample_case, percent_of, sensitivity_case_type, read_sensitivity_case, &
+            capacity_case_type, read_capacity_case
+
+  character(len=*), parameter :: field_words(*) = [character(len=10) :: &
+                                                   'all', 'none', 'pressure', 'gap', 'deflection']
+
+  real(wp), parameter :: most_steps = 1.0e6_wp
+
+  !> Fields that are written for ParaView, and how often the state is saved to resume the run.
+  type :: output_case_type
+    logical :: pressure = .true.
+    logical :: gap = .true.
+    logical :: deflection = .true.
+    integer :: restart_every = 0 !! points or load steps between restart files; 0: one a minute
+  end type output_case_type
+
+  integer, parameter, public :: part_half_arc = 1 !! from corner line to crest line, both fixed
+  integer, parameter, public :: part_arc = 2      !! from corner line to corner line, both fixed
+  integer, parameter, public :: part_flat = 3     !! between two corner lines, both fixed
+  integer, parameter, public :: part_strip = 4    !! the whole strip, fixed at its fixed edge
+  integer, parameter, public :: part_top_foil = 5 !! fixed at its fixed edge
+
+  character(len=*), parameter, public :: part_words(*) = [character(len=8) :: 'half_arc', 'arc', &
+                                                          'flat', 'strip', 'top_foil']
+
+  !> The modes asked for.
+  type :: modes_case_type
+    integer :: count = 10
+    integer :: part = part_strip
+    integer :: substructure_modes = 0 !! Craig-Bampton modes kept in every super-element
+  end type modes_case_type
+
+  character(len=*), parameter, public :: all_coefficients = 'coefficients' !! not one number
+  character(len=*), parameter, public :: of_vibrations(*) = &
+    [character(len=13) :: 'critical_mass', 'whirl_ratio', 'stiffness_xx', 'stiffness_xy', &
+     'stiffness_yx', 'stiffness_yy', 'damping_xx', 'damping_xy', 'damping_yx', 'damping_yy', &
+     all_coefficients]
+
+  !> The number and its error.
+  type :: accuracy_case_type
+    logical :: present = .false.    !! the case asks for it
+    integer :: quantity = 0         !! number among the names that may be asked for
+    real(wp) :: target = 1.0e-2_wp  !! error allowed, relative
+    integer :: maximum_refinements = 4 !! of the first mesh, each by two
+  end type accuracy_case_type
+
+  real(wp), parameter :: usual(*) = [0.05_wp, 0.25_wp, 0.5_wp, 0.75_wp, 0.95_wp]
+  integer, parameter :: most_members = 1000000
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of a percentage that is whole
+
+  !> What is drawn, and what is said of it.
+  type :: sample_case_type
+    logical :: present = .false.          !! the case asks for it
+    integer :: count = 0                  !! members
+    real(wp), allocatable :: quantiles(:) !! parts of the members below them [1]
+  end type sample_case_type
+
+  integer, parameter :: most_tolerances = 1000 !! of a list
+
+  !> Results whose derivatives are offered, in the order in which the solver has them.
+  character(len=*), parameter, public :: quantity_words(*) = [character(len=16) :: &
+    'eccentricity_x', 'eccentricity_y', 'attitude_angle', 'force_x', 'force_y', 'torque_x', &
+    'torque_y', 'friction_torque', 'power_loss', 'minimum_gap', 'maximum_pressure', &
+    'minimum_pressure']
+
+  !> A key by which results are derived.
+  type, public :: parameter_type
+    type(swept_key_type) :: key
+    character(len=:), allocatable :: unit
+    real(wp) :: value = 0.0_wp     !! in the case file [its unit]
+    real(wp) :: tolerance = 0.0_wp !! standard deviation [its unit]
+  end type parameter_type
+
+  !> The derivatives asked for.
+  type :: sensitivity_case_type
+    logical :: present = .false.                        !! the case asks for them
+    logical :: quantity(size(quantity_words)) = .false. !! whose derivatives are asked for
+    character(len=:), allocatable :: names              !! `group%key, ...` of the keys
+    integer :: strings = 0                              !! in which they stand
+    real(wp), allocatable :: tolerances(:)              !! one a key, or none [their units]
+    type(parameter_type), allocatable :: parameter(:)   !! the keys, once they are checked
+  end type sensitivity_case_type
+
+  character(len=*), parameter :: axis_words(*) = ['x', 'y']
+
+  !> What is asked for.
+  type :: capacity_case_type
+    !> `analysis_load_capacity`, `analysis_lift_off` or `analysis_misalignment`; 0: nothing is
+    integer :: question = 0
+    real(wp) :: smallest_gap = 0.0_wp    !! that the film may have [m]
+    real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
+    integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
+  contains
+    procedure :: seeks_load
+  end type capacity_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_output_case(keys, output)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(output_case_type), intent(out) :: output !! what `&output` asks for
+    logical :: chosen(size(field_words))
+
+    chosen = field_words == 'all'
+    call keys%start_group('output')
+    call keys%words_key('fields', chosen, field_words, 'fields that are written for ParaView')
+    call keys%rule('output', 'fields', any(chosen .and. field_words == 'none') .and. &
+                   count(chosen) > 1, "'none' must stand alone")
+    output%pressure = any(chosen .and. (field_words == 'all' .or. field_words == 'pressure'))
+    output%gap = any(chosen .and. (field_words == 'all' .or. field_words == 'gap'))
+    output%deflection = any(chosen .and. (field_words == 'all' .or. field_words == 'deflection'))
+    call keys%integer_key('restart_every', output%restart_every, &
+                          'sweep points, load steps of a strip or steps of time, after which '// &
+                          '`CASE.restart.h5` is written for `--restart`; 0: once a minute', &
+                          from_to(0.0_wp, most_steps))
+  end subroutine read_output_case
+
+  !> Reads the group.
+  subroutine read_modes_case(keys, modes, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(modes_case_type), intent(out) :: modes !! what `&modes` asks for
+    integer, intent(in) :: analysis !! 0 where it is not known
+
+    call keys%start_group('modes', optional=analysis /= analysis_modes, &
+                          misplaced=misplaced_group(analysis, analysis == analysis_modes))
+    call keys%integer_key('count', modes%count, 'number of modes, from the lowest frequency up', &
+                          from_to(1.0_wp, 1000.0_wp))
+    call keys%choice_key('part', modes%part, part_words, 'component that vibrates')
+    call keys%integer_key('substructure_modes', modes%substructure_modes, &
+                          'fixed-interface modes kept in every super-element of a strip '// &
+                          '(Craig-Bampton)', from_to(0.0_wp, 1000.0_wp))
+    if (modes%substructure_modes > 0 .and. modes%part /= part_strip .and. modes%part /= 0) then
+      call keys%complain('modes', 'substructure_modes', "needs part = 'strip', which alone is "// &
+                         'made of super-elements')
+    end if
+  end subroutine read_modes_case
+
+  !> Reads the group.
+  subroutine read_accuracy_case(keys, accuracy, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(accuracy_case_type), intent(out) :: accuracy !! what `&accuracy` asks for
+    integer, intent(in) :: analysis !! 0 where it is not known
+
+    call keys%start_group('accuracy', optional=.true., present_in_file=accuracy%present, &
+                          misplaced=misplaced_group(analysis, is_bearing(analysis) .or. &
+                                                    analysis == analysis_strip))
+    call keys%choice_key('quantity', accuracy%quantity, asked_names(), &
+                         'result whose error is estimated', accuracy%present)
+    call keys%real_key('target', accuracy%target, '1', &
+                       'error allowed, relative to the result; meshes are refined until the '// &
+                       'estimate meets it', between(0.0_wp, 1.0_wp))
+    call keys%integer_key('maximum_refinements', accuracy%maximum_refinements, &
+                          'refinements, each by two, of a first mesh that is four times '// &
+                          'coarser than `&mesh`', &
+                          from_to(2.0_wp, 8.0_wp))
+  end subroutine read_accuracy_case
+
+  !> Name of the number that must be known so well.
+  pure function asked_name(accuracy) result(name)
+    type(accuracy_case_type), intent(in) :: accuracy !! with a quantity
+    character(len=:), allocatable :: name
+    character(len=name_length), allocatable :: names(:)
+
+    names = asked_names()
+    name = trim(names(accuracy%quantity))
+  end function asked_name
+
+  !> Reads the group.
+  subroutine read_sample_case(keys, sample, misplaced)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sample_case_type), intent(out) :: sample !! what `&sample` asks for
+    character(len=*), intent(in) :: misplaced !! why the case has no use for it; empty: it has
+    integer :: i
+
+    call keys%start_group('sample', optional=.true., present_in_file=sample%present, &
+                          misplaced=misplaced)
+    call keys%integer_key('count', sample%count, 'members: the scene with `seed`, `seed` + 1, '// &
+                          '... of `&bump_foil`', from_to(2.0_wp, real(most_members, wp)), &
+                          sample%present)
+    call keys%real_list_key('quantiles', sample%quantiles, 99, '1', 'quantiles of the results, '// &
+                            'in whole hundredths', between(0.0_wp, 1.0_wp), .false., &
+                            '0.05, 0.25, 0.5, 0.75, 0.95')
+    if (size(sample%quantiles) == 0) sample%quantiles = usual
+    do i = 1, size(sample%quantiles)
+      associate (hundredths => 100.0_wp*sample%quantiles(i))
+        if (abs(hundredths - percent_of(sample%quantiles(i))) < rounding) cycle
+        call keys%complain('sample', 'quantiles', 'must be whole hundredths, which name the '// &
+                           'results, not '//text(sample%quantiles(i), 4))
+      end associate
+    end do
+  end subroutine read_sample_case
+
+  !> A quantile in percent.
+  elemental function percent_of(quantile) result(percent)
+    real(wp), intent(in) :: quantile !! between 0 and 1 [1]
+    integer :: percent
+    percent = nint(100.0_wp*quantile)
+  end function percent_of
+
+  !> Reads the group.
+  subroutine read_sensitivity_case(keys, sensitivity, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(sensitivity_case_type), intent(out) :: sensitivity !! what `&sensitivity` asks for
+    integer, intent(in) :: analysis !! 0 where it is not known
+
+    call keys%start_group('sensitivity', optional=.true., present_in_file=sensitivity%present, &
+                          misplaced=misplaced_group(analysis, &
+                                                    analysis == analysis_equilibrium .or. &
+                                                    analysis == analysis_fixed_position))
+    call keys%words_key('quantity', sensitivity%quantity, quantity_words, &
+                        'results whose derivatives are found')
+    call keys%rule('sensitivity', 'quantity', sensitivity%present .and. &
+                   .not. any(sensitivity%quantity) .and. (keys%last_key_is_right() .or. &
+                   .not. keys%holds('sensitivity', 'quantity')), 'must name a result')
+    call keys%names_key('parameters', sensitivity%names, sensitivity%strings, &
+                        'keys by which they are derived, such as `''bump_foil%thickness''`; '// &
+                        'of a list a value, `''bump_foil%crest_gap(2)''`, or all, `(:)`; '// &
+                        '`''operation%load''` is its magnitude')
+    call keys%real_list_key('tolerances', sensitivity%tolerances, most_tolerances, &
+                            'those of parameters', 'standard deviation of each of them: the '// &
+                            'variance is told that they cause', not_negative, .false., 'none')
+  end subroutine read_sensitivity_case
+
+  !> Whether it is a load that is asked for.
+  elemental logical function seeks_load(self)
+    class(capacity_case_type), intent(in) :: self !! what is asked for
+    seeks_load = self%question == analysis_load_capacity
+  end function seeks_load
+
+  !> Reads the group, which belongs to analyses that look for a limit.
+  subroutine read_capacity_case(keys, capacity, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(capacity_case_type), intent(out) :: capacity !! what `&capacity` asks for
+    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    logical :: by_gap
+
+    by_gap = analysis == analysis_load_capacity .or. analysis == analysis_misalignment
+    if (asks_limit(analysis)) capacity%question = analysis
+    call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
+                          misplaced=misplaced_group(analysis, asks_limit(analysis)))
+    call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', &
+                       'film thickness at which load or tilt has reached its limit', positive, &
+                       required=by_gap, &
+                       default="required for 'load_capacity' and 'misalignment_allowance'")
+    call keys%real_key('contact_part', capacity%contact_part, '1', &
+                       'part of the load that asperities carry at the lift-off speed', &
+                       between(0.0_wp, 1.0_wp))
+    call keys%choice_key('tilt_axis', capacity%tilt_axis, axis_words, &
+                         'axis about which the sleeve tilts for the misalignment allowance')
+    if (capacity%question == 0) return
+    if (analysis == analysis_lift_off) then
+      call keys%rule('capacity', 'smallest_gap', keys%meant('capacity', 'smallest_gap'), &
+                     "has no use with analysis = 'lift_off': that has its limit in contact_part")
+    else if (keys%meant('capacity', 'contact_part')) then
+      call keys%complain('capacity', 'contact_part', "needs analysis = 'lift_off'")
+    end if
+    call keys%rule('capacity', 'tilt_axis', keys%meant('capacity', 'tilt_axis') .and. &
+                   analysis /= analysis_misalignment, "needs analysis = 'misalignment_allowance'")
+  end subroutine read_capacity_case
+end module gfb_study_cases
