@@ -7,26 +7,24 @@ module gfb_plausible_values
   use gfb_namelist_values, only: read_real, value_string
   use gfb_motion_cases, only: follow_mass, follow_speed, follow_unbalance
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: sweep_case_type, sweep_keys, sweep_load, sweep_load_angle, &
+  use gfb_sweep_case, only: sweep_keys, sweep_load, sweep_load_angle, &
                             sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
   implicit none (type, external)
   private
   public :: check_plausible
 
-  !> What is usual of a key's values; signs do not count, and zero is always usual.
+  !> What is usual of the values of some keys; signs do not count, and zero is always usual.
   type, public :: range_type
-    character(len=13) :: group
-    character(len=23) :: key
-    real(wp) :: low, high       !! smallest and largest usual value [the key's unit]
-    character(len=8) :: unit    !! the key's
+    real(wp) :: low, high       !! smallest and largest usual value [the keys' unit]
+    character(len=8) :: unit    !! the keys'
     character(len=19) :: others !! what the number may be meant in: units, the likeliest first
+    character(len=207) :: keys !! `group%key`, with blanks between them
   end type range_type
 
   !> Why a key has no usual range.
   type, public :: reason_type
-    character(len=13) :: group
-    character(len=23) :: key
+    character(len=26) :: key !! `group%key`
     character(len=40) :: reason
   end type reason_type
 
@@ -37,133 +35,111 @@ module gfb_plausible_values
   end type unit_type
 
   type(range_type), parameter, public :: ranges(*) = [ &
-    range_type('bearing', 'radius', 1.0e-3_wp, 0.5_wp, 'm', 'mm,um'), &
-    range_type('bearing', 'length', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
-    range_type('bearing', 'clearance', 1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bearing', 'assembly_interference', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bearing', 'leading_edge_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'wave_amplitude', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bore', 'wave_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bore', 'shim_arc', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'shim_ramp', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('bore', 'profile_height', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bore', 'profile_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('gas', 'viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
-    range_type('gas', 'ambient_pressure', 1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
-    range_type('gas', 'mean_free_path', 1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm'), &
-    range_type('gas', 'temperature', 50.0_wp, 3000.0_wp, 'K', ''), &
-    range_type('gas', 'molar_mass', 1.0e-3_wp, 0.5_wp, 'kg/mol', 'g/mol'), &
-    range_type('gas', 'critical_pressure', 1.0e5_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa'), &
-    range_type('gas', 'critical_temperature', 3.0_wp, 2000.0_wp, 'K', ''), &
-    range_type('gas', 'acentric_factor', 0.0_wp, 1.5_wp, '1', '%'), &
-    range_type('gas', 'viscosity_exponent', 0.0_wp, 3.0_wp, '1', '%'), &
-    range_type('gas', 'density_table_pressure', 1.0e2_wp, 1.0e8_wp, 'Pa', 'bar,kPa,MPa'), &
-    range_type('gas', 'density_table_density', 1.0e-3_wp, 2.0e3_wp, 'kg/m^3', 'g/cm^3,g/m^3'), &
-    range_type('gas', 'density_table_viscosity', 3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s'), &
-    range_type('operation', 'speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
-    range_type('operation', 'eccentricity', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('operation', 'tilt', 0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg'), &
-    range_type('operation', 'leading_edge_lift', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('operation', 'leading_edge_lift_edge', 0.0_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'free_radius', 1.0e-3_wp, 1.0e3_wp, 'm', 'mm,um'), &
-    range_type('top_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
-    range_type('top_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
-    range_type('bump_foil', 'thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'youngs_modulus', 1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa'), &
-    range_type('bump_foil', 'density', 500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3'), &
-    range_type('bump_foil', 'half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'crest_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'corner_gap', 0.0_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'height_deviation', 1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('bump_foil', 'pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'bump_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_pitch', 2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_half_length', 1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_height', 2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_thickness', 5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'strip_offset', 0.0_wp, 5.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'cut_width', 1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um'), &
-    range_type('bump_foil', 'width', 1.0e-3_wp, 2.0_wp, 'm', 'mm,um'), &
-    range_type('contact', 'friction_top', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('contact', 'friction_sleeve', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('contact', 'stick_length', 1.0e-12_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('shaft_contact', 'roughness', 1.0e-8_wp, 1.0e-4_wp, 'm', 'um,mm'), &
-    range_type('shaft_contact', 'pressure', 1.0e4_wp, 1.0e11_wp, 'Pa', 'MPa,GPa'), &
-    range_type('shaft_contact', 'friction', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('strip_load', 'pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
-    range_type('strip_load', 'bump_pressure', 0.0_wp, 1.0e9_wp, 'Pa', ''), &
-    range_type('strip_load', 'maximum_displacement', 0.0_wp, 1.0e-2_wp, 'm', 'mm,um'), &
-    range_type('strip_load', 'maximum_force', 1.0e-6_wp, 1.0e6_wp, 'N', 'mN'), &
-    range_type('model', 'foundation_stiffness', 1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('capacity', 'smallest_gap', 1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm'), &
-    range_type('solver', 'touch_down_gap', 0.0_wp, 1.0e-4_wp, 'm', 'mm,um'), &
-    range_type('solver', 'residual_tolerance', 0.0_wp, 1.0e-2_wp, '1', '%'), &
-    range_type('solver', 'step_tolerance', 0.0_wp, 1.0e-2_wp, '1', '%'), &
-    range_type('solver', 'smallest_load_step', 0.0_wp, 1.0_wp, '1', '%'), &
-    range_type('pads', 'arc', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('pads', 'first_leading_edge', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('pads', 'gap', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('dynamics', 'frequencies', 0.0_wp, 1.0e7_wp, 'rad/s', 'rpm'), &
-    range_type('dynamics', 'frequency_ratios', 0.0_wp, 100.0_wp, '1', '%'), &
-    range_type('dynamics', 'loss_factor', 0.0_wp, 2.0_wp, '1', '%'), &
-    range_type('foil_damping', 'foundation_damping', 1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3'), &
-    range_type('foil_damping', 'maxwell_stiffness', 1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3'), &
-    range_type('foil_damping', 'maxwell_time', 1.0e-9_wp, 1.0e2_wp, 's', 'ms,us'), &
-    range_type('dynamics', 'vibration_amplitudes', 1.0e-13_wp, 1.0e-4_wp, 'm', 'um,mm'), &
-    range_type('rotor', 'mass', 1.0e-4_wp, 1.0e4_wp, 'kg', 'g'), &
-    range_type('rotor', 'transverse_inertia', 1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2'), &
-    range_type('rotor', 'polar_inertia', 1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2'), &
-    range_type('rotor', 'bearing_distance', 1.0e-3_wp, 5.0_wp, 'm', 'mm,um'), &
-    range_type('transient', 'turns', 0.0_wp, 1.0e5_wp, '1', ''), &
-    range_type('transient', 'duration', 1.0e-8_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('transient', 'steps_per_turn', 0.0_wp, 1.0e5_wp, '1', ''), &
-    range_type('transient', 'time_tolerance', 1.0e-10_wp, 0.1_wp, '1', '%'), &
-    range_type('transient', 'start_load', 0.0_wp, 1.0e6_wp, 'N', 'mN'), &
-    range_type('transient', 'final_speed_rpm', 100.0_wp, 2.0e6_wp, 'rpm', 'krpm'), &
-    range_type('transient', 'ramp_time', 1.0e-8_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('unbalance', 'unbalance', 1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm'), &
-    range_type('unbalance', 'unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('unbalance', 'couple_unbalance', 1.0e-14_wp, 1.0e-2_wp, 'kg m^2', &
-               'kg mm^2,g mm^2'), &
-    range_type('unbalance', 'couple_unbalance_angle', 0.0_wp, 6.3_wp, 'rad', 'deg'), &
-    range_type('transient', 'pulse', 0.0_wp, 1.0e3_wp, 'N s', 'mN s'), &
-    range_type('transient', 'couple_pulse', 0.0_wp, 1.0e2_wp, 'N m s', 'N mm s'), &
-    range_type('transient', 'pulse_start', 0.0_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('transient', 'pulse_length', 1.0e-8_wp, 10.0_wp, 's', 'ms,us'), &
-    range_type('transient', 'base_time', 0.0_wp, 1.0e4_wp, 's', 'ms,us'), &
-    range_type('transient', 'base_acceleration_x', 0.0_wp, 1.0e5_wp, 'm/s^2', 'mm/s^2'), &
-    range_type('transient', 'base_acceleration_y', 0.0_wp, 1.0e5_wp, 'm/s^2', 'mm/s^2'), &
-    range_type('transient', 'orbit_radius', 1.0e-13_wp, 1.0e-3_wp, 'm', 'um,mm'), &
-    range_type('transient', 'orbit_frequency', 0.0_wp, 1.0e7_wp, 'rad/s', 'rpm'), &
-    range_type('transient', 'field_interval', 1.0e-9_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('transient', 'field_start', 0.0_wp, 1.0e3_wp, 's', 'ms,us'), &
-    range_type('transient', 'steady_tolerance', 0.0_wp, 0.5_wp, '1', '%'), &
-    range_type('transient', 'largest_orbit', 1.0e-10_wp, 2.0e-3_wp, 'm', 'um,mm'), &
-    range_type('periodic', 'step', 1.0e-6_wp, 10.0_wp, '1', '%'), &
-    range_type('periodic', 'first_amplitude', 1.0e-6_wp, 0.9_wp, '1', '%')]
+    range_type(1.0e-3_wp, 0.5_wp, 'm', 'mm,um', 'bearing%radius'), &
+    range_type(1.0e-3_wp, 2.0_wp, 'm', 'mm,um', 'bearing%length bump_foil%width'), &
+    range_type(1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm', 'bearing%clearance'), &
+    range_type(0.0_wp, 1.0e-3_wp, 'm', 'um,mm', &
+               'bearing%assembly_interference bore%wave_amplitude bore%shim_height '// &
+               'bore%profile_height bump_foil%crest_gap bump_foil%corner_gap'), &
+    range_type(0.0_wp, 6.3_wp, 'rad', 'deg', &
+               'bearing%leading_edge_angle bore%wave_angle bore%shim_angle bore%shim_arc '// &
+               'bore%shim_ramp bore%profile_angle pads%arc pads%first_leading_edge pads%gap '// &
+               'unbalance%unbalance_angle unbalance%couple_unbalance_angle'), &
+    range_type(3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s', &
+               'gas%viscosity gas%density_table_viscosity'), &
+    range_type(1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%ambient_pressure'), &
+    range_type(1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm', 'gas%mean_free_path'), &
+    range_type(50.0_wp, 3000.0_wp, 'K', '', 'gas%temperature'), &
+    range_type(1.0e-3_wp, 0.5_wp, 'kg/mol', 'g/mol', 'gas%molar_mass'), &
+    range_type(1.0e5_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%critical_pressure'), &
+    range_type(3.0_wp, 2000.0_wp, 'K', '', 'gas%critical_temperature'), &
+    range_type(0.0_wp, 1.5_wp, '1', '%', 'gas%acentric_factor'), &
+    range_type(0.0_wp, 3.0_wp, '1', '%', 'gas%viscosity_exponent'), &
+    range_type(1.0e2_wp, 1.0e8_wp, 'Pa', 'bar,kPa,MPa', 'gas%density_table_pressure'), &
+    range_type(1.0e-3_wp, 2.0e3_wp, 'kg/m^3', 'g/cm^3,g/m^3', 'gas%density_table_density'), &
+    range_type(100.0_wp, 2.0e6_wp, 'rpm', 'krpm', &
+               'operation%speed_rpm transient%final_speed_rpm'), &
+    range_type(0.0_wp, 2.0e-3_wp, 'm', 'mm,um', &
+               'operation%eccentricity operation%leading_edge_lift '// &
+               'operation%leading_edge_lift_edge'), &
+    range_type(0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg', 'operation%tilt'), &
+    range_type(5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um', &
+               'top_foil%thickness bump_foil%thickness bump_foil%bump_thickness '// &
+               'bump_foil%strip_thickness'), &
+    range_type(1.0e-3_wp, 1.0e3_wp, 'm', 'mm,um', 'top_foil%free_radius'), &
+    range_type(1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa', &
+               'top_foil%youngs_modulus bump_foil%youngs_modulus'), &
+    range_type(500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3', &
+               'top_foil%density bump_foil%density'), &
+    range_type(1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um', &
+               'bump_foil%half_length bump_foil%bump_half_length bump_foil%strip_half_length'), &
+    range_type(2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um', &
+               'bump_foil%height bump_foil%bump_height bump_foil%strip_height'), &
+    range_type(1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm', 'bump_foil%height_deviation'), &
+    range_type(2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um', &
+               'bump_foil%pitch bump_foil%bump_pitch bump_foil%strip_pitch'), &
+    range_type(0.0_wp, 5.0e-2_wp, 'm', 'mm,um', 'bump_foil%strip_offset'), &
+    range_type(1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um', 'bump_foil%cut_width'), &
+    range_type(0.0_wp, 2.0_wp, '1', '%', &
+               'contact%friction_top contact%friction_sleeve shaft_contact%friction '// &
+               'dynamics%loss_factor'), &
+    range_type(1.0e-12_wp, 1.0e-3_wp, 'm', 'um,mm', 'contact%stick_length'), &
+    range_type(1.0e-8_wp, 1.0e-4_wp, 'm', 'um,mm', 'shaft_contact%roughness'), &
+    range_type(1.0e4_wp, 1.0e11_wp, 'Pa', 'MPa,GPa', 'shaft_contact%pressure'), &
+    range_type(0.0_wp, 1.0e9_wp, 'Pa', '', 'strip_load%pressure strip_load%bump_pressure'), &
+    range_type(0.0_wp, 1.0e-2_wp, 'm', 'mm,um', 'strip_load%maximum_displacement'), &
+    range_type(1.0e-6_wp, 1.0e6_wp, 'N', 'mN', 'strip_load%maximum_force'), &
+    range_type(1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness'), &
+    range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
+    range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
+    range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
+    range_type(0.0_wp, 1.0_wp, '1', '%', 'solver%smallest_load_step'), &
+    range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', &
+               'dynamics%frequencies transient%orbit_frequency'), &
+    range_type(0.0_wp, 100.0_wp, '1', '%', 'dynamics%frequency_ratios'), &
+    range_type(1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
+    range_type(1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &
+    range_type(1.0e-9_wp, 1.0e2_wp, 's', 'ms,us', 'foil_damping%maxwell_time'), &
+    range_type(1.0e-13_wp, 1.0e-4_wp, 'm', 'um,mm', 'dynamics%vibration_amplitudes'), &
+    range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'rotor%mass'), &
+    range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', &
+               'rotor%transverse_inertia rotor%polar_inertia'), &
+    range_type(1.0e-3_wp, 5.0_wp, 'm', 'mm,um', 'rotor%bearing_distance'), &
+    range_type(0.0_wp, 1.0e5_wp, '1', '', 'transient%turns transient%steps_per_turn'), &
+    range_type(1.0e-8_wp, 1.0e3_wp, 's', 'ms,us', 'transient%duration transient%ramp_time'), &
+    range_type(1.0e-10_wp, 0.1_wp, '1', '%', 'transient%time_tolerance'), &
+    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'transient%start_load'), &
+    range_type(1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm', 'unbalance%unbalance'), &
+    range_type(1.0e-14_wp, 1.0e-2_wp, 'kg m^2', 'kg mm^2,g mm^2', 'unbalance%couple_unbalance'), &
+    range_type(0.0_wp, 1.0e3_wp, 'N s', 'mN s', 'transient%pulse'), &
+    range_type(0.0_wp, 1.0e2_wp, 'N m s', 'N mm s', 'transient%couple_pulse'), &
+    range_type(0.0_wp, 1.0e3_wp, 's', 'ms,us', 'transient%pulse_start transient%field_start'), &
+    range_type(1.0e-8_wp, 10.0_wp, 's', 'ms,us', 'transient%pulse_length'), &
+    range_type(0.0_wp, 1.0e4_wp, 's', 'ms,us', 'transient%base_time'), &
+    range_type(0.0_wp, 1.0e5_wp, 'm/s^2', 'mm/s^2', &
+               'transient%base_acceleration_x transient%base_acceleration_y'), &
+    range_type(1.0e-13_wp, 1.0e-3_wp, 'm', 'um,mm', 'transient%orbit_radius'), &
+    range_type(1.0e-9_wp, 1.0e3_wp, 's', 'ms,us', 'transient%field_interval'), &
+    range_type(0.0_wp, 0.5_wp, '1', '%', 'transient%steady_tolerance'), &
+    range_type(1.0e-10_wp, 2.0e-3_wp, 'm', 'um,mm', 'transient%largest_orbit'), &
+    range_type(1.0e-6_wp, 10.0_wp, '1', '%', 'periodic%step'), &
+    range_type(1.0e-6_wp, 0.9_wp, '1', '%', 'periodic%first_amplitude')]
 
   type(reason_type), parameter, public :: reasons(*) = [ &
-    reason_type('operation', 'load', 'judged against what films carry'), &
-    reason_type('sweep', 'values', 'those of what the sweep changes'), &
-    reason_type('periodic', 'final_value', 'that of the parameter'), &
-    reason_type('sensitivity', 'tolerances', 'those of the parameters'), &
-    reason_type('contact', 'normal_stiffness', 'its unit follows from the exponent'), &
-    reason_type('pads', 'preload', 'from 0 to below 1 by its rule'), &
-    reason_type('pads', 'preload_offset', 'from 0 to 1 by its rule'), &
-    reason_type('capacity', 'contact_part', 'between 0 and 1 by its rule'), &
-    reason_type('top_foil', 'poissons_ratio', 'between -1 and 0.5 by its rule'), &
-    reason_type('bump_foil', 'poissons_ratio', 'between -1 and 0.5 by its rule'), &
-    reason_type('contact', 'exponent', 'bounded by its rule'), &
-    reason_type('mesh', 'edge_refinement', 'from 1 to 100 by its rule'), &
-    reason_type('accuracy', 'target', 'between 0 and 1 by its rule'), &
-    reason_type('sample', 'quantiles', 'between 0 and 1 by their rule')]
+    reason_type('operation%load', 'judged against what films carry'), &
+    reason_type('sweep%values', 'those of what the sweep changes'), &
+    reason_type('periodic%final_value', 'that of the parameter'), &
+    reason_type('sensitivity%tolerances', 'those of the parameters'), &
+    reason_type('contact%normal_stiffness', 'its unit follows from the exponent'), &
+    reason_type('pads%preload', 'from 0 to below 1 by its rule'), &
+    reason_type('pads%preload_offset', 'from 0 to 1 by its rule'), &
+    reason_type('capacity%contact_part', 'between 0 and 1 by its rule'), &
+    reason_type('top_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('contact%exponent', 'bounded by its rule'), &
+    reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &
+    reason_type('accuracy%target', 'between 0 and 1 by its rule'), &
+    reason_type('sample%quantiles', 'between 0 and 1 by their rule')]
 
   type(unit_type), parameter, public :: units(*) = [ &
     unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
@@ -188,17 +164,30 @@ contains
   subroutine check_plausible(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    integer :: i, mistakes
+    integer :: i, row, mistakes
 
     mistakes = keys%complaints%count + keys%warnings%count
-    do i = 1, size(ranges)
-      call check_values(keys, trim(ranges(i)%group), trim(ranges(i)%key), ranges(i))
+    do i = 1, keys%book%count
+      associate (key => keys%book%keys(i))
+        row = 0
+        if (key%given) row = row_of(trim(key%group)//'%'//trim(key%name))
+        if (row > 0) call check_values(keys, trim(key%group), trim(key%name), ranges(row))
+      end associate
     end do
-    call check_sweep_values(keys, scene%sweep)
-    call check_final_value(keys, scene%periodic%parameter)
+    call check_changed_values(keys, scene%sweep%parameter, scene%periodic%parameter)
     ! A load that is large against a wrong pressure is not wrong.
     if (keys%complaints%count + keys%warnings%count == mistakes) call check_load(keys, scene)
   end subroutine check_plausible
+
+  !> Number of a key's range; 0 where it has none.
+  pure function row_of(key) result(row)
+    character(len=*), intent(in) :: key !! `group%key`
+    integer :: row
+
+    do row = size(ranges), 1, -1
+      if (index(' '//ranges(row)%keys//' ', ' '//key//' ') > 0) return
+    end do
+  end function row_of
 
   !> Warns of the first value of a key that is not usual.
   subroutine check_values(keys, group, key, range)
@@ -224,43 +213,38 @@ contains
     end do
   end subroutine check_values
 
-  !> The values of a sweep are those of what it changes; a start from rest has slow ones, too.
-  subroutine check_sweep_values(keys, sweep)
+  !> The values of a sweep, and the last value of a branch of orbits, are those of what changes; a
+  !> start from rest has slow speeds, too.
+  subroutine check_changed_values(keys, swept, followed)
     type(case_keys_type), intent(inout) :: keys
-    type(sweep_case_type), intent(in) :: sweep
-    character(len=:), allocatable :: key
+    integer, intent(in) :: swept    !! parameter of the sweep, 0 without one
+    integer, intent(in) :: followed !! over which orbits are followed
     type(range_type) :: range
-    integer :: i
 
-    if (any(sweep%parameter == [0, sweep_load, sweep_load_angle, sweep_keys])) return
-    key = 'eccentricity'
-    if (sweep%parameter == sweep_speed) key = 'speed_rpm'
-    if (sweep%parameter == sweep_tilt_x .or. sweep%parameter == sweep_tilt_y) key = 'tilt'
-    do i = 1, size(ranges)
-      if (ranges(i)%group /= 'operation' .or. ranges(i)%key /= key) cycle
-      range = ranges(i)
-      range%low = 0.0_wp
+    select case (swept)
+    case (sweep_speed)
+      range = ranges(row_of('operation%speed_rpm'))
+    case (sweep_tilt_x, sweep_tilt_y)
+      range = ranges(row_of('operation%tilt'))
+    case default
+      range = ranges(row_of('operation%eccentricity'))
+    end select
+    range%low = 0.0_wp
+    if (all(swept /= [0, sweep_load, sweep_load_angle, sweep_keys])) then
       call check_values(keys, 'sweep', 'values', range)
-    end do
-  end subroutine check_sweep_values
-
-  !> The last value of a branch of orbits is that of its parameter.
-  subroutine check_final_value(keys, parameter)
-    type(case_keys_type), intent(inout) :: keys
-    integer, intent(in) :: parameter !! over which the orbits are followed
-    integer :: i
-
-    do i = 1, size(ranges)
-      associate (group => ranges(i)%group, key => ranges(i)%key)
-        if ((parameter == follow_speed .and. group == 'operation' .and. key == 'speed_rpm') .or. &
-            (parameter == follow_unbalance .and. group == 'unbalance' .and. &
-             key == 'unbalance') .or. &
-            (parameter == follow_mass .and. group == 'rotor' .and. key == 'mass')) then
-          call check_values(keys, 'periodic', 'final_value', ranges(i))
-        end if
-      end associate
-    end do
-  end subroutine check_final_value
+    end if
+    select case (followed)
+    case (follow_speed)
+      range = ranges(row_of('operation%speed_rpm'))
+    case (follow_unbalance)
+      range = ranges(row_of('unbalance%unbalance'))
+    case (follow_mass)
+      range = ranges(row_of('rotor%mass'))
+    case default
+      return
+    end select
+    call check_values(keys, 'periodic', 'final_value', range)
+  end subroutine check_changed_values
 
   !> Warns of a load that no film carries.
   subroutine check_load(keys, scene)

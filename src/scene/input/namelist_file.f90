@@ -5,7 +5,7 @@ module gfb_namelist_file
   use gfb_complaints, only: complaints_type, shown
   use gfb_foreign_characters, only: foreign_type, foreign_words
   use gfb_moved_keys, only: home_of
-  use gfb_namelist_values, only: value_string, value_number, value_word
+  use gfb_namelist_values, only: repeat_count, value_string, value_number, value_word
   use gfb_text, only: text, lower_case
   implicit none (type, external)
   private
@@ -143,17 +143,7 @@ contains
   pure function number_of(words) result(number)
     character(len=*), intent(in) :: words
     integer :: number
-    integer, parameter :: most = 9 !! digits that an integer holds
-    character(len=:), allocatable :: plain
-
-    number = 0
-    plain = bare(words)
-    if (plain == '' .or. verify(plain, '0123456789') > 0) return
-    if (len(plain) > most) then
-      number = huge(number)
-    else
-      read (plain, *) number
-    end if
+    number = max(0, repeat_count(bare(words)))
   end function number_of
 
   !> A number that may have a sign; 0 where it is none.
