@@ -40,21 +40,15 @@ contains
     end if
     call keys%open_text(example(analysis), 'template')
     call read_groups(keys, scene)
-    words = introduction()//written(keys%book%keys(:keys%book%count), offered(analysis))
-  end subroutine template_text
-
-  !> What a template begins with.
-  pure function introduction() result(words)
-    character(len=:), allocatable :: words
-
     words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
             'units.'//next// &
             '! A key in a comment shows its default; take away its ''!'' to give another '// &
             'value.'//next// &
             '! The same holds for groups in comments. gfb --check CASE.nml tells of '// &
             'mistakes,'//next// &
-            '! gfb --explain KEY of a key.'//next
-  end function introduction
+            '! gfb --explain KEY of a key.'//next// &
+            written(keys%book%keys(:keys%book%count), offered(analysis))
+  end subroutine template_text
 
   !> The keys as a case file; the groups that are only offered stand in comments.
   pure function written(met, offer) result(words)

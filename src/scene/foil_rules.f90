@@ -236,8 +236,7 @@ contains
 
     call check_strip(keys, scene)
     call check_uses(keys, scene)
-    call check_crest_gaps(keys, scene)
-    call check_corner_gaps(keys, scene)
+    call check_gaps(keys, scene)
     call check_bump_sizes(keys, scene)
     call check_steepness(keys, scene)
     call check_own_strips(keys, scene)
@@ -325,27 +324,21 @@ contains
     end associate
   end subroutine check_uses
 
-  !> Complains about gaps where no crest can close one.
-  subroutine check_crest_gaps(keys, scene)
+  !> Complains about gaps where no crest can close one, and at corners that touch nothing, are two
+  !> bumps', or leave the strip in air.
+  subroutine check_gaps(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: gaps = 'crest_gap, height_deviation'
-
-    call keys%refuse(group, gaps, lacks_bumps(scene), needs_meshes//'no other foil has crests')
-    call keys%refuse(group, gaps, scene%general%analysis == analysis_strip .and. &
-                     scene%strip_load%kind /= load_plates, "needs kind = 'plates' in "// &
-                     '&strip_load: a force that is given acts on its crest wherever that is')
-    call keys%refuse(group, gaps, scene%general%analysis == analysis_modes, 'needs a bearing '// &
-                     'or a strip between plates: modes are those of foils that touch nothing')
-  end subroutine check_crest_gaps
-
-  !> Complains about gaps at corners that touch nothing, are two bumps', or leave the strip in air.
-  subroutine check_corner_gaps(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
 
     associate (analysis => scene%general%analysis, foil => scene%bump_foil)
+      call keys%refuse(group, gaps, lacks_bumps(scene), needs_meshes//'no other foil has crests')
+      call keys%refuse(group, gaps, analysis == analysis_strip .and. &
+                       scene%strip_load%kind /= load_plates, "needs kind = 'plates' in "// &
+                       '&strip_load: a force that is given acts on its crest wherever that is')
+      call keys%refuse(group, gaps, analysis == analysis_modes, 'needs a bearing or a strip '// &
+                       'between plates: modes are those of foils that touch nothing')
       if (.not. allocated(foil%corner_gap)) return
       if (lacks_bumps(scene)) then
         words = needs_meshes//'no other foil has corners'
@@ -367,7 +360,7 @@ contains
       end if
     end associate
     call keys%refuse(group, 'corner_gap', .true., words)
-  end subroutine check_corner_gaps
+  end subroutine check_gaps
 
   !> Complains about sizes bump by bump where there is one bump, or none.
   subroutine check_bump_sizes(keys, scene)

@@ -24,7 +24,7 @@ module gfb_scene
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
-  use gfb_case_keys, only: case_keys_type
+  use gfb_case_keys, only: case_keys_type, unless
   implicit none (type, external)
   private
   public :: read_groups, needs_of
@@ -72,6 +72,7 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(inout) :: scene !! gets what they say
     type(needs_type) :: needs !! of the analysis
+    character(len=:), allocatable :: misplaced !! why `&bearing` does not fit
     integer :: state !! analysis that finds it, where vibrations about a state are asked for
 
     call read_scene_case(keys, scene%general)
@@ -80,9 +81,12 @@ contains
     state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load'), &
                               keys%holds('operation', 'eccentricity'))
     needs = needs_of(scene%general%analysis, scene%modes%part, scene%model%foil)
-    associate (analysis => scene%general%analysis)
-      call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, &
-                             bearing_misplaced(analysis, scene%modes%part))
+    associate (analysis => scene%general%analysis, part => scene%modes%part)
+      misplaced = misplaced_group(analysis, is_bearing(analysis))
+      ! Foils alone have a pad only where the top foil vibrates.
+      if (analysis == analysis_modes) misplaced = unless(any(part == [0, part_top_foil]), &
+        "needs part = 'top_foil' in &modes: no other part has a pad")
+      call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, misplaced)
       call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
       call read_bore_case(keys, scene%bore, scene%bearing, analysis)
       call read_gas_case(keys, scene%gas, analysis)
@@ -131,16 +135,4 @@ contains
     needs%pitch = needs%width .and. .not. (modes .and. any(part == [part_half_arc, part_arc]))
   end function needs_of
 
-  !> What is wrong with a group &bearing: foils alone have a pad only where the top foil vibrates.
-  pure function bearing_misplaced(analysis, part) result(words)
-    integer, intent(in) :: analysis, part !! 0 where they are not known
-    character(len=:), allocatable :: words
-
-    words = misplaced_group(analysis, is_bearing(analysis))
-    if (analysis /= analysis_modes) return
-    words = ''
-    if (part /= 0 .and. part /= part_top_foil) then
-      words = "needs part = 'top_foil' in &modes: no other part has a pad"
-    end if
-  end function bearing_misplaced
 end module gfb_scene

@@ -106,10 +106,19 @@ contains
       call keys%complain('sweep', 'parameter', problem)
       right = .false.
     end do
-    call check_beside_keys(keys, scene)
-    associate (sweep => scene%sweep)
-      right = right .and. .not. (sweep%turn_folds .or. sweep%friction_memory)
-      right = right .and. .not. sweep%hold_position
+    associate (sweep => scene%sweep) ! the bearing is built anew for each value
+      call keys%rule('sweep', 'turn_folds', sweep%turn_folds, word_needed//'a branch is '// &
+                     'followed by its own length with the derivative by the parameter, and a '// &
+                     'key has none')
+      call keys%rule('sweep', 'friction_memory', sweep%friction_memory, word_needed//'where a '// &
+                     'key changes, the contacts are built anew and have no slip to remember')
+      call keys%rule('sweep', 'hold_position', sweep%hold_position, word_needed//'each value '// &
+                     'of a key makes another bearing, and the shaft stands elsewhere in it')
+      call keys%rule('sweep', 'parameter', scene%model%coupling == coupling_partitioned, 'keys '// &
+                     "need coupling = 'monolithic' in &model: loops do not start from the "// &
+                     'answer of a neighbour')
+      right = right .and. .not. (sweep%turn_folds .or. sweep%friction_memory .or. &
+                                 sweep%hold_position)
     end associate
   end subroutine check_swept_keys
 
@@ -126,23 +135,6 @@ contains
     if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
   end subroutine look_up
 
-  !> What cannot stand beside keys, because the bearing is built anew for each value.
-  subroutine check_beside_keys(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-
-    call keys%rule('sweep', 'turn_folds', scene%sweep%turn_folds, word_needed//'a branch is '// &
-                   'followed by its own length with the derivative by the parameter, and a key '// &
-                   'has none')
-    call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, word_needed// &
-                   'where a key changes, the contacts are built anew and have no slip to remember')
-    call keys%rule('sweep', 'hold_position', scene%sweep%hold_position, word_needed//'each '// &
-                   'value of a key makes another bearing, and the shaft stands elsewhere in it')
-    call keys%rule('sweep', 'parameter', scene%model%coupling == coupling_partitioned, 'keys '// &
-                   "need coupling = 'monolithic' in &model: loops do not start from the answer "// &
-                   'of a neighbour')
-  end subroutine check_beside_keys
-
   !> Why a key has no effect on the answers of this scene; empty where it has one.
   function use_problem(keys, scene, named) result(problem)
     type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
@@ -154,7 +146,6 @@ contains
 
     key = named%name
     group = home_of(named%group, key)
-
     foils = meshes_foils(scene%model%foil)
     springs = scene%model%foil == foil_elastic_foundation
     computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
@@ -200,7 +191,7 @@ contains
       if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
       if (.not. scene%dynamics%present) problem = 'nothing vibrates'
     end if
-    if (problem /= '') problem = group//'%'//key//' has no effect here: '//problem
+    if (problem /= '') problem = named%group//'%'//key//' has no effect here: '//problem
 
   contains
 
@@ -233,7 +224,9 @@ contains
         if (tolerated) tolerance = asked%tolerances(i)
         call add_parameter(keys, scene, list(i), tolerance, problem)
         do k = 1, i - 1
-          if (.not. is_same(list(k), list(i))) cycle
+          if (list(k)%group /= list(i)%group .or. list(k)%name /= list(i)%name) cycle
+          if (list(k)%element /= list(i)%element .and. &
+              all([list(k)%element, list(i)%element] /= every_element)) cycle
           problem = list(i)%label()//' is given twice'
         end do
         if (problem == '') cycle
@@ -247,14 +240,7 @@ contains
                      'must have one value a parameter: '//text(size(list))//', not '// &
                      text(size(asked%tolerances)))
     end associate
-    call check_beside_derivatives(keys, scene)
-  end subroutine check_sensitivity
-
-  !> What answers rest on what was before: their derivatives would have to be carried along.
-  subroutine check_beside_derivatives(keys, scene)
-    type(case_keys_type), intent(inout) :: keys
-    type(scene_type), intent(in) :: scene
-
+    ! Where answers rest on what was before, their derivatives would have to be carried along.
     call keys%rule('sweep', 'friction_memory', scene%sweep%friction_memory, 'cannot stand '// &
                    'beside &sensitivity: slip that is carried along depends on the parameters '// &
                    'at all points before')
@@ -268,7 +254,7 @@ contains
                    'its meshes change, and with them the nodes of smallest and largest values')
     call keys%rule(group, parameters, scene%sample%present, 'cannot stand beside &sample: '// &
                    'derive one member by its seed')
-  end subroutine check_beside_derivatives
+  end subroutine check_sensitivity
 
   !> Adds a parameter with its unit and value; of a whole list all its values.
   subroutine add_parameter(keys, scene, key, tolerance, problem)
@@ -306,16 +292,6 @@ contains
       if (problem == '') scene%sensitivity%parameter = [scene%sensitivity%parameter, one]
     end do
   end subroutine add_parameter
-
-  !> Whether two names mean the same key, or one a value of the other.
-  pure function is_same(one, other) result(same)
-    type(swept_key_type), intent(in) :: one, other
-    logical :: same
-
-    same = one%group == other%group .and. one%name == other%name .and. &
-           (one%element == other%element .or. &
-            any([one%element, other%element] == every_element))
-  end function is_same
 
   !> Reads a case file.
   !>

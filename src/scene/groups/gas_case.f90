@@ -85,7 +85,10 @@ contains
     call keys%rule(group, 'ambient_pressure', gas%ambient_pressure >= gas%law%fluid%saturation, &
                    'must be below '//text(gas%law%fluid%saturation, 4)//' Pa, at which the gas '// &
                    'condenses at its temperature')
-    if (by_law .and. given) call check_viscosity(keys, gas)
+    call keys%rule(group, 'viscosity', by_law .and. given .and. &
+                   abs(gas%viscosity - gas%law%viscosity) > same*gas%law%viscosity, 'is not '// &
+                   'needed: the law or table gives '//text(gas%law%viscosity, 4)//' Pa s at '// &
+                   'ambient_pressure; leave it out')
     gas%viscosity = gas%law%viscosity
   end subroutine read_gas_case
 
@@ -272,13 +275,4 @@ contains
     end associate
   end subroutine make_law
 
-  !> A viscosity beside a law or a table must be theirs.
-  subroutine check_viscosity(keys, gas)
-    type(case_keys_type), intent(inout) :: keys
-    type(gas_case_type), intent(in) :: gas
-
-    if (abs(gas%viscosity - gas%law%viscosity) <= same*gas%law%viscosity) return
-    call keys%complain(group, 'viscosity', 'is not needed: the law or table gives '// &
-                       text(gas%law%viscosity, 4)//' Pa s at ambient_pressure; leave it out')
-  end subroutine check_viscosity
 end module gfb_gas_case

@@ -305,7 +305,16 @@ contains
     call keys%start_group('transient', required=transient%present, &
                           optional=.not. transient%present, &
                           misplaced=misplaced_group(analysis, transient%present))
-    call read_times(keys, transient)
+    call keys%real_key('turns', transient%turns, '1', 'turns of the shaft that are computed', &
+                       positive, default='required without `duration`')
+    call keys%real_key('duration', transient%duration, 's', 'the same as a time', positive, &
+                       default='required without `turns`')
+    call keys%real_key('steps_per_turn', transient%steps_per_turn, '1', &
+                       'steps of a turn of the shaft, all equal; default: the error chooses '// &
+                       'them, 60 and more', positive, default='by the error')
+    call keys%real_key('time_tolerance', transient%time_tolerance, '1', &
+                       'error of a step in the position of the shaft, over the clearance, '// &
+                       'where it chooses the steps', positive)
     call read_drive(keys, transient, operation)
     call keys%real_key('orbit_radius', transient%orbit_radius, 'm', &
                        'radius of the circle on which a sleeve moves whose eccentricity is '// &
@@ -328,23 +337,6 @@ contains
                        'bearing; 0: never', &
                        not_negative)
   end subroutine read_transient_case
-
-  !> How long, in which steps.
-  subroutine read_times(keys, transient)
-    type(case_keys_type), intent(inout) :: keys
-    type(transient_case_type), intent(inout) :: transient
-
-    call keys%real_key('turns', transient%turns, '1', 'turns of the shaft that are computed', &
-                       positive, default='required without `duration`')
-    call keys%real_key('duration', transient%duration, 's', 'the same as a time', positive, &
-                       default='required without `turns`')
-    call keys%real_key('steps_per_turn', transient%steps_per_turn, '1', &
-                       'steps of a turn of the shaft, all equal; default: the error chooses '// &
-                       'them, 60 and more', positive, default='by the error')
-    call keys%real_key('time_tolerance', transient%time_tolerance, '1', &
-                       'error of a step in the position of the shaft, over the clearance, '// &
-                       'where it chooses the steps', positive)
-  end subroutine read_times
 
   !> What drives the shaft.
   subroutine read_drive(keys, transient, operation)

@@ -77,6 +77,7 @@ contains
   pure function section_of(words) result(section)
     character(len=*), intent(in) :: words !! without the parentheses
     type(section_type) :: section !! with `bad_index` where the words are neither
+    character(len=:), allocatable :: step
     integer :: first, second
 
     first = index(words, ':')
@@ -94,7 +95,11 @@ contains
       section%last = number_of(words(first + 1:second - 1))
       if (section%last < 1) section%element = bad_index
     end if
-    if (second <= len(words)) section%step = signed_number_of(words(second + 1:))
+    if (second <= len(words)) then
+      step = bare(words(second + 1:))
+      section%step = number_of(step(verify(step//'0', '+-'):))
+      if (index(step, '-') == 1) section%step = -section%step
+    end if
     if (section%element < 1 .or. section%step == 0) section = section_type(bad_index)
   end function section_of
 
@@ -145,20 +150,6 @@ contains
     integer :: number
     number = max(0, repeat_count(bare(words)))
   end function number_of
-
-  !> A number that may have a sign; 0 where it is none.
-  pure function signed_number_of(words) result(number)
-    character(len=*), intent(in) :: words
-    integer :: number
-    character(len=:), allocatable :: plain
-    integer :: sign
-
-    plain = bare(words)
-    sign = 1
-    if (index(plain, '-') == 1) sign = -1
-    if (scan(plain, '+-') == 1) plain = plain(2:)
-    number = sign*number_of(plain)
-  end function signed_number_of
 
   !> Words without the blanks before and behind them.
   pure function bare(words)
@@ -397,6 +388,7 @@ contains
     integer, intent(inout) :: owner(:)   !! entry that gave it
     type(complaints_type), intent(inout) :: complaints
     integer(long) :: n, first, last
+    character(len=:), allocatable :: most_words
     integer :: value, repeat_number, element
 
     associate (item => file%entries(entry), section => file%entries(entry)%section)
@@ -415,7 +407,9 @@ contains
       else if (max(first, min(first, last)) > size(filled) .or. min(first, last) < 1) then
         call complain('the index must lie between 1 and '//text(most))
       else if (max(first, last) > size(filled)) then
-        call complain('takes '//most_words(size(filled))//', not '//text(max(first, last))// &
+        most_words = 'one value'
+        if (size(filled) > 1) most_words = 'at most '//text(size(filled))//' values'
+        call complain('takes '//most_words//', not '//text(max(first, last))// &
                       missing_equals(file, item%first_value + 1, item%last_value)// &
                       decimal_comma(file, item%first_value, item%last_value))
       else
@@ -465,15 +459,6 @@ contains
       call complain('the key is given twice, first in line '//text(earlier%line)//group)
     end subroutine complain_twice
   end subroutine fill
-
-  !> How many values a key takes.
-  pure function most_words(most) result(words)
-    integer, intent(in) :: most
-    character(len=:), allocatable :: words
-
-    words = 'one value'
-    if (most > 1) words = 'at most '//text(most)//' values'
-  end function most_words
 
   !> A hint where two values look like one number with a comma: digits, comma, digits.
   pure function decimal_comma(file, first, last) result(words)
