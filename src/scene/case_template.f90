@@ -151,93 +151,74 @@ contains
     character(len=*), intent(in) :: analysis
     character(len=:), allocatable :: words
 
-    words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"//next
+    words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"
     select case (analysis)
     case ('strip')
-      words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' /"//next// &
-              '&contact friction_sleeve=0.1 /'//next// &
-              "&strip_load kind='crest_pressure' pressure=0.2e6 steps_up=10 /"//next// &
-              "&accuracy quantity='maximum_deflection' /"//next
+      words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' / "// &
+              '&contact friction_sleeve=0.1 / '// &
+              "&strip_load kind='crest_pressure' pressure=0.2e6 steps_up=10 / "// &
+              "&accuracy quantity='maximum_deflection' /"
     case ('modes')
-      words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' /"//next// &
-              "&modes part='strip' count=6 /"//next
-    case ('periodic')
-      words = words//periodic_example()
+      words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' / "// &
+              "&modes part='strip' count=6 /"
     case default
-      words = words//bearing_example(analysis)
+      words = words//'&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
+              '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 / &pads preload=0.1 / '// &
+              '&bore waves=3 wave_amplitude=1.0e-6 / '// &
+              '&shaft_contact roughness=0.5e-6 pressure=10.0e6 / '
+      if (analysis == 'periodic') then ! contacts must not rub
+        words = words//"&model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
+                '&mesh circumferential_elements=48 axial_elements=6 / '// &
+                '&operation speed_rpm=30000.0 load=-60.0, 0.0 / &rotor mass=1.5 / '// &
+                '&periodic steps_per_turn=40 / &unbalance unbalance=1.5e-6 / '// &
+                '&foil_damping foundation_damping=3.0e5 /'
+      else
+        words = words//bearing_example(analysis)
+      end if
     end select
   end function example
 
-  !> The same of a bearing.
+  !> The same of a bearing of beams.
   pure function bearing_example(analysis) result(words)
     character(len=*), intent(in) :: analysis
     character(len=:), allocatable :: words
+    character(len=:), allocatable :: sweep
 
-    words = '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//next// &
-            '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//next// &
-            '&pads preload=0.1 /'//next// &
-            '&bore waves=3 wave_amplitude=1.0e-6 /'//next// &
-            '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
-            "fixed_edge='trailing' /"//next// &
-            bumps(26)//"fixed_edge='trailing' fixed_line='half_flat' /"//next// &
-            '&contact friction_top=0.1 friction_sleeve=0.1 /'//next// &
-            "&model foil='beam' /"//next// &
-            '&shaft_contact roughness=0.5e-6 pressure=10.0e6 /'//next
+    words = '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
+            "fixed_edge='trailing' / "//bumps(26)//"fixed_edge='trailing' "// &
+            "fixed_line='half_flat' / &contact friction_top=0.1 friction_sleeve=0.1 / "// &
+            "&model foil='beam' / &operation speed_rpm=30000.0 "
     if (analysis == 'fixed_position') then
-      words = words//'&operation speed_rpm=30000.0 eccentricity=30.0e-6, 9.0e-6 /'//next// &
-              "&sweep parameter='eccentricity_x' values=30.0e-6, 29.0e-6, 28.0e-6 /"//next
-    else if (analysis == 'transient') then
-      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next
-    else if (analysis == 'load_capacity') then
-      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
-              "&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 /"//next
+      words = words//'eccentricity=30.0e-6, 9.0e-6 /'
     else
-      words = words//'&operation speed_rpm=30000.0 load=-100.0, 0.0 /'//next// &
-              "&sweep parameter='load' values=100.0, 90.0, 80.0 /"//next
+      words = words//'load=-100.0, 0.0 /'
     end if
+    sweep = "&sweep parameter='load' values=100.0, 90.0, 80.0 /"
     select case (analysis)
     case ('linear_dynamics')
-      words = words//'&dynamics frequency_ratios=0.5, 1.0 /'//next//'&rotor mass=1.0 /'//next
+      words = words//sweep//'&dynamics frequency_ratios=0.5, 1.0 / &rotor mass=1.0 /'
+      return
     case ('transient')
-      words = words//'&rotor mass=1.0 /'//next// &
-              '&transient turns=0.2 /'//next//'&unbalance unbalance=2.0e-6 /'//next
+      words = words//'&rotor mass=1.0 / &transient turns=0.2 / &unbalance unbalance=2.0e-6 /'
+      return
     case ('load_capacity')
-      words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
-              "&accuracy quantity='load_capacity' /"//next
+      words = words//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
+              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"
     case ('lift_off')
-      words = words//'&capacity contact_part=0.01 /'//next// &
-              "&accuracy quantity='lift_off_speed_rpm' /"//next
+      words = words//sweep// &
+              "&capacity contact_part=0.01 / &accuracy quantity='lift_off_speed_rpm' /"
     case ('misalignment_allowance')
-      words = words//'&capacity smallest_gap=4.0e-6 /'//next// &
-              "&accuracy quantity='misalignment_allowance' /"//next
+      words = words//sweep// &
+              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='misalignment_allowance' /"
     case default
-      words = words//"&sensitivity quantity='minimum_gap' "// &
-              "parameters='bearing%clearance', 'gas%viscosity' "// &
-              'tolerances=1.0e-6, 2.0e-7 /'//next// &
-              "&accuracy quantity='minimum_gap' /"//next
+      if (analysis == 'fixed_position') sweep = "&sweep parameter='eccentricity_x' "// &
+                                                'values=30.0e-6, 29.0e-6, 28.0e-6 /'
+      words = words//sweep//"&sensitivity quantity='minimum_gap' "// &
+              "parameters='bearing%clearance', 'gas%viscosity' tolerances=1.0e-6, 2.0e-7 / "// &
+              "&accuracy quantity='minimum_gap' /"
     end select
-    if (all(analysis /= ['linear_dynamics', 'transient      '])) then
-      words = words//'&sample count=100 /'//next
-    end if
+    words = words//'&sample count=100 /'
   end function bearing_example
-
-  !> The same where contacts must not rub.
-  pure function periodic_example() result(words)
-    character(len=:), allocatable :: words
-
-    words = '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//next// &
-            '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//next// &
-            '&pads preload=0.1 /'//next// &
-            '&bore waves=3 wave_amplitude=1.0e-6 /'//next// &
-            '&shaft_contact roughness=0.5e-6 pressure=10.0e6 /'//next// &
-            "&model foil='elastic_foundation' foundation_stiffness=4.8243e9 /"//next// &
-            '&mesh circumferential_elements=48 axial_elements=6 /'//next// &
-            '&operation speed_rpm=30000.0 load=-60.0, 0.0 /'//next// &
-            '&rotor mass=1.5 /'//next// &
-            '&periodic steps_per_turn=40 /'//next// &
-            '&unbalance unbalance=1.5e-6 /'//next// &
-            '&foil_damping foundation_damping=3.0e5 /'//next
-  end function periodic_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
   pure function bumps(number) result(words)

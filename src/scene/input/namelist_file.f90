@@ -97,7 +97,7 @@ contains
     end if
     if (second <= len(words)) then
       step = bare(words(second + 1:))
-      section%step = number_of(step(verify(step//'0', '+-'):))
+      section%step = number_of(step(1 + scan(step(:min(1, len(step))), '+-'):))
       if (index(step, '-') == 1) section%step = -section%step
     end if
     if (section%element < 1 .or. section%step == 0) section = section_type(bad_index)
