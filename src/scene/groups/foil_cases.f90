@@ -384,8 +384,7 @@ contains
     call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s two corner lines and the sleeve', not_negative, &
                        '0: all corners touch')
-    call read_height_deviation(keys, foil%present, gaps, foil%bumps, foil%strips*bearing%pads, &
-                               foil%height%smallest(), foil%random, foil%crest_gap)
+    call read_height_deviation(keys, foil, gaps, foil%strips*bearing%pads)
     call check_geometry(keys, foil, bearing)
   end subroutine read_bump_foil_case
 
@@ -613,48 +612,49 @@ contains
   end function largest_gap
 
   !> Reads the law of the heights, and the gaps that they leave where none are given.
-  subroutine read_height_deviation(keys, in_file, gaps, bumps, strips, height, law, gap)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    logical, intent(in) :: in_file !! the file has the group
-    logical, intent(in) :: gaps    !! and gives the gaps themselves
-    integer, intent(in) :: bumps   !! of a strip, 0 where not known
+  subroutine read_height_deviation(keys, foil, gaps, strips)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(inout) :: foil !! with what is read before
+    logical, intent(in) :: gaps    !! the file gives the gaps themselves
     integer, intent(in) :: strips  !! of all pads
-    real(wp), intent(in) :: height !! of a bump, 0 where not known [m]
-    type(height_deviation_type), intent(out) :: law !! of the heights, where they are random
-    real(wp), allocatable, intent(inout) :: gap(:) !! one a bump; none: all crests touch [m]
     character(len=:), allocatable :: key, useless
+    real(wp) :: height !! of the lowest bump, 0 where not known [m]
     integer :: word !! number of the law
     logical :: random, right
 
     key = 'crest_gap'
-    call keys%real_key('height_deviation', law%deviation, 'm', 'standard deviation of the '// &
-                       'bumps'' heights; at rest the highest crest touches', positive, &
-                       default=no_default, given=random)
-    right = keys%last_key_is_right()
-    useless = unless(random .or. .not. in_file, 'needs height_deviation')
-    call keys%integer_key('seed', law%seed, 'chooses the random heights: the same seed gives '// &
-                          'the same ones', at_least(0.0_wp), useless=useless)
-    right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
-    word = 1
-    call keys%choice_key('deviation_law', word, law_words, 'law of the random heights', &
-                         useless=useless)
-    right = right .and. word > 0
-    if (gaps .and. random) then
-      call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
-                         'from the heights; give one of them')
-    else if (right .and. real(bumps, wp)*real(strips, wp) > most_heights) then
-      call keys%complain(group, 'height_deviation', text(bumps)//' bumps on '//text(strips)// &
-                         ' strips of all pads have more than '//text(nint(most_heights))// &
-                         ' heights')
-      law%deviation = 0.0_wp ! none is drawn
-      return
-    else if (right .and. bumps > 0) then
-      key = 'height_deviation'
-      call draw_gaps(law, bumps, strips, gap)
-    end if
-    if (.not. allocated(gap) .or. .not. height > 0.0_wp) return
-    if (largest_gap(law, gap) < height) return
-    call keys%complain(group, key, 'leaves a gap of '//text(largest_gap(law, gap), 4)//' m, '// &
-                       'which must be less than the height of the bumps, '//text(height)//' m')
+    associate (law => foil%random)
+      call keys%real_key('height_deviation', law%deviation, 'm', 'standard deviation of the '// &
+                         'bumps'' heights; at rest the highest crest touches', positive, &
+                         default=no_default, given=random)
+      right = keys%last_key_is_right()
+      useless = unless(random .or. .not. foil%present, 'needs height_deviation')
+      call keys%integer_key('seed', law%seed, 'chooses the random heights: the same seed gives '// &
+                            'the same ones', at_least(0.0_wp), useless=useless)
+      right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
+      word = 1
+      call keys%choice_key('deviation_law', word, law_words, 'law of the random heights', &
+                           useless=useless)
+      right = right .and. word > 0
+      if (gaps .and. random) then
+        call keys%complain(group, 'height_deviation', 'contradicts crest_gap: the gaps follow '// &
+                           'from the heights; give one of them')
+      else if (right .and. real(foil%bumps, wp)*real(strips, wp) > most_heights) then
+        call keys%complain(group, 'height_deviation', text(foil%bumps)//' bumps on '// &
+                           text(strips)//' strips of all pads have more than '// &
+                           text(nint(most_heights))//' heights')
+        law%deviation = 0.0_wp ! none is drawn
+        return
+      else if (right .and. foil%bumps > 0) then
+        key = 'height_deviation'
+        call draw_gaps(law, foil%bumps, strips, foil%crest_gap)
+      end if
+      height = foil%height%smallest()
+      if (.not. allocated(foil%crest_gap) .or. .not. height > 0.0_wp) return
+      if (largest_gap(law, foil%crest_gap) < height) return
+      call keys%complain(group, key, 'leaves a gap of '//text(largest_gap(law, foil%crest_gap), &
+                         4)//' m, which must be less than the height of the bumps, '// &
+                         text(height)//' m')
+    end associate
   end subroutine read_height_deviation
 end module gfb_foil_cases

@@ -43,6 +43,7 @@ module gfb_namelist_scanner
   type :: scanner_type
     type(namelist_file_type) :: file
     type(token_type), allocatable :: tokens(:)
+    type(complaints_type) :: complaints !! the mistakes found so far
     integer :: n_groups = 0, n_entries = 0, n_values = 0, n_strays = 0
     logical :: in_group = .false.
     logical :: in_entry = .false.
@@ -197,19 +198,19 @@ contains
     integer :: i, n
 
     call fold_foreign(words, scanner%file%words, foreign)
-    call find_tokens(scanner%file%words, scanner%tokens, complaints)
+    scanner%complaints = complaints
+    call find_tokens(scanner%file%words, scanner%tokens, scanner%complaints)
     n = size(scanner%tokens)
     allocate (scanner%file%groups(n), scanner%file%entries(n), scanner%file%values(n), &
               scanner%file%strays(n))
     i = 1
     do while (i <= n)
-      call take(scanner, i, complaints)
+      call take(scanner, i)
       i = i + 1
     end do
-    if (scanner%in_group) then
-      call complain_open_group(scanner, 'before the end of the file', complaints)
-    end if
-    call end_entry(scanner, complaints)
+    if (scanner%in_group) call complain_open_group(scanner, 'before the end of the file')
+    call end_entry(scanner)
+    complaints = scanner%complaints
     file%words = scanner%file%words
     file%groups = scanner%file%groups(:scanner%n_groups)
     file%entries = scanner%file%entries(:scanner%n_entries)
@@ -219,39 +220,36 @@ contains
   end subroutine scan_namelist
 
   !> Takes one token, or the several that make a key.
-  pure subroutine take(self, i, complaints)
+  pure subroutine take(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(inout) :: i                          !! token; the last one taken
-    type(complaints_type), intent(inout) :: complaints
     logical :: closes
 
     associate (token => self%tokens(i))
       closes = token%kind == token_slash
       if (token%kind == token_group) closes = lower_case(token_words(self, i)) == 'end'
       if (token%kind == token_group .and. .not. closes) then
-        call begin_group(self, i, complaints)
+        call begin_group(self, i)
       else if (.not. self%in_group) then
-        call take_stray(self, i, complaints)
+        call take_stray(self, i)
       else if (divides(self, i)) then
-        call complaints%add(token%line, place(self)//"'"//shown(token_words(self, i - 1)//'/'// &
+        call complain(self, token%line, "'"//shown(token_words(self, i - 1)//'/'// &
                             token_words(self, i + 1))//"' is an expression: write its value")
-        self%told = .true.
         i = i + 1
       else if (closes) then
-        call end_entry(self, complaints)
+        call end_entry(self)
         self%in_group = .false.
         self%stray = .false.
       else if (key_length(self, i) > 0) then
-        call begin_entry(self, i, complaints)
+        call begin_entry(self, i)
       else if (token%kind == token_comma) then
-        call take_comma(self, i, complaints)
+        call take_comma(self, i)
       else if (token%kind == token_word .or. token%kind == token_string) then
-        call take_value(self, i, complaints)
+        call take_value(self, i)
       else if (self%in_entry .and. (token%kind == token_open .or. token%kind == token_close)) then
-        call take_parenthesis(self, i, complaints)
+        call take_parenthesis(self, i)
       else
-        call complaints%add(token%line, place(self)//"unexpected '"//token_words(self, i)//"'")
-        self%told = .true.
+        call complain(self, token%line, "unexpected '"//token_words(self, i)//"'")
       end if
     end associate
   end subroutine take
@@ -274,19 +272,18 @@ contains
   end function divides
 
   !> Begins a group; one that is still open was not ended.
-  pure subroutine begin_group(self, i, complaints)
+  pure subroutine begin_group(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
 
     associate (token => self%tokens(i))
       if (self%in_group) then
         call complain_open_group(self, 'before &'//shown(token_words(self, i))//' in line '// &
-                                 text(token%line), complaints)
+                                 text(token%line))
       end if
-      call end_entry(self, complaints)
+      call end_entry(self)
       if (token%last < token%first) then
-        call complaints%add(token%line, "a group's name must follow '"// &
+        call self%complaints%add(token%line, "a group's name must follow '"// &
                             self%file%words(token%first - 1:token%first - 1)//"' at once")
       end if
       self%n_groups = self%n_groups + 1
@@ -297,35 +294,30 @@ contains
   end subroutine begin_group
 
   !> Complains about a group without its end, where it begins.
-  pure subroutine complain_open_group(self, where_seen, complaints)
-    type(scanner_type), intent(in) :: self
+  pure subroutine complain_open_group(self, where_seen)
+    type(scanner_type), intent(inout) :: self
     character(len=*), intent(in) :: where_seen
-    type(complaints_type), intent(inout) :: complaints
 
-    call complaints%add(self%file%groups(self%n_groups)%line, place(self)// &
+    call self%complaints%add(self%file%groups(self%n_groups)%line, place(self)// &
                         "the group that begins here is not ended by '/' "//where_seen)
   end subroutine complain_open_group
 
   !> Complains about text outside a group, once for each run of it.
-  pure subroutine take_stray(self, i, complaints)
+  pure subroutine take_stray(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
+    character(len=:), allocatable :: words
 
     if (self%stray) return
     self%stray = .true.
     associate (token => self%tokens(i))
       self%n_strays = self%n_strays + 1
       self%file%strays(self%n_strays) = namelist_group_type(token%first, token%last, token%line)
-      if (is_spoilt(token_words(self, i))) then
-        return ! see the characters outside ASCII
-      else if (token%kind == token_word) then
-        call complaints%add(token%line, "text outside a group: '"//shown(token_words(self, i))// &
-                            "'; a group begins with '&' and its name, a comment with '!'")
-      else
-        call complaints%add(token%line, "text outside a group: '"// &
-                            shown(token_words(self, i))//"'")
-      end if
+      if (is_spoilt(token_words(self, i))) return ! see the characters outside ASCII
+      words = "text outside a group: '"//shown(token_words(self, i))//"'"
+      if (token%kind == token_word) words = words//"; a group begins with '&' and its name, a "// &
+                                            "comment with '!'"
+      call self%complaints%add(token%line, words)
     end associate
   end subroutine take_stray
 
@@ -353,14 +345,13 @@ contains
   end function key_length
 
   !> Begins a key's entry.
-  pure subroutine begin_entry(self, i, complaints)
+  pure subroutine begin_entry(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(inout) :: i
-    type(complaints_type), intent(inout) :: complaints
     type(section_type) :: section
     integer :: length
 
-    call end_entry(self, complaints)
+    call end_entry(self)
     length = key_length(self, i)
     self%told = .false.
     if (length > 2) then
@@ -373,7 +364,7 @@ contains
     associate (token => self%tokens(i))
       if (section%element == bad_index) then
         self%told = .true.
-        call complaints%add(token%line, place(self)//"the index of '"// &
+        call complain(self, token%line, "the index of '"// &
                             shown(token_words(self, i))//"' must be one whole number from 1 on"// &
                             ', or a section such as 1:3')
       end if
@@ -389,9 +380,8 @@ contains
   end subroutine begin_entry
 
   !> Ends a key's entry; one without a value is a mistake.
-  pure subroutine end_entry(self, complaints)
+  pure subroutine end_entry(self)
     type(scanner_type), intent(inout) :: self
-    type(complaints_type), intent(inout) :: complaints
 
     if (self%in_entry) then
       associate (entry => self%file%entries(self%n_entries))
@@ -399,7 +389,7 @@ contains
           entry%wrong = .true.
           self%file%values(entry%first_value:entry%last_value)%wrong = .true.
         else if (entry%last_value < entry%first_value) then
-          call complaints%add(entry%line, place(self)//'key '''// &
+          call complain(self, entry%line, 'key '''// &
                               shown(self%file%key_name(self%n_entries))//''' has no value')
         end if
       end associate
@@ -409,39 +399,35 @@ contains
   end subroutine end_entry
 
   !> Takes a comma; two of them, or one after the equals sign, leave a value out.
-  pure subroutine take_comma(self, i, complaints)
+  pure subroutine take_comma(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
 
     if (self%after_comma .and. .not. self%told) then
-      call complaints%add(self%tokens(i)%line, place(self)//'a value is left out before a comma')
-      self%told = .true.
+      call complain(self, self%tokens(i)%line, 'a value is left out before a comma')
     end if
     self%after_comma = .true.
   end subroutine take_comma
 
   !> Takes a parenthesis among values, which are none of a language's tuples.
-  pure subroutine take_parenthesis(self, i, complaints)
+  pure subroutine take_parenthesis(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
-    type(complaints_type), intent(inout) :: complaints
     character(len=:), allocatable :: key
 
     if (self%told) return
     key = shown(self%file%key_name(self%n_entries))
-    call complaints%add(self%tokens(i)%line, place(self)//key//": unexpected '"// &
+    call complain(self, self%tokens(i)%line, key//": unexpected '"// &
                         token_words(self, i)//"'; values stand without parentheses: "//key// &
                         ' = 1.0, 2.0')
-    self%told = .true.
   end subroutine take_parenthesis
 
   !> Takes a value, with its repeat count where it has one.
-  pure subroutine take_value(self, i, complaints)
+  pure subroutine take_value(self, i)
     type(scanner_type), intent(inout) :: self
     integer, intent(inout) :: i
-    type(complaints_type), intent(inout) :: complaints
     type(namelist_value_type) :: value
+    logical :: quoted !! a string begins right behind the repeat count
     integer :: star
 
     value = namelist_value_type(value_string, self%tokens(i)%first, self%tokens(i)%last, 1, &
@@ -454,24 +440,27 @@ contains
       if (star > 1 .and. value%repeats >= 0) value%first = value%first + star
       value%kind = value_word
       if (value%first <= value%last) value%kind = word_kind(self%file%words(value%first:value%last))
-      if (value%first > value%last .and. string_follows(self, i)) then
+      quoted = value%first > value%last .and. i < size(self%tokens)
+      if (quoted) quoted = self%tokens(i + 1)%kind == token_string .and. &
+                           self%tokens(i + 1)%first == self%tokens(i)%last + 2
+      if (quoted) then
         i = i + 1
         value%kind = value_string
         value%first = self%tokens(i)%first
         value%last = self%tokens(i)%last
         value%wrong = self%tokens(i)%is_open
       else if (value%first > value%last) then
-        call complain_about_value(self, i, 'a repeat count without a value', complaints)
+        call complain_about_value(self, i, 'a repeat count without a value')
         return
       end if
       if (value%repeats == 0) then
-        call complain_about_value(self, i, 'a repeat count must not be zero', complaints)
+        call complain_about_value(self, i, 'a repeat count must not be zero')
         return
       end if
       if (value%kind == value_word .and. &
           has_kind(self%file%words(value%first:value%last)) .and. self%in_entry) then
         if (.not. self%told) then
-          call complaints%add(value%line, place(self)//shown(self%file%key_name(self%n_entries))// &
+          call complain(self, value%line, shown(self%file%key_name(self%n_entries))// &
                               ' = '//shown(token_words(self, i))//': a namelist has no kinds '// &
                               "of numbers, and no digits divided by '_'")
         end if
@@ -486,7 +475,7 @@ contains
     end if
     if (.not. self%in_entry) then
       if (.not. (self%told .or. value%wrong)) then
-        call complain_about_value(self, i, 'a value without a key', complaints)
+        call complain_about_value(self, i, 'a value without a key')
       end if
       return
     end if
@@ -497,28 +486,24 @@ contains
   end subroutine take_value
 
   !> Complains about the value at a token.
-  pure subroutine complain_about_value(self, i, rule, complaints)
+  pure subroutine complain_about_value(self, i, rule)
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
     character(len=*), intent(in) :: rule
-    type(complaints_type), intent(inout) :: complaints
 
-    call complaints%add(self%tokens(i)%line, place(self)//rule//': '//shown(token_words(self, i)))
-    self%told = .true.
+    call complain(self, self%tokens(i)%line, rule//': '//shown(token_words(self, i)))
     self%after_comma = .false.
   end subroutine complain_about_value
 
-  !> Whether a string begins right behind this token.
-  pure function string_follows(self, i) result(follows)
-    type(scanner_type), intent(in) :: self
-    integer, intent(in) :: i
-    logical :: follows
+  !> Complains about what is being scanned in the open group.
+  pure subroutine complain(self, line, words)
+    type(scanner_type), intent(inout) :: self
+    integer, intent(in) :: line !! of the file
+    character(len=*), intent(in) :: words !! what is wrong
 
-    follows = .false.
-    if (i == size(self%tokens)) return
-    if (self%tokens(i + 1)%kind /= token_string) return
-    follows = self%tokens(i + 1)%first == self%tokens(i)%last + 2
-  end function string_follows
+    call self%complaints%add(line, place(self)//words)
+    self%told = .true.
+  end subroutine complain
 
   !> A token as typed.
   pure function token_words(self, i) result(words)
