@@ -133,21 +133,16 @@ contains
     real(wp), intent(in) :: first !! leading edge of pad 1 [rad]
     character(len=*), parameter :: ring = "needs leading_edge_condition = 'slit' in &bearing: "// &
                                           'a full ring has no edges'
-    character(len=18) :: edge_key(4)
-    integer :: i
+    logical :: periodic
 
+    periodic = bearing%leading_edge_condition == leading_edge_periodic
     call keys%rule(group, 'first_leading_edge', keys%meant('bearing', 'leading_edge_angle') .and. &
                    keys%meant(group, 'first_leading_edge') .and. &
                    abs(first - bearing%leading_edge_angle) > rounding, 'contradicts '// &
                    'leading_edge_angle in &bearing, '//text(bearing%leading_edge_angle)// &
                    ' rad: give one of them')
-    if (bearing%leading_edge_condition /= leading_edge_periodic) return
-    edge_key = [character(len=18) :: 'count', 'arc', 'gap', 'first_leading_edge']
-    do i = 1, size(edge_key)
-      if (.not. keys%meant(group, trim(edge_key(i)))) cycle
-      if (edge_key(i) == 'count' .and. bearing%pads == 1) cycle
-      call keys%complain(group, trim(edge_key(i)), ring)
-    end do
+    call keys%refuse(group, 'arc, gap, first_leading_edge', periodic, ring)
+    call keys%refuse(group, 'count', periodic .and. bearing%pads > 1, ring)
   end subroutine check_edges
 
   !> Whether the pads fit into the circle.

@@ -79,7 +79,16 @@ contains
     call read_table(keys, said, needed)
     if (.not. needed .or. keys%mistakes() > mistakes) return
     if (.not. is_complete(said, gas)) return
-    call check_keys(keys, said, gas)
+    call keys%rule(group, 'equation_of_state', said%table .and. said%state == second_word, &
+                   'has no use with a table: density_table_density gives the density')
+    call keys%rule(group, 'viscosity_law', said%viscosities .and. &
+                   said%viscosity_law == second_word, 'has no use with '// &
+                   'density_table_viscosity, which gives the viscosity')
+    if (said%table) call keys%rule(group, 'ambient_pressure', &
+                                   gas%ambient_pressure < minval(said%pressure) .or. &
+                                   gas%ambient_pressure > maxval(said%pressure), 'must lie in '// &
+                                   'the table of the gas, '//text(minval(said%pressure))// &
+                                   ' to '//text(maxval(said%pressure))//' Pa')
     if (keys%mistakes() > mistakes) return
     call make_law(said, gas)
     call keys%rule(group, 'ambient_pressure', gas%ambient_pressure >= gas%law%fluid%saturation, &
@@ -216,25 +225,6 @@ contains
       complete = complete .and. said%molar_mass > 0.0_wp .and. said%temperature > 0.0_wp
     end if
   end function is_complete
-
-  !> What the keys ask of each other.
-  subroutine check_keys(keys, said, gas)
-    type(case_keys_type), intent(inout) :: keys
-    type(gas_keys_type), intent(in) :: said
-    type(gas_case_type), intent(in) :: gas
-
-    call keys%rule(group, 'equation_of_state', said%table .and. said%state == second_word, &
-                   'has no use with a table: density_table_density gives the density')
-    if (said%viscosities .and. said%viscosity_law == second_word) then
-      call keys%complain(group, 'viscosity_law', 'has no use with density_table_viscosity, '// &
-                         'which gives the viscosity')
-    end if
-    if (.not. said%table) return
-    call keys%rule(group, 'ambient_pressure', gas%ambient_pressure < said%pressure(1) .or. &
-                   gas%ambient_pressure > said%pressure(size(said%pressure)), &
-                   'must lie in the table of the gas, '//text(said%pressure(1))//' to '// &
-                   text(said%pressure(size(said%pressure)))//' Pa')
-  end subroutine check_keys
 
   !> The gas that the keys describe.
   subroutine make_law(said, gas)
