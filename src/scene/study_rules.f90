@@ -357,8 +357,8 @@ contains
     if (keys%mistakes() == before) call check_finest(keys, scene)
     call check_modes(keys, scene)
     call check_answers(keys, scene)
-    if (scene%transient%present) call check_times(keys, scene)
-    if (scene%periodic%present) call check_periods(keys, scene)
+    call check_times(keys, scene)
+    call check_periods(keys, scene)
   end subroutine check_counts
 
   !> Elements of film and top foil.
@@ -423,9 +423,8 @@ contains
     if (meshes_bumps(scene)) then
       all = max(all, scene%bump_foil%bumps*finest%bump*finest%across*pads(scene))
     end if
-    if (.not. all > real(most_in_all, wp)) return
-    call keys%complain('accuracy', 'maximum_refinements', 'the finest mesh has about '// &
-                       text(all, 3)//' elements: must be at most '//text(most_in_all))
+    call must_fit(keys, 'accuracy', 'maximum_refinements', all, 'the finest mesh has about ', &
+                  ' elements')
   end subroutine check_finest
 
   !> A number of elements after some refinements by two, of a mesh that is four times coarser.
@@ -569,6 +568,7 @@ contains
     character(len=:), allocatable :: key
 
     associate (transient => scene%transient, operation => scene%operation)
+      if (.not. transient%present) return
       if (min(operation%speed_rpm, transient%final_speed_rpm) < 0.0_wp) return
       if (.not. transient%duration > 0.0_wp .and. &
           .not. max(operation%speed_rpm, transient%final_speed_rpm)*transient%turns > 0.0_wp) return
@@ -578,18 +578,13 @@ contains
                     abs(transient%orbit_frequency))
       steps = max(1.0_wp, duration*fastest/(2.0_wp*pi))*fewest
       if (transient%steps_per_turn > 0.0_wp) steps = steps/fewest*transient%steps_per_turn
-      if (steps > real(most_in_all, wp)) then
-        key = 'turns'
-        if (keys%meant('transient', 'duration')) key = 'duration'
-        if (transient%steps_per_turn > 1.0e5_wp) key = 'steps_per_turn'
-        call keys%complain('transient', key, 'makes about '//text(steps, 3)//' steps of time: '// &
-                           'must be at most '//text(most_in_all))
-      end if
+      key = 'turns'
+      if (keys%meant('transient', 'duration')) key = 'duration'
+      if (transient%steps_per_turn > 1.0e5_wp) key = 'steps_per_turn'
+      call must_fit(keys, 'transient', key, steps, 'makes about ', ' steps of time')
       if (.not. transient%field_interval > 0.0_wp) return
-      steps = (duration - transient%field_start)/transient%field_interval
-      if (steps <= real(most_in_all, wp)) return
-      call keys%complain('transient', 'field_interval', 'makes about '//text(steps, 3)// &
-                         ' times of stored fields: must be at most '//text(most_in_all))
+      call must_fit(keys, 'transient', 'field_interval', (duration - transient%field_start)/ &
+                    transient%field_interval, 'makes about ', ' times of stored fields')
     end associate
   end subroutine check_times
 
@@ -600,18 +595,24 @@ contains
     real(wp) :: steps !! [1]
 
     associate (periodic => scene%periodic)
+      if (.not. periodic%present) return
       steps = real(periodic%steps_per_turn, wp)
       if (periodic%motion /= motion_free) steps = steps*real(periodic%period_turns, wp)
-      if (steps > real(most_in_all, wp)) then
-        call keys%complain('periodic', 'steps_per_turn', 'makes '//text(steps, 3)// &
-                           ' steps of a period: must be at most '//text(most_in_all))
-        return
-      end if
-      if (periodic%motion == motion_free) return
-      steps = steps*real(periodic%start_turns, wp)
-      if (steps <= real(most_in_all, wp)) return
-      call keys%complain('periodic', 'start_turns', 'makes '//text(steps, 3)//' steps of time '// &
-                         'before the first orbit: must be at most '//text(most_in_all))
+      call must_fit(keys, 'periodic', 'steps_per_turn', steps, 'makes ', ' steps of a period')
+      if (steps > real(most_in_all, wp) .or. periodic%motion == motion_free) return
+      call must_fit(keys, 'periodic', 'start_turns', steps*real(periodic%start_turns, wp), &
+                    'makes ', ' steps of time before the first orbit')
     end associate
   end subroutine check_periods
+
+  !> Complains about a number that is larger than the limit of all.
+  subroutine must_fit(keys, group, key, number, makes, what)
+    type(case_keys_type), intent(inout) :: keys
+    character(len=*), intent(in) :: group, key !! names in the case file
+    real(wp), intent(in) :: number !! [1]
+    character(len=*), intent(in) :: makes, what !! words before and behind the number
+
+    call keys%rule(group, key, number > real(most_in_all, wp), makes//text(number, 3)//what// &
+                   ': must be at most '//text(most_in_all))
+  end subroutine must_fit
 end module gfb_study_rules
