@@ -51,7 +51,8 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! where the file has left it
     type(foil_inertia_type) :: inertia
 
-    call give_momentum(bearing, mass_on, scene%foil_damping%foil_modes, fastest_motion(scene), inertia)
+    call give_momentum(bearing, mass_on, scene%foil_damping%foil_modes, fastest_motion(scene), &
+                       inertia)
     call destroy_inertia(inertia)
   end subroutine resume_momentum
 

@@ -98,16 +98,16 @@ contains
   !> After the last group: complains about names that do not exist, and about what is missing.
   subroutine finish(self)
     class(case_reader_type), intent(inout) :: self !! the keys being read
-    character(len=:), allocatable :: home
+    character(len=:), allocatable :: group
     integer :: entry
 
     call self%book%check_names(self%file, self%complaints)
     do entry = 1, size(self%file%entries)
-      home = moves_to(self%file, entry)
-      if (home == '') cycle
+      group = moves_to(self%file, entry)
+      if (group == '') cycle
       associate (item => self%file%entries(entry))
         call self%hints%add(item%line, '&'//self%file%group_name(item%group)//': '// &
-                            self%file%key_name(entry)//' belongs into &'//home// &
+                            self%file%key_name(entry)//' belongs into &'//group// &
                             ' now; where it stands it is read by this version for the last time')
       end associate
     end do
