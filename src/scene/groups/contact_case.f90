@@ -4,7 +4,7 @@
 !> The defaults of stiffness and stick length follow the scene, so that neither shows in its answer.
 module gfb_contact_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, from_to, positive
+  use gfb_case_keys, only: case_keys_type, from_to, positive, unless
   use gfb_scene_case, only: is_bearing, misplaced_group, analysis_strip
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
@@ -111,11 +111,9 @@ contains
     strip = analysis == analysis_strip
     bearing = is_bearing(analysis) .and. meshes_foils(model)
     misplaced = misplaced_group(analysis, strip .or. is_bearing(analysis))
-    if (is_bearing(analysis) .and. .not. (model == 0 .or. meshes_foils(model))) then
-      misplaced = "needs foil = 'shell' in &model, or 'beam'"
-    end if
-    deflection = typical_deflection(load, foil)
-    if (bearing) deflection = clearance
+    if (is_bearing(analysis)) misplaced = unless(model == 0 .or. meshes_foils(model), &
+                                                 "needs foil = 'shell' in &model, or 'beam'")
+    deflection = merge(clearance, typical_deflection(load, foil), bearing)
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &
                           present_in_file=contact%present, misplaced=misplaced)
     call keys%real_key('exponent', contact%exponent, '1', &
