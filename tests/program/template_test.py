@@ -45,7 +45,8 @@ def check_templates(checks, folder):
             checks.that(f"{analysis}: with &{group} {wrong}", status == 0)
     _, text, _ = call("--template=equilibrium", folder=folder)
     keys = {(group, key) for group, key in re.findall(r"^\| `&(\w+)` \| `(\w+)` ", call("--keys", folder=folder)[1], re.M)
-            if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient", "periodic")}
+            if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient", "periodic", "unbalance",
+                             "foil_damping")}
     named, group = set(), ""
     for line in text.splitlines():
         group = (re.findall(r"^!?&(\w+)$", line) or [group])[0]
