@@ -2,7 +2,7 @@
 !> An answer of a scene goes into the record, with all that is asked of it.
 module gfb_answer_record
   use gfb_kinds, only: wp
-  use gfb_quantity, only: quantity_type, add_quantity, place_of
+  use gfb_quantity, only: quantity_type, add_quantity
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_keys
@@ -29,7 +29,6 @@ contains
     logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
     type(quantity_type), allocatable :: vibrations(:)
     logical :: turns
-    integer :: place
 
     associate (scene => solution%scene, here => solution%here, log => solution%context%log, &
                bearing => solution%bearing, newton => solution%newton, record => solution%record)
@@ -41,8 +40,7 @@ contains
       call judge_and_derive(here, log, bearing, newton, record%judged, value)
       turns = record%at_fold
       if (present(fold)) turns = turns .or. fold
-      place = place_of('determinant_sign', record%judged)
-      if (turns .and. place > 0) record%judged(place)%number = 0.0_wp ! it changes there
+      if (turns) call change_signs(record%judged)
       if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
       if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
       call add_row(scene, bearing, newton, .true., record, value, fold)
@@ -54,6 +52,18 @@ contains
       end if
     end associate
   end subroutine record_answer
+
+  !> At a fold the determinant and the edges' stiffness change their signs: factors there give no digit of either.
+  pure subroutine change_signs(judged)
+    type(quantity_type), intent(inout) :: judged(:) !! of the answer at the fold
+    integer :: i
+
+    do i = 1, size(judged)
+      associate (name => judged(i)%name)
+        if (index(name, 'determinant_sign') == 1 .or. index(name, 'edge_stiffness') == 1) judged(i)%number = 0.0_wp
+      end associate
+    end do
+  end subroutine change_signs
 
   !> Records the state where the search for the one answer has ended.
   subroutine record_last_state(solution)
