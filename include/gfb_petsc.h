@@ -29,3 +29,9 @@
 #define GFB_COMM MPIU_Comm
 #define GFB_REASON(r) r%v
 #endif
+/* From 3.24 on the name is a macro that wants a pointer. */
+#ifdef MatShellGetContext
+#define GFB_MatShellGetContext MatShellGetContextCptr
+#else
+#define GFB_MatShellGetContext MatShellGetContext
+#endif

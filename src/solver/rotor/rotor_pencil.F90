@@ -490,7 +490,7 @@ contains
     real(wp) :: q(planar), v(planar), force(planar), new_q(planar)
     integer :: i, k
 
-    call MatShellGetContext(operator, address, ierr)
+    call GFB_MatShellGetContext(operator, address, ierr)
     call c_f_pointer(address, pencil)
     call take_rotor(pencil%scale, x, q, v)
     force = pencil%inertia*v + matmul(pencil%gyration, q) + pencil%inertia*pencil%shift*q
