@@ -136,26 +136,28 @@ SCENES = [
         HEAVY, scene={"analysis": "linear_dynamics"}, pads={"count": 2, "preload": 0.2}, bump_foil={"bumps": 3}, dynamics=FREQUENCIES),
           FOILS, ranks=(1, 4), memory=True),
     Scene("shells with their mass, small vibrations", merged(
-        HEAVY, scene={"analysis": "linear_dynamics"}, model={"foil": "shell"}, dynamics={**FREQUENCIES, "foil_mass": "on"}),
+        HEAVY, scene={"analysis": "linear_dynamics"}, model={"foil": "shell"}, dynamics=FREQUENCIES,
+        foil_damping={"foil_mass": "on"}),
           FOILS, memory=True),
     Scene("beams, vibration amplitudes", merged(HEAVY, scene={"analysis": "linear_dynamics"}, dynamics={
-        "frequency_ratios": 0.5, "foil_mass": "off", "vibration_amplitudes": 1.0e-7}), FOILS),
+        "frequency_ratios": 0.5, "vibration_amplitudes": 1.0e-7}, foil_damping={"foil_mass": "off"}), FOILS),
     Scene("beams with their mass, rotor over time", merged(HEAVY, scene={"analysis": "transient"}, output={"restart_every": 1}, transient={
-        "turns": 0.1, "unbalance": 2.0e-8, "steps_per_turn": 24, "foil_mass": "on"}), FOILS, ranks=(1, 4), memory=True),
+        "turns": 0.1, "steps_per_turn": 24}, unbalance={"unbalance": 2.0e-8}, foil_damping={"foil_mass": "on"}), FOILS, ranks=(1, 4),
+          memory=True),
     Scene("shells, rotor over time", merged(HEAVY, scene={"analysis": "transient"}, model={"foil": "shell"}, transient={
-        "turns": 0.1, "unbalance": 2.0e-8, "steps_per_turn": 24, "foil_mass": "on"}), FOILS, memory=True),
+        "turns": 0.1, "steps_per_turn": 24}, unbalance={"unbalance": 2.0e-8}, foil_damping={"foil_mass": "on"}), FOILS, memory=True),
     Scene("springs, rotor that tilts over time", merged(ROTOR, scene={"analysis": "transient"}, rotor={
         "transverse_inertia": 5.0e-3, "polar_inertia": 1.0e-3, "bearing_distance": 0.2}, transient={
-            "turns": 0.5, "couple_unbalance": 1.0e-9, "steps_per_turn": 30, "foundation_damping": 3.0e5,
-            "maxwell_stiffness": 3.0e9, "maxwell_time": 1.0e-4}), SLOPES, memory=True),
+            "turns": 0.5, "steps_per_turn": 30}, unbalance={"couple_unbalance": 1.0e-9}, foil_damping={
+                "foundation_damping": 3.0e5, "maxwell_stiffness": 3.0e9, "maxwell_time": 1.0e-4}), SLOPES, memory=True),
     Scene("springs, forced orbits", merged(ROTOR, scene={"analysis": "periodic"}, model={"foundation_pressure": "axial_mean"},
                                            rotor={"mass": 0.3}, periodic={
-        "unbalance": 1.0e-6, "parameter": "unbalance", "final_value": 1.5e-6, "points": 2, "steps_per_turn": 20,
-        "foundation_damping": 3.0e5}), PATH, memory=True),
+        "parameter": "unbalance", "final_value": 1.5e-6, "points": 2, "steps_per_turn": 20}, unbalance={"unbalance": 1.0e-6},
+                                           foil_damping={"foundation_damping": 3.0e5}), PATH, memory=True),
     Scene("springs, limit cycles", merged(ROTOR, scene={"analysis": "periodic"}, model={"foundation_pressure": "axial_mean"},
                                           operation={"speed_rpm": 12700.0, "load": (-19.62, 0.0)}, rotor={"mass": 2.0}, periodic={
-        "motion": "free", "parameter": "speed_rpm", "final_value": 13250.0, "points": 2, "steps_per_turn": 20,
-        "foundation_damping": 3.0e5}), PATH),
+        "motion": "free", "parameter": "speed_rpm", "final_value": 13250.0, "points": 2, "steps_per_turn": 20},
+                                          foil_damping={"foundation_damping": 3.0e5}), PATH),
     Scene("beams, sample", merged(SHELL, model={"foil": "beam"}, bump_foil={"height_deviation": 0.5e-6, "seed": 5}, sample={"count": 2}),
           FOILS, memory=True),
     Scene("springs, sensitivities", merged(SPRINGS, operation=LOAD, mesh=COARSE, sensitivity={

@@ -77,7 +77,7 @@ def measure(options, model, folder):
         print(f"{model}, {words} unbalance ...", flush=True)
         moving = run_case(options.gfb, {
             **groups, "scene": {"analysis": "transient"}, "rotor": {"mass": MASS},
-            "transient": {"turns": turns, "steps_per_turn": STEPS, "unbalance": unbalance}}, folder, "moving", may_stop=True)
+            "transient": {"turns": turns, "steps_per_turn": STEPS}, "unbalance": {"unbalance": unbalance}}, folder, "moving", may_stop=True)
         with open_results(f"{moving.stem}.h5") as file:
             taken = {name: file[f"transient/{name}"][-1] - file[f"transient/{name}"][0]
                      for name in ("turns", "steps", "newton_iterations", "factorizations")}

@@ -22,7 +22,7 @@ def draw(runs, folder):
     clearance = number(result, "bearing", "clearance")
     sizes, turn = [result[f"orbit_{axis}"] for axis in "xy"], rows["turns"] > rows["turns"][-1] - 1.0
     speed = f"{rows['speed'][0]*30.0/math.pi:,.0f} rpm"
-    page.short = (f"{MICRO*sizes[0]:.2f} x {MICRO*sizes[1]:.2f} um under {1.0e6*number(result, 'transient', 'unbalance'):g} g mm at "
+    page.short = (f"{MICRO*sizes[0]:.2f} x {MICRO*sizes[1]:.2f} um under {1.0e6*number(result, 'unbalance', 'unbalance'):g} g mm at "
                   f"{speed}, {100.0*max(sizes)/clearance:.1f} % of the clearance, steady after {rows['turns'][-1]:.0f} turns.")
     page.head("What is to be seen")
     middle = [numpy.mean(rows[f"eccentricity_{axis}"][turn]) for axis in "xy"]
