@@ -8,7 +8,8 @@ module gfb_orbit_table
 
   integer, parameter :: columns = 13
   integer, parameter, public :: leading = 4 !! multipliers that are kept
-  integer, parameter, public :: in_period = 4, in_ratio = 5, in_gap = 10, in_largest = 11 !! columns of these
+  integer, parameter, public :: in_period = 4, in_ratio = 5, in_gap = 10 !! columns of these
+  integer, parameter, public :: in_largest = 11 !! column of the largest multiplier
   character(len=*), parameter :: names(columns) = [character(len=18) :: &
     'speed', 'unbalance', 'mass', 'period', 'frequency_ratio', 'orbit_x', 'orbit_y', 'center_x', &
     'center_y', &
