@@ -27,7 +27,9 @@ module gfb_studies
 
 contains
 
-  !> The study of a scene's analysis, on one mesh or on several.
+  !> The study of a scene's analysis, on one mesh or on several. Equilibria, small vibrations about
+  !> them, and the three limits (load capacity, lift-off, misalignment) are those of a bearing, at
+  !> one point or along a sweep.
   !>
   !> Fails where all equilibria are wanted of a scene that has but one.
   subroutine create_study(scene, branches, study, error)

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> A sweep's restart file: the bearing at a point, and all that was recorded.
+!> What restart files of bearings hold, in sweeps and over time: the bearing at a point, and all that was recorded.
 module gfb_bearing_restart
   use petscvec
   use gfb_archive, only: archive_type

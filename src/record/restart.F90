@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> `<case>.restart.h5`: from where a run that was stopped is resumed. It says where it comes from and holds archives,
-!> a group each.
+!> a group each. What they hold is a line in the `visit_...` of the type that it belongs to; `bearing_restart`,
+!> and the studies of strips and orbits, say which types.
 !>
 !> It is written after every so many steps where the scene asks for that. The solvers then forget their
 !> factors, so that what follows depends on what the file holds and on nothing else: a run that is resumed

@@ -1,5 +1,5 @@
 !> How far a path of states leads, and how it ends: one of seven ways. What is said of each is
-!> written here alone.
+!> written here alone, but for what a search that is lost says of its last step.
 module gfb_ending
   use gfb_kinds, only: wp
   use gfb_text, only: text

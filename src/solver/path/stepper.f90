@@ -2,6 +2,8 @@
 !>
 !> What is followed, an operating point, a key of the case file, an interference or the stiffness of
 !> contacts, extends `path_problem_type`; how its steps grow and shrink is data, `step_rules_type`.
+!> Branches round folds (`arc`), load steps of strips (`load_step`), branches of orbits and steps of
+!> time have lengths of their own.
 module gfb_stepper
   use gfb_kinds, only: wp
   implicit none (type, external)
