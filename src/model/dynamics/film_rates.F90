@@ -62,7 +62,7 @@ contains
     integer :: element, b, place, n
 
     n = size(row)
-    none = shaft_unknowns_type(0, [integer ::])
+    allocate (none%coordinate(0))
     associate (film => pad%film, foil => pad%foil)
       do element = 1, size(film%element_nodes, 2)
         call element_columns(film, foil, none, element, row, column)

@@ -248,7 +248,8 @@ contains
     integer :: i
 
     i = 0
-    do while (i < path%changes .and. path%length_at(i) < length)
+    do while (i < path%changes)
+      if (.not. path%length_at(i) < length) exit
       i = i + 1
     end do
     t = length
