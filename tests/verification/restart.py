@@ -291,7 +291,7 @@ def check_refusals(checks, folder, content):
     seal(file)
     refused("a component has another name", 3, "the file is damaged at /bearing: 'edge_height real 24' is missing, "
             "there is 'edge_length real 24'")
-    for wrong in (None, 1.0, 3.0):
+    for wrong in (None, 2.0, 4.0):
         file.write_bytes(kept)
         with h5py.File(file, "r+") as stored:
             del stored["format"]
