@@ -6,7 +6,7 @@ module gfb_foil_grid
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_quad_mesh, only: solid_rows
-  use gfb_grid, only: grid_field_type, result_grid_type, block_bounds, add_grid_field
+  use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
   use gfb_text, only: text
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)

@@ -8,7 +8,7 @@ module gfb_study_cases
                             analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
                             asks_limit
   use gfb_result_names, only: asked_names
-  use gfb_result_table, only: name_length, bearing, strip
+  use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
   use gfb_sweep_case, only: swept_key_type
   implicit none (type, external)
@@ -107,8 +107,6 @@ module gfb_study_cases
     real(wp) :: smallest_gap = 0.0_wp    !! that the film may have [m]
     real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
     integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
-  contains
-    procedure :: seeks_load
   end type capacity_case_type
 
 contains
@@ -238,12 +236,6 @@ contains
                             'those of parameters', 'standard deviation of each of them: the '// &
                             'variance is told that they cause', not_negative, .false., 'none')
   end subroutine read_sensitivity_case
-
-  !> Whether it is a load that is asked for.
-  elemental logical function seeks_load(self)
-    class(capacity_case_type), intent(in) :: self !! what is asked for
-    seeks_load = self%question == analysis_load_capacity
-  end function seeks_load
 
   !> Reads the group, which belongs to analyses that look for a limit.
   subroutine read_capacity_case(keys, capacity, analysis)

@@ -5,7 +5,6 @@ module gfb_start_list
   use gfb_ending, only: path_stopped, ending_suction
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
-  use gfb_bearing_system, only: bearing_system_type
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings, usual_eccentricity

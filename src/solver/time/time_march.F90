@@ -15,7 +15,6 @@ module gfb_time_march
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_natural_order, only: natural_order_type, visit_vector
-  use gfb_text, only: text
   use gfb_backward_difference, only: difference_weights, free_value, newest_rate, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on

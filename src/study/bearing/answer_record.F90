@@ -2,6 +2,7 @@
 !> An answer of a scene goes into the record, with all that is asked of it.
 module gfb_answer_record
   use gfb_kinds, only: wp
+  use gfb_ending, only: micrometres
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_text, only: text
   use gfb_scene, only: scene_type
@@ -79,7 +80,6 @@ contains
   !> Fixes the shaft at its equilibrium for the points of a sweep, and measures what they are compared with.
   subroutine fix_shaft(solution)
     type(bearing_solution_type), intent(inout) :: solution !! at its equilibrium; its record gets the torque without tilt
-    real(wp), parameter :: micrometres = 1.0e6_wp ! in a metre
 
     associate (scene => solution%scene, bearing => solution%bearing)
       if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils

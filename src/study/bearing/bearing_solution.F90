@@ -5,7 +5,6 @@ module gfb_bearing_solution
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium

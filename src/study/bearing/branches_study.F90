@@ -4,6 +4,7 @@ module gfb_branches_study
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
+  use gfb_ending, only: micrometres
   use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
   use gfb_result_names, only: add_result
   use gfb_c_library, only: peak_memory
@@ -32,8 +33,6 @@ module gfb_branches_study
   use gfb_study, only: study_type
   implicit none (type, external)
   private
-
-  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   real(wp), parameter :: lowest_lift = -0.25_wp !! that is looked at, over the clearance [1]
   real(wp), parameter :: highest_lift = 3.0_wp

@@ -11,7 +11,7 @@ module gfb_bearing_plan
   use gfb_operation_case, only: angular_speed
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_scene_case, only: analysis_equilibrium
   use gfb_strip_load_case, only: bump_stiffness
   use gfb_sweep_case, only: sweep_load, sweep_speed
   use gfb_text, only: text
