@@ -36,7 +36,7 @@ module gfb_bearing_solution
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
     type(scene_type) :: scene
-    type(scene_type) :: here !! the same with the present value of the keys that it sweeps
+    type(scene_type), allocatable :: here !! the same with the present value of swept keys
     type(bearing_plan_type) :: plan
     type(run_context_type) :: context
     type(path_settings_type) :: path
