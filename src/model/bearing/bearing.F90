@@ -31,6 +31,8 @@ module gfb_bearing
   public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns
 
   integer, parameter :: normal = 3 !! component of an approach
+  !> Share of a step at which no contact changes; far below `huge`, for a step that diverges is longer than a metre [1]
+  real(wp), parameter :: never = 1.0e30_wp
 
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
@@ -88,12 +90,12 @@ contains
   pure subroutine next_contact(contacts, here, ahead, share, number)
     type(contact_set_type), intent(in) :: contacts !! of this rank
     real(wp), intent(in) :: here(:), ahead(:) !! displacements of the set's unknowns [m]
-    real(wp), intent(out) :: share  !! of that way; huge where none does [1]
+    real(wp), intent(out) :: share  !! of that way; `never` where none does [1]
     integer, intent(out) :: number  !! of the contact; 0 where none does
     real(wp) :: first(normal), last(normal), change, left
     integer :: i
 
-    share = huge(share)
+    share = never
     number = 0
     do i = 1, size(contacts%point)
       if (contacts%point(i)%pressed) cycle
@@ -424,7 +426,7 @@ contains
     class(bearing_type), intent(inout) :: self !! the bearing; it remembers the contact
     Vec, intent(in) :: state !! scaled
     Vec, intent(in) :: step  !! subtracted from it, scaled
-    real(wp), intent(out) :: share !! of the step, may be above 1; huge where none does [1]
+    real(wp), intent(out) :: share !! of the step, may be above 1; `never` where none does [1]
     integer, intent(out) :: name(contact_name) !! of the contact: its rank from 1, its pad, its number there
     real(wp) :: here(self%local_size()), ahead(self%local_size()), nearest, first(1), rank(1)
     integer :: i, number
@@ -432,7 +434,7 @@ contains
     call self%get_unknowns(here, state)
     call self%get_unknowns(ahead, step)
     ahead = here - ahead
-    share = huge(share)
+    share = never
     name = 0
     do i = 1, size(self%pad)
       associate (pad => self%pad(i))
