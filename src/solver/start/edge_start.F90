@@ -88,6 +88,7 @@ contains
 
     do pad = 1, size(problem%bearing%pad)
       if (.not. edge_force(problem%bearing, pad) > 0.0_wp) cycle
+      call problem%newton%log%detail(edge_words(problem%bearing, pad)//' is pressed down, and released:')
       free = without_holds(problem%bearing%point, pad, pad)
       call release(problem, free, problem%newton%settings, [lowest, resting]*clearance_of(problem%bearing), report)
     end do
@@ -421,6 +422,7 @@ contains
 
     ends = .false.
     free = without_holds(problem%bearing%point, 1, most_pads)
+    call problem%newton%log%detail('released short of the load:')
     call release(problem, free, problem%newton%settings, &
                  [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
     if (.not. report%converged()) return
@@ -443,6 +445,7 @@ contains
     released = report
     call last%save(problem%bearing)
     call fixed%restore(problem%bearing)
+    call problem%newton%log%detail('on with the edge fixed:')
     call follow_path(problem%bearing, problem%newton, with_fixed_edges(problem), first_step, settings, report)
     if (size(problem%bearing%pad) > 1 .and. .not. report%converged()) then
       call fixed%restore(problem%bearing)
@@ -480,6 +483,7 @@ contains
     problem%target = without_holds(report%reached, 1, most_pads)
     call last%save(problem%bearing)
     share = norm2(problem%target%load(:2))/max(norm2(target%load(:2)), tiny(1.0_wp))
+    call problem%newton%log%detail('the height where the edge stays short of the load:')
     call release_edges(problem, short, ends)
     problem%target = target
     if (short%converged()) then
