@@ -27,7 +27,7 @@ module gfb_run_log
     type(way_type) :: task !! of many points, members or times, for waiting lines
     type(way_type) :: step !! the way from one of them to the next
     logical :: waits = .false.                !! a waiting line stands on the terminal
-    integer(long) :: told = 0                 !! count of the clock when the last line was told
+    integer(long) :: last_line = 0            !! count of the clock when the last one was written
   end type log_memory_type
 
   !> Where the lines of a run go; silent on all ranks but one.
@@ -84,7 +84,7 @@ contains
     self%memory%warnings = ''
     self%memory%task%words = ''
     self%memory%step%words = ''
-    call system_clock(self%memory%told)
+    call system_clock(self%memory%last_line)
   end subroutine run_log_remember
 
   !> One event.
@@ -103,7 +103,7 @@ contains
     if (self%silent .or. .not. self%active) return
     call clear_waiting(self)
     call put(self%unit, words)
-    if (associated(self%memory)) call system_clock(self%memory%told)
+    if (associated(self%memory)) call system_clock(self%memory%last_line)
   end subroutine run_log_tell
 
   !> Takes a waiting line off the terminal.
@@ -161,7 +161,7 @@ contains
     character(len=*), intent(in) :: words !! the place; empty: there is none
     real(wp), intent(in), optional :: share !! behind, 0 at the begin [1]; none: not known
 
-    if (associated(self%memory)) call go_on(self%memory%step, words, share)
+    if (associated(self%memory)) call advance(self%memory%step, words, share)
   end subroutine run_log_is_at
 
   !> Which of many answers is looked for, for the waiting lines to come.
@@ -170,11 +170,11 @@ contains
     character(len=*), intent(in) :: words !! which one; empty: there are none any more
     real(wp), intent(in), optional :: share !! behind, 0 at the first [1]; none: not known
 
-    if (associated(self%memory)) call go_on(self%memory%task, words, share)
+    if (associated(self%memory)) call advance(self%memory%task, words, share)
   end subroutine run_log_is_within
 
   !> A way at its begin, or further on.
-  subroutine go_on(way, words, share)
+  subroutine advance(way, words, share)
     type(way_type), intent(inout) :: way
     character(len=*), intent(in) :: words
     real(wp), intent(in), optional :: share
@@ -184,7 +184,7 @@ contains
     if (present(share)) way%share = share
     call system_clock(way%reached)
     if (.not. way%share > 0.0_wp) way%begun = way%reached
-  end subroutine go_on
+  end subroutine advance
 
   !> The last step of a long computation: told where nothing else was for a while, with the time.
   !>
@@ -203,7 +203,7 @@ contains
     call system_clock(now, rate)
     rate = max(1_long, rate)
     associate (memory => self%memory)
-      silence = real(now - memory%told, wp)/real(rate, wp)
+      silence = real(now - memory%last_line, wp)/real(rate, wp)
       if (silence < merge(renewed, self%patience, memory%waits)) return
       write (time, '(i0)') (now - self%begun)/rate
       line = ''
@@ -217,7 +217,7 @@ contains
       else
         call put(self%unit, line)
       end if
-      memory%told = now
+      memory%last_line = now
     end associate
   end subroutine run_log_waiting
 

@@ -17,7 +17,7 @@ module gfb_bearing_restart
   use gfb_petsc_session, only: this_rank, wall_time
   use gfb_contact_record, only: visit_contact_record
   use gfb_bearing_record, only: bearing_record_type, visit_record, sweep_name, sweep_unit
-  use gfb_restart, only: restart_type, save_restart, read_restart, end_reading
+  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading
   implicit none (type)
   private
   public :: save_bearing, restore_bearing, restore_branch, visit_answer_and_record

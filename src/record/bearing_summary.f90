@@ -1,6 +1,7 @@
 !> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, &
                           place_of
   use gfb_result_names, only: add_result
@@ -13,7 +14,7 @@ module gfb_bearing_summary
   public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
             asked_first
 
-  real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
+  real(wp), parameter :: degrees = 180.0_wp/pi !! per radian
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
 
   !> What an answer cost.

@@ -1,6 +1,7 @@
 !> A strip's answer as results, and how the log shows it.
 module gfb_strip_summary
   use gfb_kinds, only: wp
+  use gfb_units, only: micrometres
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
@@ -29,7 +30,6 @@ module gfb_strip_summary
             answer_quantities, cost_quantities, show_step, show_step_header
 
   integer, parameter :: longest_chain = 60 !! bumps; longer ones can take seconds
-  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   !> Deflections at the full load, [m].
   type :: companions_type

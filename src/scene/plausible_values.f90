@@ -2,6 +2,7 @@
 !> usual ranges of the real keys; each has a row here, or a reason for having none.
 module gfb_plausible_values
   use gfb_kinds, only: wp
+  use gfb_units, only: degree, rpm
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_namelist_file, only: find_elements
   use gfb_namelist_values, only: read_real, value_string
@@ -143,8 +144,8 @@ module gfb_plausible_values
 
   type(unit_type), parameter, public :: units(*) = [ &
     unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
-    unit_type('mrad', 1.0e-3_wp), unit_type('deg', acos(-1.0_wp)/180.0_wp), &
-    unit_type('rpm', acos(-1.0_wp)/30.0_wp), unit_type('krpm', 1.0e3_wp), &
+    unit_type('mrad', 1.0e-3_wp), unit_type('deg', degree), &
+    unit_type('rpm', rpm), unit_type('krpm', 1.0e3_wp), &
     unit_type('ms', 1.0e-3_wp), unit_type('us', 1.0e-6_wp), unit_type('mm/s^2', 1.0e-3_wp), &
     unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
     unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &

@@ -1,6 +1,7 @@
 !> What the groups of a scene ask of each other, all called in one place.
 module gfb_scene_rules
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
   use gfb_case_keys, only: case_keys_type
   use gfb_study_rules, only: check_counts, check_sweep, check_edge_lift, check_accuracy, &
@@ -211,7 +212,6 @@ contains
     integer, intent(in) :: pad !! its number
     real(wp), intent(in) :: eccentricity(2) !! of the sleeve relative to the shaft at that end [m]
     real(wp) :: approach
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: thinnest, edge(2)
 
     edge = bearing%leading_edge_angle + pad_turn(bearing, pad) + [0.0_wp, pad_angle(bearing)]

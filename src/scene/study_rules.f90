@@ -6,6 +6,7 @@
 !> that are given, before anything of that size is made.
 module gfb_study_rules
   use gfb_kinds, only: wp, long
+  use gfb_units, only: pi
   use gfb_study_cases, only: asked_name, of_vibrations, part_strip
   use gfb_foil_cases, only: draw_gaps, largest_gap, top_foil_trailing
   use gfb_case_keys, only: case_keys_type
@@ -30,7 +31,6 @@ module gfb_study_rules
 
   integer(long), parameter :: most_in_all = 50000000_long !! elements of a mesh, steps, answers
   integer(long), parameter :: most_stations = 1000000_long !! elements along a bump strip
-  real(wp), parameter :: pi = acos(-1.0_wp)
 
   !> Elements each way.
   type :: elements_type

@@ -1,6 +1,7 @@
 !> Whether a foil that moves has its mass: what a scene asks for, and what the log says of it.
 module gfb_foil_mass_choice
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
@@ -16,7 +17,6 @@ module gfb_foil_mass_choice
   public :: choose_mass, choose_momentum, resume_momentum, describe_mass
 
   integer, parameter :: digits = 4 !! in the log
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
   real(wp), parameter :: rotors_reach = 1.5_wp !! of rotors' modes, over the speed [1]
 
 contains

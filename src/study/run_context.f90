@@ -11,7 +11,7 @@ module gfb_run_context
   use gfb_scene, only: scene_type
   use gfb_text_file, only: try_folder
   use gfb_file_set, only: case_lock_type, lock_case, unlock_case
-  use gfb_restart, only: restart_type, find_restart_file => find_restart
+  use gfb_restart_file, only: restart_type, find_restart_file => find_restart
   implicit none (type, external)
   private
   public :: prepare_folder

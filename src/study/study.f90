@@ -12,7 +12,7 @@ module gfb_study
   use gfb_reasons, only: reason_type, reason_stopped
   use gfb_run_context, only: run_context_type
   use gfb_cost_events, only: enter_stage, leave_stage
-  use gfb_restart, only: drop_restart
+  use gfb_restart_file, only: drop_restart
   implicit none (type, external)
   private
   public :: run_study, run_points

@@ -1,6 +1,7 @@
 !> Heights of bumps as they are made: random deviations, and the gaps that they leave at the crests.
 module gfb_bump_heights
   use gfb_kinds, only: wp, long
+  use gfb_units, only: turn
   implicit none (type, external)
   private
   public :: normal_deviations, crest_gaps
@@ -21,7 +22,6 @@ contains
     integer, intent(in) :: seed  !! not negative
     integer, intent(in) :: count !! of the numbers
     real(wp) :: deviation(count) !! [1]
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     integer(long) :: state(2)
     real(wp) :: first, second
     integer :: i

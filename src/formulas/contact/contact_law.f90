@@ -31,6 +31,7 @@
 !> so that \( \pi |a|^2 \Im k \) is the energy that a cycle loses. Source: [Cameron1989].
 module gfb_contact_law
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   implicit none (type, external)
   private
   public :: normal_force, friction_force, contact_force, carried_slip, next_place, contact_state, &
@@ -65,7 +66,6 @@ module gfb_contact_law
   integer, parameter :: samples = 64 !! of a cycle
   integer, parameter :: cycles = 2   !! the first one fills the law's memory
   real(wp), parameter :: no_area = 1.0e-13_wp !! of a loop without an area, over the stiffness
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
 

@@ -5,11 +5,11 @@
 !> bore.
 module gfb_bore_profile
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   implicit none (type, external)
   private
   public :: bore_height, bore_kinks, bore_peak
 
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
   real(wp), parameter :: same_angle = 1.0e-9_wp      !! kinks that are nearer are one [rad]
 
   !> Height of a bore over the circle; none where nothing is set.

@@ -134,11 +134,11 @@ contains
     i = 1
     last = size(table%place)
     if (place < table%place(1)) then
-      call go_on(table%value(1), table%slope(1), place - table%place(1), value, slope, curvature)
+      call extend(table%value(1), table%slope(1), place - table%place(1), value, slope, curvature)
       return
     else if (place > table%place(last)) then
-      call go_on(table%value(last), table%slope(last), place - table%place(last), value, slope, &
-                 curvature)
+      call extend(table%value(last), table%slope(last), place - table%place(last), value, slope, &
+                  curvature)
       return
     end if
     do while (last - i > 1)
@@ -164,7 +164,7 @@ contains
   end subroutine table_at
 
   !> A line from an end, or where that falls an exponential.
-  elemental subroutine go_on(end_value, end_slope, distance, value, slope, curvature)
+  elemental subroutine extend(end_value, end_slope, distance, value, slope, curvature)
     real(wp), intent(in) :: end_value, end_slope
     real(wp), intent(in) :: distance !! from the end
     real(wp), intent(out) :: value, slope, curvature
@@ -178,7 +178,7 @@ contains
       slope = value*end_slope/end_value
       curvature = slope*end_slope/end_value
     end if
-  end subroutine go_on
+  end subroutine extend
 
   !> Constants of a fluid.
   elemental function peng_robinson(temperature, critical_temperature, critical_pressure, &

@@ -1,10 +1,10 @@
 !> What drives a shaft over time: speed, loads, motion of the base, or a given orbit.
 module gfb_shaft_drive
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   implicit none (type, external)
   private
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
 
   !> What is given over the time; all of it begins at 0.
   type, public :: shaft_drive_type

@@ -17,11 +17,11 @@
 !> themselves by up to (w D)^2/8, 1.4e-3.
 module gfb_spectra
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   implicit none (type, external)
   private
   public :: extremes_of, spectra_of, points_a_turn
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
   integer, parameter :: most_turns = 8     !! of a window
   integer, parameter :: least_turns = 2    !! below which there is none
   integer, parameter :: most_windows = 40  !! they overlap by half or less

@@ -125,8 +125,8 @@ contains
       law = contacts%law_of(point)
       stiffness = law%normal_stiffness*point%length
       change = [0.0_wp, 0.0_wp, stiffness*(1.0_wp - law%adhesion)]
-      if (.not. law%adhesion > 0.0_wp .and. contacts%lends) then
-        change(normal) = stiffness - contacts%floor_normal*point%length
+      if (.not. law%adhesion > 0.0_wp .and. contacts%artificial) then
+        change(normal) = stiffness - contacts%artificial_normal*point%length
       end if
       if (law%friction > 0.0_wp) then
         call friction_force(law, point%place(:2), max(point%force(normal), 0.0_wp), rubbing, &

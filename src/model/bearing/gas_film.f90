@@ -1,6 +1,7 @@
 !> One rank's part of the gas film: gather, kernel, scatter over its elements.
 module gfb_gas_film
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, widen, film_shapes, &
                                most_film_nodes
@@ -117,7 +118,6 @@ contains
     type(gas_film_type), intent(inout) :: film
     type(error_type), allocatable, intent(out) :: error
 
-    real(wp), parameter :: pi = acos(-1.0_wp)
     real(wp) :: position(2, size(film%shape, 1)), weight(film_forces, size(film%shape, 1))
     real(wp) :: angle(size(film%shape, 1))
     integer :: element

@@ -1,4 +1,4 @@
-!> The laws of a scene's contacts: stiffness, friction, and what they lend to the matrix.
+!> The laws of a scene's contacts: stiffness, friction, and artificial stiffness of the matrix.
 module gfb_contact_laws
   use gfb_kinds, only: wp
   use gfb_contact_case, only: contact_case_type, direction_motion, surface_face, motion_coulomb
@@ -12,14 +12,14 @@ module gfb_contact_laws
   public :: set_contact_laws
 
   real(wp), parameter :: first_penetration = 1.0e-4_wp !! that counts, over a typical displacement
-  !> Lent to slaves in the matrix alone, over a bump's stiffness, so that a floating foil leaves it
-  !> regular.
-  real(wp), parameter :: normal_floor = 1.0e-7_wp
+  !> Artificial stiffness of slaves, in the matrix alone, over a bump's, so that a floating foil
+  !> leaves it regular.
+  real(wp), parameter :: normal_share = 1.0e-7_wp
 
 contains
 
-  !> Sets what sleeve and top are to the bumps, which surfaces touch, and what the contacts
-  !> lend to the matrix.
+  !> Sets what sleeve and top are to the bumps, which surfaces touch, and what artificial
+  !> stiffness the contacts have in the matrix.
   subroutine set_contact_laws(contact, foil, displacement, contacts)
     type(contact_case_type), intent(in) :: contact !! what `&contact` asks for
     type(bump_foil_case_type), intent(in) :: foil  !! what `&bump_foil` asks for
@@ -30,7 +30,7 @@ contains
     contacts%sticks_in_motion = contact%friction_law_in_motion == motion_coulomb
     contacts%at_faces = contact%contact_surface == surface_face
     contacts%secant_penetration = first_penetration*displacement
-    contacts%floor_normal = normal_floor*bump_stiffness(foil)*foil%pitch%value
+    contacts%artificial_normal = normal_share*bump_stiffness(foil)*foil%pitch%value
   end subroutine set_contact_laws
 
   !> The laws of sleeve and top.

@@ -24,9 +24,9 @@ module gfb_contact_set
     logical :: at_faces = .false.              !! faces touch, not mid-surfaces
     integer, allocatable :: global(:)          !! numbers, from 0, of the unknowns they touch
     real(wp) :: secant_penetration = 0.0_wp    !! glued contacts are as stiff as at this one [m]
-    real(wp) :: floor_tangential = 0.0_wp      !! stiffness lent to a slave in the matrix, per length
-    real(wp) :: floor_normal = 0.0_wp          !! [N/m2], so that a floating foil leaves it regular
-    logical :: lends = .true.                  !! `floor_normal` is lent; without, the matrix is exact
+    real(wp) :: artificial_tangential = 0.0_wp !! of a slave in the matrix alone, per length
+    real(wp) :: artificial_normal = 0.0_wp     !! [N/m2], so that a floating foil leaves it regular
+    logical :: artificial = .true.             !! the matrix has it; without, it is exact
     real(wp) :: softening = 1.0_wp             !! factor of the stick length, of a homotopy
     real(wp) :: hardness = 1.0_wp              !! factor of the normal stiffness, of a homotopy
     real(wp) :: adhesion = 0.0_wp              !! stiffness against opening over that, of a homotopy
@@ -254,10 +254,10 @@ contains
       own = -point%derivative
       own(:, 3) = -own(:, 3) ! penetration grows against the normal
       if (.not. point%pressed .and. .not. self%glued .and. .not. own(3, 3) > 0.0_wp) then
-        own(3, 3) = merge(self%floor_normal, 0.0_wp, self%lends)*point%length
+        own(3, 3) = merge(self%artificial_normal, 0.0_wp, self%artificial)*point%length
       end if
-      own(1, 1) = own(1, 1) + self%floor_tangential*point%length
-      own(2, 2) = own(2, 2) + self%floor_tangential*point%length
+      own(1, 1) = own(1, 1) + self%artificial_tangential*point%length
+      own(2, 2) = own(2, 2) + self%artificial_tangential*point%length
       own = matmul(point%frame, matmul(own, transpose(point%frame)))
       block = block_of(point, own)
     end associate

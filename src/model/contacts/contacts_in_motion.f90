@@ -15,6 +15,7 @@
 !> motion a contact sticks elastically up to Coulomb's limit, from the friction that it has at rest.
 module gfb_contacts_in_motion
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_contact_law, only: contact_law_type, friction_force, law_coulomb, slip_of_friction, &
                              friction_stiffness
   use gfb_contact_set, only: contact_set_type
@@ -95,7 +96,6 @@ contains
     real(wp), intent(in) :: amplitude        !! that they are scaled with; zero: all stick [m]
     complex(wp), intent(out) :: stiffness(:) !! one a contact; zero where none rubs [N/m]
     real(wp), intent(out) :: lost              !! [J]
-    real(wp), parameter :: pi = acos(-1.0_wp)
     type(contact_law_type) :: law
     real(wp) :: still(size(cosine)), origin(3), in_phase(3), behind(3), pressing
     complex(wp) :: motion(2)

@@ -230,9 +230,9 @@ contains
         point(i)%derivative(1, 1) = -stiffness(i)
         if (.not. law(point(i)%law)%one_way) point(i)%derivative(2, 2) = -stiffness(i)
       end do
-      foil%contacts%lends = .false.
+      foil%contacts%artificial = .false.
       call foil%add_jacobian(unknown, matrix)
-      foil%contacts%lends = .true.
+      foil%contacts%artificial = .true.
       do i = 1, size(point)
         point(i)%derivative = kept(:, :, i)
       end do

@@ -2,12 +2,12 @@
 !> foil and film above the crests.
 module gfb_aligned_mesh
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_film_mesh, only: film_mesh_type
   implicit none (type, external)
   private
   public :: align_stations, kinks_inside, aligned_stations, elements_at_ends
 
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
   real(wp), parameter :: on_side = 1.0e-8_wp         !! nearer is on a side, over an element [1]
   real(wp), parameter :: rounding = 1.0e-9_wp        !! of lengths that fit exactly, relative [1]
   real(wp), parameter :: alike = 1.0e-6_wp           !! of elements, that is none [1]

@@ -1,6 +1,7 @@
 !> The film's mesh: a rectangle of the unrolled pad, or all around; rows of film and foils.
 module gfb_film_mesh
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_film_surface, only: film_surface_type, cylinder
   implicit none (type, external)
   private
@@ -188,7 +189,6 @@ contains
     real(wp), intent(in) :: axial     !! z on the meshed width [m]
     integer, intent(out) :: node(4)   !! of the whole mesh
     real(wp), intent(out) :: share(4) !! of the four nodes, adding up to one [1]
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp) :: along, across
     integer :: i, j, here, next
 

@@ -2,6 +2,7 @@
 !> columns of elements.
 module gfb_part_chains
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_shell_geometry, only: node_unknowns
   use gfb_film_mesh, only: film_mesh_type
   use gfb_foil_mesh, only: strip_shape_type, dividing_stations, station_positions, &
@@ -20,7 +21,6 @@ contains
     type(film_mesh_type), intent(in) :: film !! the film's mesh
     logical, intent(in) :: shells !! on a top foil of shells
     type(chain_type) :: columns
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     real(wp), allocatable :: bound(:), weight(:)
 
     bound = film%surface%radius*(film%station_angle - film%station_angle(1))

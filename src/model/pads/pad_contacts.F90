@@ -34,15 +34,15 @@ contains
   end subroutine set_adhesion
 
   !> Whether the matrix has a stiffness at contacts that are open: it keeps Newton's steps short, but is no derivative.
-  subroutine set_lending(bearing, lends)
+  subroutine set_artificial_stiffness(bearing, artificial)
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
-    logical, intent(in) :: lends !! it has
+    logical, intent(in) :: artificial !! it has
     integer :: i
 
     do i = 1, size(bearing%pad)
-      bearing%pad(i)%foil%contacts%lends = lends
+      bearing%pad(i)%foil%contacts%artificial = artificial
     end do
-  end subroutine set_lending
+  end subroutine set_artificial_stiffness
 
   !> The bearing's matrix at its state, without the artificial stiffness of contacts that are open: that keeps Newton's
   !> steps short, but is no derivative.
@@ -50,9 +50,9 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! whose contacts are linearised
     logical, intent(in) :: fixed !! the shaft is fixed
 
-    call set_lending(bearing, .false.)
+    call set_artificial_stiffness(bearing, .false.)
     call bearing%linearise_at(bearing%point, fixed, bearing%state)
-    call set_lending(bearing, .true.)
+    call set_artificial_stiffness(bearing, .true.)
   end subroutine linearise_exactly
 
   !> SUPG instead of Galerkin for the films of all pads.

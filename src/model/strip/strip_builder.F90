@@ -34,9 +34,9 @@ module gfb_strip_builder
 
   integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
 
-  !> Lent to slaves in the matrix alone, over a bump's stiffness: a free strip that slides everywhere at
-  !> its friction limit leaves it regular.
-  real(wp), parameter :: tangential_floor = 1.0e-5_wp
+  !> Artificial stiffness of slaves, in the matrix alone, over a bump's: a free strip that slides everywhere
+  !> at its friction limit leaves it regular.
+  real(wp), parameter :: tangential_share = 1.0e-5_wp
 
 contains
 
@@ -63,7 +63,7 @@ contains
                           scene%mesh%axial_elements
       call set_contact_laws(scene%contact, scene%bump_foil, strip%scale%length, strip%contacts)
       if (foil%fixed_edge == fixed_edge_none) then
-        strip%contacts%floor_tangential = tangential_floor*bump_stiffness(foil)*foil%pitch%value
+        strip%contacts%artificial_tangential = tangential_share*bump_stiffness(foil)*foil%pitch%value
       end if
       call add_contacts(scene, strip)
       call create_strip_system(strip)

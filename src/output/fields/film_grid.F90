@@ -1,6 +1,7 @@
 !> The film of a bearing as a surface with fields.
 module gfb_film_grid
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_study_cases, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
@@ -83,7 +84,6 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: pads !! of a bearing
     real(wp), allocatable :: position(:)
-    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
     integer :: i
 
     associate (first => bearing%pad(1)%whole)

@@ -1,6 +1,7 @@
 !> `&bearing` and `&pads`: the pad, or several equal ones with their preload.
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
+  use gfb_units, only: turn
   use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive
   use gfb_text, only: text
   implicit none (type, external)
@@ -14,7 +15,6 @@ module gfb_bearing_case
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
   character(len=*), parameter :: group = 'pads'
   real(wp), parameter :: rounding = 1.0e-9_wp !! of angles that are meant to be equal [rad]
-  real(wp), parameter, public :: full_turn = 2.0_wp*acos(-1.0_wp) !! [rad]
 
   !> The pad.
   type :: bearing_case_type
@@ -48,7 +48,7 @@ contains
                        'radial clearance, shaft to top foil at rest', positive, with_film, &
                        default=merge('    ', no_default, with_film))
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
-                       'where the pad begins; it ends at 2 pi', from_below(0.0_wp, full_turn))
+                       'where the pad begins; it ends at 2 pi', from_below(0.0_wp, turn))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &
                          'ambient pressure at both ends of the pad, or a full ring')
     call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
@@ -64,7 +64,7 @@ contains
   elemental function pad_angle(bearing) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     real(wp) :: angle
-    angle = full_turn - bearing%leading_edge_angle
+    angle = turn - bearing%leading_edge_angle
     if (bearing%arc > 0.0_wp) angle = bearing%arc
   end function pad_angle
 
@@ -73,7 +73,7 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     integer, intent(in) :: pad !! its number, from 1
     real(wp) :: angle
-    angle = full_turn*real(pad - 1, wp)/real(bearing%pads, wp)
+    angle = turn*real(pad - 1, wp)/real(bearing%pads, wp)
   end function pad_turn
 
   !> Where the preload narrows the gap of a pad most, theta_p [rad].
@@ -108,9 +108,9 @@ contains
                        'trailing edge', positive, &
                        default='2 pi/count less gap; of one pad to 2 pi')
     call keys%real_key('first_leading_edge', first, 'rad', 'where pad 1 begins', &
-                       from_below(0.0_wp, full_turn), default='leading_edge_angle in &bearing')
+                       from_below(0.0_wp, turn), default='leading_edge_angle in &bearing')
     call keys%real_key('gap', gap, 'rad', 'angle between the trailing edge of a pad and the '// &
-                       'leading edge of the next', from_below(0.0_wp, full_turn), &
+                       'leading edge of the next', from_below(0.0_wp, turn), &
                        default='2 pi/count less arc')
     call keys%real_key('preload', bearing%preload, '1', 'shift of a pad''s centre of curvature '// &
                        'towards the shaft, over the clearance', from_below(0.0_wp, 1.0_wp))
@@ -122,7 +122,7 @@ contains
     bearing%leading_edge_angle = first
     if (keys%meant(group, 'arc')) return
     if (bearing%pads > 1 .or. keys%meant(group, 'gap')) then
-      bearing%arc = max(full_turn/bearing%pads - gap, rounding)
+      bearing%arc = max(turn/bearing%pads - gap, rounding)
     end if
   end subroutine read_pads_case
 
@@ -153,7 +153,7 @@ contains
     character(len=:), allocatable :: room
     real(wp) :: share
 
-    share = full_turn/bearing%pads
+    share = turn/bearing%pads
     room = text(share, 7)//' rad, 2 pi over count'
     if (keys%meant(group, 'arc') .and. bearing%arc > share + rounding) then
       call keys%complain(group, 'arc', 'must not be longer than '//room//': the pads overlap')

@@ -1,6 +1,7 @@
 !> `&bore`: where the bore is no circle.
 module gfb_bore_case
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
   use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, from_below, from_to, &
@@ -12,7 +13,6 @@ module gfb_bore_case
   public :: bore_case_type, read_bore_case
 
   character(len=*), parameter :: group = 'bore'
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp) !! [rad]
   real(wp), parameter :: most_waves = 1000.0_wp      !! more are roughness, which no film mesh shows
 
   !> The bore.

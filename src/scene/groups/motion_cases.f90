@@ -2,6 +2,7 @@
 !> `&rotor` with its `&unbalance`, and `&foil_damping`, what foils are then.
 module gfb_motion_cases
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_case_keys, only: case_keys_type, no_default, unless, from_to, not_negative, positive, &
                            any_value, longest_list, at_least, between
   use gfb_maxwell_arm, only: maxwell_arm_type
@@ -87,7 +88,6 @@ module gfb_motion_cases
     integer :: start_turns = 2              !! marched before the first orbit is looked for
   end type periodic_case_type
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
   integer, parameter :: longest_table = 100000
 
   !> What is asked for.

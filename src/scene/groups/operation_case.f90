@@ -1,6 +1,7 @@
 !> `&operation`: speed, load and position of the shaft.
 module gfb_operation_case
   use gfb_kinds, only: wp, most_pads
+  use gfb_units, only: rpm
   use gfb_case_keys, only: case_keys_type, no_default, any_value
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
@@ -13,7 +14,6 @@ module gfb_operation_case
     'change the signs of y in load and eccentricity and of the tilt about x, and swap leading '// &
     'and trailing edges'
 
-  real(wp), parameter :: radians_per_second_of_rpm = acos(-1.0_wp)/30.0_wp
 
   !> Operating point.
   type :: operation_case_type
@@ -85,6 +85,6 @@ contains
   elemental function angular_speed(speed_rpm) result(speed)
     real(wp), intent(in) :: speed_rpm !! [rpm]
     real(wp) :: speed
-    speed = speed_rpm*radians_per_second_of_rpm
+    speed = speed_rpm*rpm
   end function angular_speed
 end module gfb_operation_case

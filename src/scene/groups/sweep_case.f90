@@ -2,6 +2,7 @@
 !> do.
 module gfb_sweep_case
   use gfb_kinds, only: wp
+  use gfb_units, only: degree
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, rule_type
   use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_scene_case, only: is_bearing, misplaced_group
@@ -26,7 +27,6 @@ module gfb_sweep_case
                                                'that of parameter', 'N', 'rpm', 'rad', 'rad', &
                                                'm', 'm', 'deg', 'that of parameter']
 
-  real(wp), parameter :: degree = acos(-1.0_wp)/180.0_wp !! [rad]
   integer, parameter, public :: every_element = -1 !! of a list
 
   !> A key of the case file, or a value of one that is a list.

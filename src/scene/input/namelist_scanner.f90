@@ -49,7 +49,7 @@ module gfb_namelist_scanner
     logical :: in_entry = .false.
     logical :: stray = .false.        !! a run of stray words has been complained about
     logical :: after_comma = .false.  !! a comma here would leave a value out
-    logical :: told = .false.         !! this entry has been complained about
+    logical :: reported = .false.     !! this entry has been complained about
   end type scanner_type
 
 contains
@@ -353,7 +353,7 @@ contains
 
     call end_entry(self)
     length = key_length(self, i)
-    self%told = .false.
+    self%reported = .false.
     if (length > 2) then
       section%element = bad_index
       if (self%tokens(i + length - 2)%kind == token_close) then
@@ -363,7 +363,7 @@ contains
     end if
     associate (token => self%tokens(i))
       if (section%element == bad_index) then
-        self%told = .true.
+        self%reported = .true.
         call complain(self, token%line, "the index of '"// &
                             shown(token_words(self, i))//"' must be one whole number from 1 on"// &
                             ', or a section such as 1:3')
@@ -385,7 +385,7 @@ contains
 
     if (self%in_entry) then
       associate (entry => self%file%entries(self%n_entries))
-        if (self%told) then
+        if (self%reported) then
           entry%wrong = .true.
           self%file%values(entry%first_value:entry%last_value)%wrong = .true.
         else if (entry%last_value < entry%first_value) then
@@ -395,7 +395,7 @@ contains
       end associate
     end if
     self%in_entry = .false.
-    self%told = .false.
+    self%reported = .false.
   end subroutine end_entry
 
   !> Takes a comma; two of them, or one after the equals sign, leave a value out.
@@ -403,7 +403,7 @@ contains
     type(scanner_type), intent(inout) :: self
     integer, intent(in) :: i
 
-    if (self%after_comma .and. .not. self%told) then
+    if (self%after_comma .and. .not. self%reported) then
       call complain(self, self%tokens(i)%line, 'a value is left out before a comma')
     end if
     self%after_comma = .true.
@@ -415,7 +415,7 @@ contains
     integer, intent(in) :: i
     character(len=:), allocatable :: key
 
-    if (self%told) return
+    if (self%reported) return
     key = shown(self%file%key_name(self%n_entries))
     call complain(self, self%tokens(i)%line, key//": unexpected '"// &
                         token_words(self, i)//"'; values stand without parentheses: "//key// &
@@ -459,12 +459,12 @@ contains
       end if
       if (value%kind == value_word .and. &
           has_kind(self%file%words(value%first:value%last)) .and. self%in_entry) then
-        if (.not. self%told) then
+        if (.not. self%reported) then
           call complain(self, value%line, shown(self%file%key_name(self%n_entries))// &
                               ' = '//shown(token_words(self, i))//': a namelist has no kinds '// &
                               "of numbers, and no digits divided by '_'")
         end if
-        self%told = .true.
+        self%reported = .true.
         self%after_comma = .false.
         return
       end if
@@ -474,7 +474,7 @@ contains
       value%wrong = .true.
     end if
     if (.not. self%in_entry) then
-      if (.not. (self%told .or. value%wrong)) then
+      if (.not. (self%reported .or. value%wrong)) then
         call complain_about_value(self, i, 'a value without a key')
       end if
       return
@@ -502,7 +502,7 @@ contains
     character(len=*), intent(in) :: words !! what is wrong
 
     call self%complaints%add(line, place(self)//words)
-    self%told = .true.
+    self%reported = .true.
   end subroutine complain
 
   !> A token as typed.

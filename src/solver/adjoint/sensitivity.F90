@@ -13,6 +13,7 @@ module gfb_sensitivity
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_scene, only: scene_type
   use gfb_study_cases, only: parameter_type, quantity_words
   use gfb_sweep_case, only: swept_key_type, swept_keys
@@ -38,7 +39,7 @@ module gfb_sensitivity
   real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
   real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp] !! exact where all is linear
   real(wp), parameter :: enough = 1.0e-10_wp    !! residual of an adjoint, over its right side [1]
-  real(wp), parameter :: degrees = 180.0_wp/acos(-1.0_wp) !! per radian
+  real(wp), parameter :: degrees = 180.0_wp/pi !! per radian
   integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
 
   !> What is found of an answer.
@@ -68,7 +69,7 @@ module gfb_sensitivity
 
 contains
 
-  !> The matrix of the bearing's equations at its answer, without what is lent to open contacts.
+  !> The matrix of the bearing's equations at its answer, without artificial stiffness of open contacts.
   subroutine keep_tangent(bearing, tangent)
     type(bearing_system_type), intent(inout) :: bearing !! at an answer
     Mat, intent(out) :: tangent !! its copy

@@ -134,7 +134,7 @@ contains
     call complete_response(bearing, vibration, response)
   end subroutine create_response
 
-  !> Derivative of the steady equations, the shaft fixed, without what is lent to open contacts.
+  !> Derivative of the steady equations, the shaft fixed, without artificial stiffness of open contacts.
   subroutine linearise_steady(bearing, stick, steady, opposite)
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     logical, intent(in) :: stick !! contacts that rub stick

@@ -343,14 +343,14 @@ contains
   end function path_gives_up
 
   !> Where steps are too short: goes to the end of the branch, or past what hindered.
-  subroutine rescue_path(self, step, goes_on)
+  subroutine rescue_path(self, step, continues)
     class(point_path_type), intent(inout) :: self !! the path
     real(wp), intent(inout) :: step !! share of the path [1]
-    logical, intent(out) :: goes_on
+    logical, intent(out) :: continues
     logical :: has_told
 
     self%why = 'no step, however short, leads on ('//self%why//')'
-    goes_on = .false.
+    continues = .false.
     if (.not. (self%settings%look_for_folds .and. self%bearing%floats)) return
     ! A film without contacts that closes or is emptied has told its end; beyond it there is only rounding.
     has_told = is_closing(self%bearing)
@@ -358,8 +358,8 @@ contains
     if (has_told .and. .not. self%bearing%has_contacts()) return
     self%rescues = self%rescues + 1
     if (self%rescues > most_rescues) return
-    call find_end(self, goes_on)
-    if (goes_on) step = 4.0_wp*self%smallest
+    call find_end(self, continues)
+    if (continues) step = 4.0_wp*self%smallest
   end subroutine rescue_path
 
   !> Whether the shaft has come too near.
@@ -369,9 +369,9 @@ contains
   end function too_thin
 
   !> Where no step leads on: goes to the very end of the branch, or past what hindered.
-  subroutine find_end(path, goes_on)
+  subroutine find_end(path, continues)
     class(point_path_type), intent(inout) :: path
-    logical, intent(out) :: goes_on
+    logical, intent(out) :: continues
     real(wp) :: left, ahead
     integer :: outcome
 
@@ -379,13 +379,13 @@ contains
     left = 1.0_wp - path%at
     call look_beyond(path%bearing, path%newton, path%target, path%before, path%at_before >= 0.0_wp, &
                      min(1.0_wp, 2.0_wp*path%smallest/left), outcome, ahead)
-    goes_on = outcome == branch_continues
+    continues = outcome == branch_continues
     path%folds = outcome == branch_folds
     if (ahead > 0.0_wp) then
       call path%accept(path%at)
       path%at = path%at + min(ahead, 1.0_wp - path%smallest)*left ! the target itself is still to be met
     end if
-    if (outcome == branch_lost .and. path%bearing%has_contacts()) call leap(path, goes_on)
+    if (outcome == branch_lost .and. path%bearing%has_contacts()) call leap(path, continues)
   end subroutine find_end
 
   !> Where the branch is lost: takes an answer a little farther on that is near enough, with Newton's steps bent at contacts

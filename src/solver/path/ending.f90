@@ -2,6 +2,7 @@
 !> written here alone, but for what a search that is lost says of its last step.
 module gfb_ending
   use gfb_kinds, only: wp
+  use gfb_units, only: micrometres
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
   use gfb_work_bound, only: gave_up_words
@@ -18,7 +19,6 @@ module gfb_ending
   integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
   integer, parameter, public :: ending_stopped = 6    !! before anything was shown
 
-  real(wp), parameter, public :: micrometres = 1.0e6_wp !! in a metre
 
   !> An ending.
   type, public :: ending_type

@@ -2,8 +2,8 @@
 !>
 !> What is followed, an operating point, a key of the case file, an interference or the stiffness of
 !> contacts, extends `path_problem_type`; how its steps grow and shrink is data, `step_rules_type`.
-!> Branches round folds (`arc`), load steps of strips (`load_step`), branches of orbits and steps of
-!> time have lengths of their own.
+!> Branches round folds (`arc`), load steps of strips (`strip_load_step`), branches of orbits and
+!> steps of time have lengths of their own.
 module gfb_stepper
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -80,7 +80,7 @@ contains
     integer, intent(out) :: ending !! one of those above
     real(wp) :: step, trial
     integer :: iterations
-    logical :: converged, easy, just_cut, goes_on
+    logical :: converged, easy, just_cut, continues
 
     step = rules%first_step
     just_cut = .false.
@@ -110,9 +110,9 @@ contains
         if (rules%cuts_the_trial) step = min(step, trial - problem%at)
         step = 0.5_wp*step
         if (step >= rules%smallest_step) cycle
-        call problem%rescue(step, goes_on)
+        call problem%rescue(step, continues)
         ending = steps_too_short
-        if (.not. goes_on) exit
+        if (.not. continues) exit
         ending = steps_too_far
         if (problem%is_too_far()) exit
       end if
@@ -132,11 +132,11 @@ contains
   end function never_gives_up
 
   !> A path on which nothing is tried where steps are too short.
-  subroutine no_rescue(self, step, goes_on)
+  subroutine no_rescue(self, step, continues)
     class(path_problem_type), intent(inout) :: self !! the problem, at its last answer
     real(wp), intent(inout) :: step !! in: too short; out: to try next
-    logical, intent(out) :: goes_on !! there is a next one
-    goes_on = .false.
+    logical, intent(out) :: continues !! there is a next one
+    continues = .false.
   end subroutine no_rescue
 
   !> A path that ends nowhere before its end.

@@ -17,6 +17,7 @@
 module gfb_period_map
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_spring_history, only: spring_history_type, put_deflections, begin_springs
   use gfb_march_state, only: march_settings_type, pad_history_type
   use gfb_bearing_system, only: bearing_system_type
@@ -33,7 +34,6 @@ module gfb_period_map
 
   integer, parameter :: deflections = 1, dashpots = 2 !! what may be remembered
   integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3 !! what the parameter is
-  real(wp), parameter, public :: pi = acos(-1.0_wp)
   integer, parameter :: planar = 2                      !! components of a place
   integer, parameter :: shaft_entries = 4*planar !! of a point: places, then velocities, now and one step ago
   integer, parameter, public :: tail = shaft_entries + 2 !! entries that every rank has; the last: period, parameter

@@ -14,9 +14,10 @@
 !> are known from the place one step ago, which is part of its vector.
 module gfb_shooting
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_text, only: text
   use gfb_linear_solve, only: solve_general
-  use gfb_period_map, only: period_map_type, apply_map, dots, length_of, pi, tail, period_of, drive_at, parameter_of
+  use gfb_period_map, only: period_map_type, apply_map, dots, length_of, tail, period_of, drive_at, parameter_of
   use gfb_shaft_drive, only: shaft_drive_type
   implicit none (type)
   private

@@ -40,6 +40,7 @@
 !> product has none, so its zeros can be counted, and found from starts nearby.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: log_determinant
@@ -52,7 +53,6 @@ module gfb_rotor_modes
   private
   public :: find_determinant, solve_mode, find_rotor_modes, find_all_modes, is_of_shaft, is_of_foil
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
   integer, parameter :: first_steps = 16 !! of the half circle
   !> Of the phase; five times as much would not be seen.
   real(wp), parameter :: largest_step = pi/3.0_wp

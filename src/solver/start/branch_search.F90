@@ -8,8 +8,8 @@
 module gfb_branch_search
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_units, only: micrometres
   use gfb_text, only: text
-  use gfb_ending, only: micrometres
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer

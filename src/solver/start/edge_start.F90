@@ -8,7 +8,8 @@
 !> Edges of several pads are released one after the other.
 module gfb_edge_start
   use gfb_kinds, only: wp, most_pads
-  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold, micrometres
+  use gfb_units, only: micrometres
+  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold
   use gfb_petsc_session, only: any_rank
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
@@ -20,7 +21,7 @@ module gfb_edge_start
   use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, trial_settings, &
                                with_fixed_edges, first_step, shortest_trial
   use gfb_saved_state, only: saved_state_type
-  use gfb_contact_start, only: approach, try_soft_contacts, usual_contacts
+  use gfb_soft_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
   private
   public :: try_free_edge

@@ -11,8 +11,8 @@ module gfb_start_list
   use gfb_saved_state, only: saved_state_type
   use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
-  use gfb_rigid_start, only: try_from_rest, try_laid_down
-  use gfb_contact_start, only: try_soft_contacts, usual_contacts
+  use gfb_contactless_start, only: try_from_rest, try_laid_down
+  use gfb_soft_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
   use gfb_edge_start, only: resting, next_height, try_free_edge
   use gfb_interference_start, only: close_interference, set_interference

@@ -3,6 +3,7 @@
 module gfb_march_state
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
@@ -15,7 +16,6 @@ module gfb_march_state
   private
   public :: visit_march, allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
 
-  real(wp), parameter :: pi = acos(-1.0_wp)
 
   !> What was before, on this rank, of a pad: now and one step ago.
   type, public :: pad_history_type

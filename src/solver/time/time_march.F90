@@ -37,9 +37,9 @@ module gfb_time_march
 contains
 
   !> Friction of foils that begin to move: all contacts rub as motions have it from now on; what they rub with stays as it is.
-  subroutine begin_rubbing(bearing, goes_on)
+  subroutine begin_rubbing(bearing, continues)
     type(bearing_system_type), intent(inout) :: bearing !! at rest, or where a restart file has left it
-    logical, intent(in) :: goes_on !! its contacts remember what they did in motion
+    logical, intent(in) :: continues !! its contacts remember what they did in motion
     real(wp) :: unknown(bearing%local_size())
     integer :: i
 
@@ -48,7 +48,7 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call set_contacts_moving(pad%foil%contacts)
-        if (goes_on) cycle
+        if (continues) cycle
         call take_over_friction(pad%foil%own_part(unknown(pad%first + 1:pad%last)), pad%foil%contacts)
       end associate
     end do

@@ -2,7 +2,7 @@
 !> An answer of a scene goes into the record, with all that is asked of it.
 module gfb_answer_record
   use gfb_kinds, only: wp
-  use gfb_ending, only: micrometres
+  use gfb_units, only: micrometres
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_text, only: text
   use gfb_scene, only: scene_type

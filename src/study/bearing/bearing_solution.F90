@@ -3,6 +3,7 @@
 !> none.
 module gfb_bearing_solution
   use gfb_kinds, only: wp
+  use gfb_units, only: pi, degree
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
@@ -31,7 +32,6 @@ module gfb_bearing_solution
   implicit none (type)
   private
 
-  real(wp), parameter :: degree = acos(-1.0_wp)/180.0_wp !! [rad]
 
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
@@ -73,7 +73,7 @@ module gfb_bearing_solution
 
 contains
 
-  !> What the solvers are told, and an empty record.
+  !> Settings of the solvers, and an empty record.
   subroutine set_up(self, scene, plan, context)
     class(bearing_solution_type), target, intent(inout) :: self !! the solution
     type(scene_type), intent(in) :: scene !! what is asked for
@@ -364,13 +364,13 @@ contains
                       text(force(2), 5)//') N, '//thinnest_film(self%bearing))
       case (reason_no_equilibrium, reason_no_limit)
         call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
-                      ') N, speed '//text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, tilt ('// &
+                      ') N, speed '//text(point%speed*30.0_wp/pi, 5)//' rpm, tilt ('// &
                       text(point%place(4), 4)//', '//text(point%place(5), 4)//') rad, '// &
                       thinnest_film(self%bearing))
       case default
         call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)// &
                       ' % of the path, speed '// &
-                      text(point%speed*30.0_wp/acos(-1.0_wp), 5)//' rpm, '//thinnest_film(self%bearing))
+                      text(point%speed*30.0_wp/pi, 5)//' rpm, '//thinnest_film(self%bearing))
       end select
     end associate
   end subroutine explain

@@ -98,7 +98,7 @@ contains
 
     associate (solution => self%solution)
       call solution%set_up(scene, self%plan, context)
-      if (context%restart%goes_on) then
+      if (context%restart%continues) then
         last = context%restart%step
         call solution%resume(error)
         if (allocated(error)) return

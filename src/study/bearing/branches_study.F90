@@ -1,10 +1,10 @@
 !> All equilibria of a bearing that can be found, from a set of starts, side by side.
 module gfb_branches_study
   use gfb_kinds, only: wp
+  use gfb_units, only: micrometres
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_ending, only: micrometres
   use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
   use gfb_result_names, only: add_result
   use gfb_c_library, only: peak_memory

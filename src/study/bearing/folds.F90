@@ -82,7 +82,7 @@ contains
       branch%last = sweep%target_at(size(values))
       branch%lambda = (values - values(1))/(values(size(values)) - values(1))
       begun = .false.
-      if (restart%goes_on) then
+      if (restart%continues) then
         call bearing%linearise(bearing%state) ! an arc needs to know which entries the matrix has
         call restore_branch(restart, branch%last, bearing, sweep%newton, branch, begun, error)
         if (allocated(error)) return

@@ -155,14 +155,14 @@ contains
   end function has_steps
 
   !> Where steps are too short: longer ones, bent at contacts that change.
-  subroutine leap(self, step, goes_on)
+  subroutine leap(self, step, continues)
     class(key_path_type), intent(inout) :: self !! the path
     real(wp), intent(inout) :: step !! share of the way [1]
-    logical, intent(out) :: goes_on !! they have not been tried yet
+    logical, intent(out) :: continues !! they have not been tried yet
 
-    goes_on = .not. self%leaps
+    continues = .not. self%leaps
     self%leaps = .true.
-    if (goes_on) step = 1.0_wp - self%at
+    if (continues) step = 1.0_wp - self%at
   end subroutine leap
 
   !> Whether the shaft touches down.

@@ -54,7 +54,7 @@ contains
     if (allocated(error) .or. self%reason%is_given()) return
     allocate (self%motion)
     associate (bearing => self%solution%bearing, newton => self%solution%newton, record => self%solution%record)
-      if (.not. context%restart%goes_on) then
+      if (.not. context%restart%continues) then
         call judge_first_point(self%solution)
         if (scene%rotor%distance_in_time > 0.0_wp) call stand_on_two(scene, context%log, bearing, newton, record, error)
         if (allocated(error)) return

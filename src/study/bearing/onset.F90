@@ -3,6 +3,7 @@
 !> point from which it is followed over time.
 module gfb_onset
   use gfb_kinds, only: wp
+  use gfb_units, only: rpm
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type, place_of, number_in
   use gfb_result_table, only: at_begin_of_time
@@ -27,7 +28,6 @@ module gfb_onset
   real(wp), parameter :: tolerance = 1.0e-7_wp !! of the speed, relative [1]
   integer, parameter :: most_trials = 20       !! of equilibria between the points
   integer, parameter :: digits = 4             !! in the log
-  real(wp), parameter :: rpm = acos(-1.0_wp)/30.0_wp !! [rad/s]
 
 contains
 

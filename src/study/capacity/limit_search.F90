@@ -3,7 +3,8 @@
 !> the limit is passed, then by false position, every trial an equilibrium on that branch.
 module gfb_limit_search
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_reached, path_stopped, path_lost, ending_fold, micrometres
+  use gfb_units, only: rpm, micrometres
+  use gfb_ending, only: path_reached, path_stopped, path_lost, ending_fold
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_text, only: text
@@ -22,7 +23,6 @@ module gfb_limit_search
   private
   public :: limit_type, limit_of, find_limit, leave_limit
 
-  real(wp), parameter :: rpm = acos(-1.0_wp)/30.0_wp         !! [rad/s]
   real(wp), parameter :: milliradians = 1.0e3_wp             !! in a radian
   real(wp), parameter :: pound_force = 4.4482216152605_wp    !! [N]
   real(wp), parameter :: inch = 0.0254_wp                    !! [m]

@@ -3,6 +3,7 @@
 module gfb_modes_study
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
@@ -33,7 +34,6 @@ module gfb_modes_study
   implicit none (type)
   private
 
-  real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
   real(wp), parameter :: rigid = 1.0e-3_wp !! eigenvalues below this share of the plate's are rigid [1]
 
   !> The component that vibrates, and its modes.

@@ -18,12 +18,12 @@ module gfb_strip_study
                               strip_answer_type
   use gfb_newton, only: newton_type, newton_report_type, forget_factors, visit_counts, newton_settings_type, create_newton, &
                         destroy_newton
-  use gfb_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
+  use gfb_strip_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_contact_record, only: record_contacts, visit_contact_record, add_contact_arrays
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header, answer_quantities, cost_quantities, strip_run_type, &
                                visit_run, strip_companions, show_companions, add_companions
-  use gfb_restart, only: save_restart, read_restart, end_reading
+  use gfb_restart_file, only: save_restart, read_restart, end_reading
   use gfb_reasons, only: reason_type, reason_load_step
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
@@ -96,7 +96,7 @@ contains
       call create_load_path(self%strip, self%path)
       run%full = self%recorder%last
       run%last = self%recorder%last
-      if (self%context%restart%goes_on) then
+      if (self%context%restart%continues) then
         call self%restore(last, error)
         if (allocated(error)) return
       end if

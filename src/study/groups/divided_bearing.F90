@@ -27,7 +27,7 @@ module gfb_divided_bearing
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_summary, only: cost_type
   use gfb_bearing_writing, only: record_arrays, bearing_result_type, write_bearing
-  use gfb_restart, only: drop_restart
+  use gfb_restart_file, only: drop_restart
   use gfb_provenance, only: version_text
   use gfb_run_context, only: run_context_type
   use gfb_bearing_study, only: bearing_study_type

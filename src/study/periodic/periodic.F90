@@ -3,13 +3,14 @@
 module gfb_periodic
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
   use gfb_motion_cases, only: motion_free, follow_speed, follow_unbalance, follow_mass
   use gfb_bearing_system, only: bearing_system_type
   use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass, drive_at, &
-                            period_of, rest_of, release, apply_map, dots, length_of, pi, tail
+                            period_of, rest_of, release, apply_map, dots, length_of, tail
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_shooting, only: floquet_type, shoot, find_monodromy, model_step, derivative_type, condition_type, conditions, whirl_type, &
                           find_onset, fixed_parameter

@@ -3,6 +3,7 @@
 !> The limits are those of measured errors: docs/manual/accuracy.md has the series.
 module gfb_answer_notes
   use gfb_kinds, only: wp
+  use gfb_units, only: micrometres
   use gfb_contact_case, only: contact_case_type
   use gfb_contact_measures, only: contact_measures_type
   use gfb_contact_law, only: law_coulomb
@@ -27,7 +28,6 @@ module gfb_answer_notes
   real(wp), parameter :: lossless = 0.02_wp, full = 0.005_wp
   !> The same by stick length over slip, as measured [1].
   real(wp), parameter :: lacking_tanh = 15.0_wp, lacking_coulomb = 4.0_wp
-  real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 
   real(wp), parameter :: thin = 10.0e-6_wp       !! gap below which slip may matter [m]
   real(wp), parameter :: air_path = 0.066e-6_wp  !! mean free path of air at one atmosphere [m]

@@ -33,7 +33,7 @@ module gfb_transient
   use gfb_run_context, only: run_context_type
   use gfb_bearing_record, only: bearing_record_type
   use gfb_bearing_restart, only: visit_answer_and_record
-  use gfb_restart, only: restart_type, save_restart, read_restart, end_reading
+  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading
   implicit none (type)
   private
 
@@ -300,21 +300,21 @@ contains
   end function drive_of
 
   !> Begins at rest, or with what a restart file will overwrite.
-  subroutine begin_transient(scene, drive, settings, goes_on, log, bearing, newton, march)
+  subroutine begin_transient(scene, drive, settings, continues, log, bearing, newton, march)
     type(scene_type), intent(in) :: scene !! with `&transient`
     type(shaft_drive_type), intent(in) :: drive !! what drives the shaft
     type(march_settings_type), intent(in) :: settings !! how steps are chosen
-    logical, intent(in) :: goes_on !! a restart file has the rest
+    logical, intent(in) :: continues !! a restart file has the rest
     type(run_log_type), intent(in) :: log !! is told what was chosen
     type(bearing_system_type), target, intent(inout) :: bearing !! at its steady state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(march_type), intent(out) :: march !! ready for its first step
 
-    if (.not. goes_on) then
+    if (.not. continues) then
       call go_to_orbit(scene, log, bearing, newton)
       call choose_momentum(scene, log, bearing)
     end if
-    call begin_rubbing(bearing, goes_on)
+    call begin_rubbing(bearing, continues)
     call begin_march(drive, settings, bearing, march)
     if (scene%transient%orbit_radius > 0.0_wp) march%start%place(:2) = scene%operation%eccentricity
   end subroutine begin_transient
@@ -390,10 +390,10 @@ contains
 
     call context%log%heading('time')
     newton%log%verbose = .false.
-    call begin_transient(scene, drive_of(scene), settings_of(scene), context%restart%goes_on, context%log, bearing, newton, self%march)
+    call begin_transient(scene, drive_of(scene), settings_of(scene), context%restart%continues, context%log, bearing, newton, self%march)
     call self%history%orbit%see(self%march)
     call self%history%add(self%march, bearing, newton)
-    if (.not. context%restart%goes_on) then
+    if (.not. context%restart%continues) then
       call keep_fields(scene, self%march, bearing, record%series)
     else
       call self%restore(scene, context%restart, bearing, error)

@@ -104,7 +104,7 @@ contains
     strip%contacts%law(contact_sleeve)%friction = planar%friction_sleeve
     strip%contacts%law(contact_top)%friction = planar%friction_top
     strip%contacts%secant_penetration = 1.0e-4_wp*strip%scale%length
-    strip%contacts%floor_normal = 1.0e-7_wp*interior_stiffness
+    strip%contacts%artificial_normal = 1.0e-7_wp*interior_stiffness
     call add_contacts(planar, strip)
   end subroutine build_planar_strip
 

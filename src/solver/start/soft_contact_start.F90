@@ -5,7 +5,7 @@
 !> them anew, and Newton's method cycles among them. A cold start uses soft two-way contact springs,
 !> which leave the equations nearly linear, then releases them and raises their stiffness to the value
 !> asked for: by decades of their stiffness against opening, and by decades of all of it.
-module gfb_contact_start
+module gfb_soft_contact_start
   use gfb_kinds, only: wp
   use gfb_ending, only: path_lost, ending_touch_down
   use gfb_text, only: text
@@ -199,4 +199,4 @@ contains
       call newton%log%detail('contacts: '//text(factor, 3)//' of their stiffness')
     end if
   end subroutine set_contacts
-end module gfb_contact_start
+end module gfb_soft_contact_start

@@ -5,7 +5,7 @@
 !> its state under a load that grows in proportion. A step that fails is tried with a longer stick
 !> length that is shortened again, and then cut. Neither is loading: friction's memory stays as it
 !> is until the step is whole, so the answer does not depend on them.
-module gfb_load_step
+module gfb_strip_load_step
   use petscvec
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
@@ -23,7 +23,7 @@ module gfb_load_step
 
   real(wp), parameter :: softening(3) = [100.0_wp, 10.0_wp, 1.0_wp] !! of the stick length in a homotopy
   integer, parameter :: most_halvings = 6
-  real(wp), parameter :: less = 1.0e-2_wp !! of what is lent to strips that lie free, where steps shrink too slowly [1]
+  real(wp), parameter :: less = 1.0e-2_wp !! of the artificial stiffness of strips that lie free, where steps shrink too slowly [1]
 
   !> The last two answers.
   type, public :: load_path_type
@@ -119,28 +119,28 @@ contains
     end if
   end subroutine start_values
 
-  !> Solves from the start values; where that does not end, on from there with less lent along the surfaces.
+  !> Solves from the start values; where that does not end, on from there with less artificial stiffness along the surfaces.
   !>
-  !> Friction whose slope is below the stiffness that is lent lets the steps shrink by their ratio only. Less lent from
+  !> Friction whose slope is below the artificial stiffness lets the steps shrink by their ratio only. Less of it from
   !> the beginning would let round-off move a strip that slides everywhere.
   subroutine solve_step(strip, newton, report)
     type(strip_system_type), intent(inout) :: strip
     type(newton_type), target, intent(inout) :: newton
     type(newton_report_type), intent(out) :: report
-    real(wp) :: lent
+    real(wp) :: artificial
     PetscErrorCode :: ierr
 
     call solve_newton(newton, report)
-    lent = strip%contacts%floor_tangential
-    if (report%converged .or. .not. lent > 0.0_wp) return
+    artificial = strip%contacts%artificial_tangential
+    if (report%converged .or. .not. artificial > 0.0_wp) return
     if (stop_agreed()) return
     if (is_out_of_reach(strip)) then ! round-off moves a strip that floats: it is at rest
       PetscCallA(VecSet(strip%state, 0.0_wp, ierr))
     end if
-    call newton%log%detail('on with less lent along the surfaces: '//report%reason)
-    strip%contacts%floor_tangential = less*lent
+    call newton%log%detail('on with less artificial stiffness along the surfaces: '//report%reason)
+    strip%contacts%artificial_tangential = less*artificial
     call solve_newton(newton, report)
-    strip%contacts%floor_tangential = lent
+    strip%contacts%artificial_tangential = artificial
   end subroutine solve_step
 
   !> Whether a plate that is moved has not come to any crest of the strip at rest.
@@ -228,4 +228,4 @@ contains
     call archive%visit('at_round_off', path%at_round_off)
     call archive%visit('round_off', path%round_off)
   end subroutine visit_load_path
-end module gfb_load_step
+end module gfb_strip_load_step

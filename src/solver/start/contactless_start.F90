@@ -1,8 +1,9 @@
 #include "gfb_petsc.h"
 !> The starts of a bearing whose foil touches nothing but the film: the load at once, at a fixed position
 !> from rest to speed and then with the shaft released, or with the shaft laid on its foil first.
-module gfb_rigid_start
+module gfb_contactless_start
   use gfb_kinds, only: wp
+  use gfb_units, only: pi
   use gfb_ending, only: path_lost
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
@@ -21,7 +22,7 @@ module gfb_rigid_start
 
   integer, parameter :: max_iterations = 10     !! of the load at once, which takes 4 to 9 where it helps
   integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
-  real(wp), parameter :: aside = 0.25_wp*acos(-1.0_wp) !! attitude of a shaft that does not lie where the load presses it [rad]
+  real(wp), parameter :: aside = 0.25_wp*pi !! attitude of a shaft that does not lie where the load presses it [rad]
   real(wp), parameter :: behind_load = 0.1_wp   !! attitude of a shaft that is laid down; heavy loads leave 0 to 6 degrees [rad]
   real(wp), parameter :: deeper = 1.3_wp        !! over the one before [1]
   integer, parameter :: most_depths = 24        !! to 400 times the clearance
@@ -169,4 +170,4 @@ contains
     call solve_at(bearing, newton, wanted, .true., settings, report)
     report%shaft_fixed = .true.
   end subroutine find_by_upwinding
-end module gfb_rigid_start
+end module gfb_contactless_start

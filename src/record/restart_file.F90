@@ -7,7 +7,7 @@
 !> factors, so that what follows depends on what the file holds and on nothing else: a run that is resumed
 !> from it ends with the digits of one that was never stopped. Otherwise it is written once a minute and
 !> where a run is stopped; the solvers keep their factors, and the run its digits.
-module gfb_restart
+module gfb_restart_file
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
@@ -34,7 +34,7 @@ module gfb_restart
     character(len=:), allocatable :: command !! the whole command line
     integer :: every = 0                     !! steps between files; 0: one a minute
     real(wp), private :: last_time = 0.0_wp  !! when the last one was written, or the run began [s]
-    logical :: goes_on = .false.             !! from the file that is there
+    logical :: continues = .false.             !! from the file that is there
     integer :: step = 0                      !! of a run that goes on: number of the step or point that was done
     real(wp) :: elapsed = 0.0_wp             !! and how long after the first one [s]
   contains
@@ -180,7 +180,7 @@ contains
     end if
     if (.not. (wanted .and. there)) return
     call compare_origin(scene, log, restart, error)
-    restart%goes_on = .not. allocated(error)
+    restart%continues = .not. allocated(error)
   end subroutine find_restart
 
   !> Compares program and scene with those that wrote the file.
@@ -342,4 +342,4 @@ contains
     if (this_rank() /= 0 .or. .not. restart%may_be_written()) return
     call remove_file(restart%path)
   end subroutine drop_restart
-end module gfb_restart
+end module gfb_restart_file
