@@ -197,10 +197,11 @@ contains
   pure subroutine visit_logical(self, name, value)
     class(archive_type), intent(inout) :: self !! the archive
     character(len=*), intent(in) :: name !! of the component
-    logical, intent(inout) :: value
+    logical, intent(inout) :: value !! written on restoring, before which it need not be defined
     integer :: number(1)
 
-    number = merge(1, 0, value)
+    number = 0
+    if (self%saves) number = merge(1, 0, value)
     call self%pass_line(name//' logical')
     call self%pass_whole_numbers(1, number)
     value = number(1) /= 0
