@@ -36,11 +36,9 @@ shaft's motion in x in the last turn, over the clearance. Times depend on the ma
 {table}
 A step is Newton's method for film, foils and shaft together, with the factors of steps before as long as they serve, and with
 what the steps since then have taught of the matrix
-([method.md](../manual/method.md#finding-a-state)). Where contacts open, close or turn back the matrix is factored anew, once or
-twice each time: that is two thirds of the time with shells at the larger orbit. The rest goes into triangular
-solves and residuals. Where hardly a contact changes a factorization serves 29 to 40 steps: beams 36 with 0.002 g mm, 29 without friction and
-0.02 g mm or less, shells 40 with 0.02 g mm (beams 12: there contacts still change). When stiffness and damping coefficients do in place of all this:
-[transient.md](../manual/transient.md#when-the-linear-theory-suffices).
+([method.md](../manual/method.md#finding-a-state)). Where contacts open, close, or go from sticking to slipping and back, the matrix is
+factored anew, once or twice each time: that is most of the time with foils. When stiffness and damping coefficients do in
+place of all this: [transient.md](../manual/transient.md#when-the-linear-theory-suffices).
 """
 
 
