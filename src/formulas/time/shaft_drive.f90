@@ -5,7 +5,6 @@ module gfb_shaft_drive
   implicit none (type, external)
   private
 
-
   !> What is given over the time; all of it begins at 0.
   type, public :: shaft_drive_type
     real(wp) :: mass = 0.0_wp            !! of the shaft [kg]

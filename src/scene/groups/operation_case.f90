@@ -14,7 +14,6 @@ module gfb_operation_case
     'change the signs of y in load and eccentricity and of the tilt about x, and swap leading '// &
     'and trailing edges'
 
-
   !> Operating point.
   type :: operation_case_type
     real(wp) :: speed_rpm = 0.0_wp        !! of the shaft [rpm]

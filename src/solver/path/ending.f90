@@ -19,7 +19,6 @@ module gfb_ending
   integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
   integer, parameter, public :: ending_stopped = 6    !! before anything was shown
 
-
   !> An ending.
   type, public :: ending_type
     integer :: kind = ending_lost !! one of those above

@@ -16,7 +16,6 @@ module gfb_march_state
   private
   public :: visit_march, allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
 
-
   !> What was before, on this rank, of a pad: now and one step ago.
   type, public :: pad_history_type
     real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]

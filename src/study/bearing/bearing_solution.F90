@@ -32,7 +32,6 @@ module gfb_bearing_solution
   implicit none (type)
   private
 
-
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
     type(scene_type) :: scene
